@@ -1,0 +1,27 @@
+// A run written down: samples, events, certificate.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "sim/world.h"
+
+namespace tumble {
+
+struct Recording {
+  std::vector<Sample> samples;     ///< at k/rate, k = 0 … floor(duration·rate + 1e-9)
+  Report report;
+  std::vector<std::string> features;
+  double rate = 60.0;              ///< [1/s]
+  double cpuSeconds = 0.0;
+};
+
+/// Runs the scene's world from start to duration. `progress` is told the share done in [0, 1].
+/// A run that stopped early has fewer samples and says so in its report.
+/// @throws SceneError if the world refuses the scene.
+Recording record(const Scene& scene, double rate,
+                 const std::function<void(double)>& progress = {});
+
+}  // namespace tumble

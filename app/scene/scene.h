@@ -1,0 +1,106 @@
+// A scene as plain data: what the TOML file says, checked, with every default filled in.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/method/model.h"
+
+namespace tumble {
+
+using Rgb = std::array<double, 3>;  ///< sRGB in [0, 1]
+
+/// A place in a text file; line and column count from 1, 0 = unknown.
+struct Place {
+  std::string file;
+  int line = 0, column = 0;
+};
+
+/// One complaint: where, what was expected, what to do.
+struct Diagnostic {
+  Place place;
+  std::string message;
+};
+
+/// "file:line:column: error: message"
+std::string format(const Diagnostic& diagnostic);
+
+/// A scene that is refused, with all its complaints, first first.
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(std::vector<Diagnostic> diagnostics);
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+struct CameraView {
+  std::optional<Vec3> eye, target;   ///< [m]; without them the camera frames the whole motion
+  double fov = 24.0;                 ///< [deg] vertical
+  double azimuth = 20.0;             ///< [deg] of the eye about the vertical; 0 looks along −Z
+  double elevation = 12.0;           ///< [deg] of the eye above the horizon
+};
+
+struct ImageFormat {
+  int width = 1280, height = 720;
+  double rate = 60.0;                ///< [1/s] samples and images
+  std::string antialias = "msaa4";   ///< none | msaa4 | ssaa2x2
+};
+
+/// What is drawn besides the bodies.
+struct ShowFlags {
+  bool path = false;             ///< path of each centre of mass
+  bool theory = true;            ///< the curves that the scene's checks expect, dotted
+  bool contact_forces = false;
+  bool normals = false;
+  bool velocities = false;
+  bool forces = false;           ///< arrows of wind and point forces
+  bool impacts = false;          ///< rings at impacts with t and j
+  bool labels = false;           ///< names of bodies
+  bool boxes = false;            ///< bounding boxes
+  bool planes = false;           ///< separating planes (accepted; drawn where known)
+  bool energy = false;           ///< energy in the subtitle
+  bool glass = false;            ///< see-through bodies
+  double strobe = 0.1;           ///< [s] between ghosts of a strobe image
+};
+
+struct Sweep {
+  std::string parameter;             ///< key path, as for --set
+  std::vector<std::string> values;   ///< TOML values as text
+};
+
+struct Scene {
+  std::string name;                  ///< file name without folder and ending
+  std::string file;                  ///< path it was read from
+  std::string line;                  ///< "name key=value …": what made it, for the PNG text chunk
+  std::string title, subtitle, chapter, claim;
+  std::vector<std::string> checks;
+  WorldDef world;
+  std::uint64_t seed = 42;
+  std::vector<std::optional<Rgb>> colours;  ///< per body; empty = by palette
+  std::vector<std::string> labels;          ///< per body; text drawn beside it, or ""
+  CameraView camera;
+  ImageFormat image;
+  ShowFlags show;
+  std::optional<Sweep> sweep;
+  std::map<std::string, Place> places;      ///< path into the world ("bodies[3].mass") → where it was written
+};
+
+/// Reads a scene from a file. Overrides are "key.path=value" with a TOML value; a value that is not
+/// TOML is taken as a string. Arrays of tables are addressed by name or number: "body.brick.mass".
+/// @throws SceneError with every complaint of the file, or if it cannot be read.
+Scene readScene(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same from text, for tests; `file` is the name that complaints use.
+Scene parseScene(const std::string& text, const std::string& file,
+                 const std::vector<std::string>& overrides = {});
+
+/// A complaint about the world itself, placed where the scene says it was written.
+Diagnostic locate(const Scene& scene, const Refusal& refusal);
+
+}  // namespace tumble

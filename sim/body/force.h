@@ -1,0 +1,59 @@
+// Chapter 3, body: the forces that act from outside (slides SD13, SD21; wind, drag, springs).
+#pragma once
+
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "sim/body/rigid_body.h"
+
+namespace tumble {
+
+/// Index that stands for "every body that is not fixed" (wind, drag) or "the world" (end of a spring).
+inline constexpr int kNoBody = -1;
+
+/// The same force [N] on the centre of mass of one body, or of each.
+struct UniformWind {
+  int body = kNoBody;
+  Vec3 force = Vec3::Zero();
+};
+
+/// f = −linear v,  τ = −angular ω, on one body or on each. [N s/m], [N m s]
+struct LinearDrag {
+  int body = kNoBody;
+  double linear = 0.0, angular = 0.0;
+};
+
+/// A force [N], constant in the world frame, that grips one point of a body [m, body frame].
+struct PointForce {
+  int body = 0;
+  Vec3 point_B = Vec3::Zero();
+  Vec3 force = Vec3::Zero();
+};
+
+/// f = −(stiffness (l − rest) + damping l̇) along the line between two anchors, on each end.
+/// The anchor of kNoBody is a world point.
+struct Spring {
+  int a = 0, b = kNoBody;
+  Vec3 anchorA_B = Vec3::Zero(), anchorB_B = Vec3::Zero();  ///< [m]
+  double stiffness = 0.0;                                   ///< [N/m]
+  double damping = 0.0;                                     ///< [N s/m]
+  double rest = 0.0;                                        ///< [m]
+};
+
+using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring>;
+
+/// Sets force and torque of every body to gravity [m/s²] plus the listed forces. Fixed bodies get none.
+void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<RigidBody> bodies);
+
+/// Σ (½ M v² + ½ ω·I ω) [J].
+double kineticEnergy(std::span<const RigidBody> bodies);
+
+/// Σ −m g·x + Σ ½ k (l − rest)² [J].
+double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
+                       std::span<const RigidBody> bodies);
+
+/// Power [W] of all forces that have no potential here: wind, drag, point forces, spring dampers.
+double powerOfForces(std::span<const Force> forces, std::span<const RigidBody> bodies);
+
+}  // namespace tumble

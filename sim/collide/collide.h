@@ -1,0 +1,23 @@
+// Chapter 5, collide: the table of shape pairs.
+#pragma once
+
+#include "sim/collide/contact_point.h"
+#include "sim/shape/shape.h"
+
+namespace tumble {
+
+/// True if the table has a row for these two kinds of shape, in either order.
+bool canCollide(const Shape& a, const Shape& b);
+
+/// Signed gap [m] between two posed shapes: > 0 apart (then a lower bound of the distance, and no
+/// shorter than the widest separating plane found), 0 touching, < 0 overlapping (then the least
+/// depth over the candidate planes). Continuous in the poses; its sign is exact up to rounding.
+double separation(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB);
+
+/// Writes all contact points of a pair whose separation is at most `margin` [m] into `out`
+/// (cleared first): the full manifold, clipped, with one normal. Order and features depend on the
+/// poses alone.
+void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
+             Manifold& out);
+
+}  // namespace tumble

@@ -1,0 +1,93 @@
+// Chapter 9, method: the constant half of a world. Nothing here changes while time runs.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/body/force.h"
+#include "sim/body/mass_properties.h"
+#include "sim/shape/shape.h"
+
+namespace tumble {
+
+/// A body as its author describes it. Mass wins over density; inertia (about the centre of mass,
+/// body axes) over the shape's own.
+struct BodyDef {
+  std::string name;
+  Shape shape = Sphere{};
+  std::optional<double> density;       ///< [kg/m³]
+  std::optional<double> mass;          ///< [kg]
+  std::optional<Vec3> inertia;         ///< [kg m²] principal
+  double restitution = 0.0, friction = 0.0;
+  std::string material;                ///< for the pairs table; may be empty
+  Vec3 position = Vec3::Zero();        ///< [m]
+  Quat orientation = Quat::Identity();
+  Vec3 velocity = Vec3::Zero();        ///< [m/s]
+  Vec3 angularVelocity = Vec3::Zero(); ///< [rad/s] world frame
+  bool fixed = false;
+};
+
+/// What replaces the mixing rule for two materials.
+struct PairDef {
+  std::string materialA, materialB;
+  std::optional<double> restitution, friction;
+};
+
+struct CourseSettings {
+  std::string integrator = "rk4";
+  double step = 1.0 / 240.0;   ///< [s]
+  std::string plan = "backstep";
+  std::string contact = "constraint";
+};
+
+struct SteppingSettings {
+  double step = 1.0 / 240.0;   ///< [s]
+  std::string solver = "pgs";
+  double tolerance = 1e-12;    ///< natural-map residual, relative
+};
+
+/// Everything a world is made from.
+struct WorldDef {
+  Vec3 gravity = {0.0, -9.81, 0.0};   ///< [m/s²]
+  std::string method = "course";
+  std::string impact = "simultaneous";
+  double duration = 5.0;              ///< [s] the last step ends there
+  CourseSettings course;
+  SteppingSettings stepping;
+  std::vector<BodyDef> bodies;
+  std::vector<Force> forces;
+  std::vector<PairDef> pairs;
+};
+
+/// A world that cannot be: which part of the definition, and why.
+/// `where` is a path into it: "bodies[3].mass", "course.integrator", "bodies[2]".
+class Refusal : public std::invalid_argument {
+ public:
+  Refusal(std::string where, const std::string& what)
+      : std::invalid_argument(what), where_(std::move(where)) {}
+  const std::string& where() const { return where_; }
+
+ private:
+  std::string where_;
+};
+
+/// Restitution and friction of a pair of bodies.
+struct Surface {
+  double restitution = 0.0, friction = 0.0;
+};
+
+/// The checked definition, ready to run: constant bodies, shapes, surfaces, forces and settings.
+struct Model {
+  WorldDef def;
+  std::vector<Shape> shapes;     ///< per body
+  double size = 1.0;             ///< [m] largest bounding radius or distance from the origin at the start
+
+  int count() const { return static_cast<int>(shapes.size()); }
+  bool fixed(int body) const { return def.bodies[body].fixed; }
+  /// e = max(e1, e2), mu = √(mu1 mu2), unless a row of the pairs table says otherwise.
+  Surface surface(int a, int b) const;
+};
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+// Chapter 1, Y(t): the table of integrators.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "sim/ode/system.h"
+
+namespace tumble {
+
+/// One integrator at work on systems of one size: owns its stages, so a step allocates nothing.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  /// Replaces y = Y(t) by the approximation of Y(t + h), h [s] > 0, and normalises it.
+  virtual void step(const System& system, double t, double h, std::span<double> y) = 0;
+
+  /// Dense output: Y at a time t [s] inside the last step. False if this integrator has none.
+  virtual bool dense(double /*t*/, std::span<double> /*y*/) const { return false; }
+};
+
+/// A row of the table: what an integrator is called, needs, keeps and achieves.
+struct Integrator {
+  std::string_view name;       ///< value of `course.integrator` in a scene
+  std::string_view summary;    ///< one line for people
+  int order;                   ///< global error ~ h^order
+  bool adaptive;               ///< divides a step by its own error estimate
+  bool needsKickDrift;         ///< works only on systems that offer kick and drift
+  bool hasDense;               ///< `Stepper::dense` answers
+  std::unique_ptr<Stepper> (*make)(int size);
+};
+
+/// All integrators. To add one: write `sim/ode/<name>.cpp` and add its row in integrators.cpp.
+std::span<const Integrator> integrators();
+
+/// The row of that name, or nullptr.
+const Integrator* findIntegrator(std::string_view name);
+
+}  // namespace tumble

@@ -1,0 +1,74 @@
+// Chapter 10: a World owns Model, State and Report and lets the chosen method advance them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/method/model.h"
+#include "sim/method/report.h"
+
+namespace tumble {
+
+struct State;
+
+/// Motion of one body at one time. World frame, SI.
+struct BodySample {
+  Vec3 x = Vec3::Zero();
+  Quat q = Quat::Identity();
+  Vec3 v = Vec3::Zero();
+  Vec3 omega = Vec3::Zero();
+};
+
+/// One contact point at one time: separation ≤ 1e-9 m, or a force. Force [N] on a, friction included.
+struct ContactSample {
+  int a = 0, b = 0;
+  Vec3 p = Vec3::Zero(), n = Vec3::UnitY();
+  double separation = 0.0;
+  Vec3 force = Vec3::Zero();
+};
+
+/// Everything about one instant.
+struct Sample {
+  double t = 0.0;
+  std::vector<BodySample> bodies;      ///< in scene order, fixed ones too
+  std::vector<ContactSample> contacts;
+  double kinetic = 0.0, potential = 0.0;  ///< [J]
+};
+
+/// A scene that lives.
+class World {
+ public:
+  /// @throws Refusal for a definition that cannot be simulated.
+  explicit World(const WorldDef& def);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Lets time run until the state at t [s] is known, or the report says stopped. The method keeps its
+  /// own steps: where it is asked to pause never changes the motion. Times must not decrease;
+  /// beyond the duration nothing moves.
+  void advance(double t);
+
+  /// The instant t ≤ the last advance, and no earlier than the one before. At an event: the state after it.
+  Sample sample(double t) const;
+
+  const Model& model() const;
+  /// Certificate and events so far; complete once advance(duration) has returned.
+  const Report& report() const;
+  /// What this scene uses of the machinery, in words: "friction", "wind", "restitution" ….
+  std::vector<std::string> features() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// A row of the table of methods, for lists and refusals.
+struct MethodName {
+  std::string_view name, summary;
+};
+std::vector<MethodName> methodNames();
+
+}  // namespace tumble
