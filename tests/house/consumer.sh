@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Installs a build into a scratch prefix and lets a small project outside the tree find and use it.
+# usage: consumer.sh BUILD_DIR
+set -euo pipefail
+house=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+cmake --install "$1" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+cmake -G Ninja -S "$house/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
+  -DCMAKE_BUILD_TYPE=Release >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+cmake --build "$scratch/build"
+"$scratch/build/consumer"
+
+# The installed program reads the installed assets, not those of the source tree.
+"$scratch/prefix/bin/tumble" doctor | tee "$scratch/doctor"
+grep -q "$scratch/prefix/share/tumble" "$scratch/doctor"

@@ -1,0 +1,17 @@
+# Checks of the house itself: layout of the sources, the installed package, equal bits everywhere.
+
+# house_test(name label seconds command…): a script that skips with 77.
+function(house_test name label seconds)
+  add_test(NAME "house: ${name}" COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties("house: ${name}" PROPERTIES LABELS ${label} TIMEOUT ${seconds}
+                       SKIP_RETURN_CODE 77)
+endfunction()
+
+set(house ${CMAKE_CURRENT_SOURCE_DIR}/house)
+house_test("sources are laid out as .clang-format says" quick 60 ${house}/format.sh)
+if(TUMBLE_APP)
+  house_test("a project of ten lines finds the installed package" quick 120
+             ${house}/consumer.sh ${PROJECT_BINARY_DIR})
+  house_test("both compilers give the same bits at -O1 and -O3" long 3600
+             ${house}/determinism.sh)
+endif()
