@@ -11,17 +11,20 @@
 namespace tumble {
 
 struct Recording {
-  std::vector<Sample> samples;     ///< at k/rate, k = 0 … floor(duration·rate + 1e-9)
+  std::vector<Sample> samples;  ///< at k/rate, k = 0 … floor(duration·rate + 1e-9)
   Report report;
   std::vector<std::string> features;
-  double rate = 60.0;              ///< [1/s]
+  double rate = 60.0;  ///< [1/s]
   double cpuSeconds = 0.0;
 };
+
+/// The scene's world at the start.
+/// @throws SceneError if the world refuses the scene, placed where the scene says it.
+World makeWorld(const Scene& scene);
 
 /// Runs the scene's world from start to duration. `progress` is told the share done in [0, 1].
 /// A run that stopped early has fewer samples and says so in its report.
 /// @throws SceneError if the world refuses the scene.
-Recording record(const Scene& scene, double rate,
-                 const std::function<void(double)>& progress = {});
+Recording record(const Scene& scene, double rate, const std::function<void(double)>& progress = {});
 
 }  // namespace tumble

@@ -40,44 +40,44 @@ class SceneError : public std::runtime_error {
 };
 
 struct CameraView {
-  std::optional<Vec3> eye, target;   ///< [m]; without them the camera frames the whole motion
-  double fov = 24.0;                 ///< [deg] vertical
-  double azimuth = 20.0;             ///< [deg] of the eye about the vertical; 0 looks along −Z
-  double elevation = 12.0;           ///< [deg] of the eye above the horizon
+  std::optional<Vec3> eye, target;  ///< [m]; without them the camera frames the whole motion
+  double fov = 24.0;                ///< [deg] vertical
+  double azimuth = 20.0;            ///< [deg] of the eye about the vertical; 0 looks along −Z
+  double elevation = 12.0;          ///< [deg] of the eye above the horizon
 };
 
 struct ImageFormat {
   int width = 1280, height = 720;
-  double rate = 60.0;                ///< [1/s] samples and images
-  std::string antialias = "msaa4";   ///< none | msaa4 | ssaa2x2
+  double rate = 60.0;               ///< [1/s] samples and images
+  std::string antialias = "msaa4";  ///< none | msaa4 | ssaa2x2
 };
 
 /// What is drawn besides the bodies.
 struct ShowFlags {
-  bool path = false;             ///< path of each centre of mass
-  bool theory = true;            ///< the curves that the scene's checks expect, dotted
+  bool path = false;   ///< path of each centre of mass
+  bool theory = true;  ///< the curves that the scene's checks expect, dotted
   bool contact_forces = false;
   bool normals = false;
   bool velocities = false;
-  bool forces = false;           ///< arrows of wind and point forces
-  bool impacts = false;          ///< rings at impacts with t and j
-  bool labels = false;           ///< names of bodies
-  bool boxes = false;            ///< bounding boxes
-  bool planes = false;           ///< separating planes (accepted; drawn where known)
-  bool energy = false;           ///< energy in the subtitle
-  bool glass = false;            ///< see-through bodies
-  double strobe = 0.1;           ///< [s] between ghosts of a strobe image
+  bool forces = false;   ///< arrows of wind and point forces
+  bool impacts = false;  ///< rings at impacts with t and j
+  bool labels = false;   ///< names of bodies
+  bool boxes = false;    ///< bounding boxes
+  bool planes = false;   ///< separating planes (accepted; drawn where known)
+  bool energy = false;   ///< energy in the subtitle
+  bool glass = false;    ///< see-through bodies
+  double strobe = 0.1;   ///< [s] between ghosts of a strobe image
 };
 
 struct Sweep {
-  std::string parameter;             ///< key path, as for --set
-  std::vector<std::string> values;   ///< TOML values as text
+  std::string parameter;            ///< key path, as for --set
+  std::vector<std::string> values;  ///< TOML values as text
 };
 
 struct Scene {
-  std::string name;                  ///< file name without folder and ending
-  std::string file;                  ///< path it was read from
-  std::string line;                  ///< "name key=value …": what made it, for the PNG text chunk
+  std::string name;  ///< file name without folder and ending
+  std::string file;  ///< path it was read from
+  std::string line;  ///< "name key=value …": what made it, for the PNG text chunk
   std::string title, subtitle, chapter, claim;
   std::vector<std::string> checks;
   WorldDef world;
@@ -88,7 +88,8 @@ struct Scene {
   ImageFormat image;
   ShowFlags show;
   std::optional<Sweep> sweep;
-  std::map<std::string, Place> places;      ///< path into the world ("bodies[3].mass") → where it was written
+  std::map<std::string, Place>
+      places;  ///< path into the world ("bodies[3].mass") → where it was written
 };
 
 /// Reads a scene from a file. Overrides are "key.path=value" with a TOML value; a value that is not

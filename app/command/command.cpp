@@ -1,0 +1,78 @@
+#include "app/command/command.h"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "app/command/nearest.h"
+#include "app/record/file.h"
+#include "app/scene/scene.h"
+#include "render/context/context.h"
+
+namespace tumble {
+
+namespace {
+
+void printHelp(std::span<const Command> table, std::FILE* out) {
+  fmt::print(out, "tumble {} draws scenes of rigid bodies that can be trusted.\n\n",
+             TUMBLE_VERSION);
+  fmt::print(out, "Usage: tumble COMMAND [SCENE] [options]\n\nCommands:\n");
+  for (const Command& row : table) fmt::print(out, "  {:<10}{}\n", row.name, row.summary);
+  fmt::print(out,
+             "\nSCENE is a demo's name or the path of a TOML file.\n"
+             "`tumble COMMAND --help` shows options and examples.\n");
+}
+
+int runNamed(std::span<const Command> table, int argc, char** argv) {
+  if (argc < 2) {
+    printHelp(table, stderr);
+    return kUsage;
+  }
+  const std::string_view name = argv[1];
+  if (name == "--help" || name == "-h" || name == "help") {
+    printHelp(table, stdout);
+    return kOk;
+  }
+  if (name == "--version") {
+    fmt::print("tumble {}\n", TUMBLE_VERSION);
+    return kOk;
+  }
+  std::vector<std::string> names;
+  for (const Command& row : table) {
+    if (row.name == name) return row.run(argc - 1, argv + 1);
+    names.emplace_back(row.name);
+  }
+  throw UsageError(fmt::format("unknown command '{}'{}; `tumble --help` lists the commands", name,
+                               didYouMean(name, names)));
+}
+
+int complain(int code, const char* what) {
+  fmt::print(stderr, "tumble: {}\n", what);
+  return code;
+}
+
+}  // namespace
+
+int dispatch(std::span<const Command> table, int argc, char** argv) {
+  try {
+    const int code = runNamed(table, argc, argv);
+    if (std::fflush(stdout) != 0) throw FileError("cannot write to standard output");
+    return code;
+  } catch (const UsageError& error) {
+    return complain(kUsage, error.what());
+  } catch (const SceneError& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics())
+      fmt::print(stderr, "{}\n", format(diagnostic));
+    return kScene;
+  } catch (const NoContext& error) {
+    return complain(kNoContext, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(kFile, "out of memory; try a smaller --size or a lower --rate");
+  } catch (const std::exception& error) {
+    return complain(kFile, error.what());
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,31 @@
+// tumble list: the demos, by chapter.
+#include <fmt/core.h>
+
+#include <map>
+
+#include "app/command/command.h"
+#include "app/command/data.h"
+#include "app/command/options.h"
+
+namespace tumble::command {
+
+int list(int argc, char** argv) {
+  CommandLine app("list", "The demos, by chapter.", {"  # names, titles and claims"});
+  if (!app.read(argc, argv)) return kOk;
+
+  std::map<std::string, std::vector<Scene>> chapters;
+  for (const std::string& name : demoNames()) {
+    Scene scene = load({name, {}});
+    chapters[scene.chapter].push_back(std::move(scene));
+  }
+  for (const auto& [chapter, scenes] : chapters) {
+    fmt::print("{}\n", chapter.empty() ? "other" : chapter);
+    for (const Scene& scene : scenes) {
+      fmt::print("  {:<22}{}\n", scene.name, scene.title);
+      if (!scene.claim.empty()) fmt::print("  {:<22}claim: {}\n", "", scene.claim);
+    }
+  }
+  return kOk;
+}
+
+}  // namespace tumble::command

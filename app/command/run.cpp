@@ -1,0 +1,34 @@
+#include "app/command/run.h"
+
+#include <fmt/core.h>
+
+#include "app/command/command.h"
+#include "app/command/progress.h"
+
+namespace tumble {
+
+Recording recordWithProgress(const Scene& scene, double rate) {
+  Progress progress("simulating");
+  return record(scene, rate > 0.0 ? rate : scene.image.rate,
+                [&progress](double share) { progress.show(share); });
+}
+
+void printCertificate(const Recording& recording) {
+  const Certificate& c = recording.report.certificate;
+  fmt::print("steps {}   events {}   cpu {:.3g} s\n", c.steps, c.events, recording.cpuSeconds);
+  fmt::print("penetration {:.2g} m   complementarity {:.2g}\n", c.max_penetration,
+             c.max_complementarity);
+  fmt::print("energy {:.6g} -> {:.6g} J   lost in impacts {:.6g} J   by friction {:.6g} J\n",
+             c.energy_start, c.energy_end, c.energy_lost_impact, c.energy_lost_friction);
+  fmt::print("energy balance error {:.2g}   momentum error {:.2g}\n", c.energy_balance_error,
+             c.momentum_error);
+  for (const std::string& note : recording.report.notes) fmt::print("note: {}\n", note);
+}
+
+int exitOf(const Recording& recording) {
+  if (!recording.report.stopped) return kOk;
+  fmt::print(stderr, "tumble: the physics could not go on: {}\n", recording.report.reason);
+  return kPhysics;
+}
+
+}  // namespace tumble

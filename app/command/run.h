@@ -1,0 +1,18 @@
+// Running a scene from the command line.
+#pragma once
+
+#include "app/record/recording.h"
+
+namespace tumble {
+
+/// Records the scene at the rate [1/s], or at the scene's own if rate is 0, showing progress.
+/// @throws SceneError
+Recording recordWithProgress(const Scene& scene, double rate = 0.0);
+
+/// Prints what the run says of itself, in a few lines.
+void printCertificate(const Recording& recording);
+
+/// kOk, or kPhysics after telling why the run stopped.
+int exitOf(const Recording& recording);
+
+}  // namespace tumble

@@ -1,0 +1,34 @@
+// tumble simulate: numbers only.
+#include <fmt/core.h>
+
+#include "app/command/command.h"
+#include "app/command/options.h"
+#include "app/command/run.h"
+#include "app/record/output.h"
+
+namespace tumble::command {
+
+int simulate(int argc, char** argv) {
+  SceneOptions options;
+  std::string folder;
+  double rate = 0.0;
+  CommandLine app("simulate", "Runs a scene and writes its numbers.",
+                  {"path-of-brick                       # trajectory.csv, events.csv, "
+                   "contacts.csv, summary.json",
+                   "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
+                   "path-of-brick --set materials.clay.restitution=0.4"});
+  addSceneOptions(app, options);
+  app.add_option("-o,--output", folder, "folder for the files [out/<scene>]");
+  addRate(app, rate);
+  if (!app.read(argc, argv)) return kOk;
+
+  const Scene scene = load(options);
+  if (folder.empty()) folder = "out/" + scene.name;
+  const Recording recording = recordWithProgress(scene, rate);
+  writeRecording(folder, recording, scene);
+  printCertificate(recording);
+  fmt::print("wrote {0}/trajectory.csv, events.csv, contacts.csv, summary.json\n", folder);
+  return exitOf(recording);
+}
+
+}  // namespace tumble::command

@@ -1,0 +1,19 @@
+// The program: a table of commands, nothing else.
+#include "app/command/command.h"
+
+namespace tumble::command {
+int describe(int argc, char** argv);
+int list(int argc, char** argv);
+int simulate(int argc, char** argv);
+}  // namespace tumble::command
+
+int main(int argc, char** argv) {
+  using namespace tumble;
+  constexpr Command table[] = {
+      {"list", "the demos, by chapter", command::list},
+      {"describe", "what a scene contains, which method and features it uses, its claim",
+       command::describe},
+      {"simulate", "numbers only: trajectory, events, contacts, summary", command::simulate},
+  };
+  return dispatch(table, argc, argv);
+}

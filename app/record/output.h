@@ -1,0 +1,28 @@
+// A recording as text: the files that `simulate` writes and goldens are compared with.
+#pragma once
+
+#include <string>
+
+#include "app/record/recording.h"
+
+namespace tumble {
+
+/// t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz – a row per moving body and sample. World frame, SI.
+std::string trajectoryCsv(const Recording& recording, const Scene& scene);
+
+/// t,kind,a,b,px,py,pz,nx,ny,nz,vrel,j – a row per event.
+std::string eventsCsv(const Recording& recording, const Scene& scene);
+
+/// t,a,b,px,py,pz,nx,ny,nz,separation,fx,fy,fz – a row per contact point and sample; force on a
+/// [N].
+std::string contactsCsv(const Recording& recording, const Scene& scene);
+
+/// The certificate as JSON with flat keys.
+std::string summaryJson(const Recording& recording, const Scene& scene);
+
+/// Writes trajectory.csv, events.csv, contacts.csv and summary.json into the folder, making it if
+/// need be.
+/// @throws FileError
+void writeRecording(const std::string& folder, const Recording& recording, const Scene& scene);
+
+}  // namespace tumble
