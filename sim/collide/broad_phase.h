@@ -14,11 +14,17 @@ namespace tumble {
 /// is O(n + swaps). Boxes that reach to infinity (half-spaces) are allowed.
 class BroadPhase {
  public:
-  /// Brings the pairs up to date with the boxes [m]; a changed number of boxes starts afresh.
+  using Pair = std::pair<int, int>;
+
+  /// Brings the pairs up to date with the boxes [m], lo ≤ hi; a changed number of boxes starts
+  /// afresh.
   void update(std::span<const Aabb> boxes);
 
   /// Pairs (i, j), i < j, whose boxes overlap or touch; sorted, the same whatever the history.
-  const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
+  const std::vector<Pair>& pairs() const { return pairs_; }
+
+  /// Neighbouring interval ends exchanged in the last update: what it cost beyond O(n).
+  long swaps() const { return swaps_; }
 
  private:
   struct End {
@@ -26,8 +32,18 @@ class BroadPhase {
     int box;
     bool isLower;
   };
+  static bool before(const End& a, const End& b);
+  void startAfresh(std::span<const Aabb> boxes);
+  void sortAxis(int axis, std::span<const Aabb> boxes);
+  void noteSwap(const End& moved, const End& passed, std::span<const Aabb> boxes);
+  void mergeChanges();
+
   std::vector<End> ends_[3];
-  std::vector<std::pair<int, int>> pairs_;
+  std::vector<Aabb> last_;  ///< boxes of the last call
+  std::vector<Pair> pairs_;
+  std::vector<Pair> begun_, ended_;  ///< changes of this call
+  std::vector<Pair> merged_;         ///< scratch, to allocate nothing once warm
+  long swaps_ = 0;
 };
 
 }  // namespace tumble
