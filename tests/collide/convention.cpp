@@ -1,9 +1,9 @@
 // Chapter 5, collide: what every contact point of every pair promises.
 #include <algorithm>
 
-#include "catch.h"
-#include "random_pose.h"
 #include "sim/collide/collide.h"
+#include "tests/catch.h"
+#include "tests/collide/random_pose.h"
 
 namespace tumble {
 namespace {
