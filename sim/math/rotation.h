@@ -1,0 +1,29 @@
+// Chapter 0, math: rotations, and sines that are the same on every machine.
+#pragma once
+
+#include "sim/math/vec.h"
+
+namespace tumble {
+
+/// The matrix a* with  a* b = a × b  (slide SD18).
+Mat3 skew(const Vec3& a);
+
+/// Sine and cosine of x [rad], to within 1 unit in the last place for |x| ≤ 2e8, made of additions,
+/// multiplications and `floor` alone, so that every compiler and library gives the same bits.
+/// NaN beyond that range.
+void sinCos(double x, double& s, double& c);
+
+/// The rotation by an angle [rad] about an axis of any length but zero, right-handed.
+/// @throws std::invalid_argument if the axis is zero or not finite.
+Quat fromAxisAngle(const Vec3& axis, double radians);
+
+/// exp(w) q: the orientation q, turned about the world vector w by |w| [rad]. Exact for a constant
+/// angular velocity:  q(t + h) = rotated(q(t), h ω).
+///   exp(w) = (cos(|w|/2), sin(|w|/2) w/|w|)
+Quat rotated(const Quat& q, const Vec3& w);
+
+/// Rotation matrix of a quaternion of any length but zero; the same for q and for 2q, so that the
+/// stages of an integrator, where q is only nearly of unit length, still see a rotation.
+Mat3 rotationMatrix(const Quat& q);
+
+}  // namespace tumble
