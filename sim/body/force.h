@@ -9,7 +9,8 @@
 
 namespace tumble {
 
-/// Index that stands for "every body that is not fixed" (wind, drag) or "the world" (end of a spring).
+/// Index that stands for "every body that is not fixed" (wind, drag) or "the world" (end of a
+/// spring).
 inline constexpr int kNoBody = -1;
 
 /// The same force [N] on the centre of mass of one body, or of each.
@@ -32,7 +33,7 @@ struct PointForce {
 };
 
 /// f = −(stiffness (l − rest) + damping l̇) along the line between two anchors, on each end.
-/// The anchor of kNoBody is a world point.
+/// The anchor of kNoBody is a world point. While l = 0 it has no direction and pulls at nothing.
 struct Spring {
   int a = 0, b = kNoBody;
   Vec3 anchorA_B = Vec3::Zero(), anchorB_B = Vec3::Zero();  ///< [m]
@@ -43,7 +44,8 @@ struct Spring {
 
 using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring>;
 
-/// Sets force and torque of every body to gravity [m/s²] plus the listed forces. Fixed bodies get none.
+/// Sets force and torque of every body to gravity [m/s²] plus the listed forces. Fixed bodies get
+/// none.
 void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<RigidBody> bodies);
 
 /// Σ (½ M v² + ½ ω·I ω) [J].
@@ -53,7 +55,9 @@ double kineticEnergy(std::span<const RigidBody> bodies);
 double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
                        std::span<const RigidBody> bodies);
 
-/// Power [W] of all forces that have no potential here: wind, drag, point forces, spring dampers.
+/// Power [W] of all forces that have no potential here: wind, drag, point forces, spring dampers,
+/// and of the fixed bodies that lead an end of a spring along. With it
+///   d/dt (kinetic + potential) = power  for bodies that touch nothing.
 double powerOfForces(std::span<const Force> forces, std::span<const RigidBody> bodies);
 
 }  // namespace tumble

@@ -9,20 +9,22 @@ namespace tumble {
 /// Mass and inertia tensor about the centre of mass, body frame (slides SD19–SD20).
 /// The slide's Ixx carries M/V in front of the integral, not M.
 struct MassProperties {
-  double mass = 1.0;                  ///< [kg]
-  Mat3 inertia = Mat3::Identity();    ///< [kg m²]
+  double mass = 1.0;                ///< [kg]
+  Mat3 inertia = Mat3::Identity();  ///< [kg m²]
 };
 
 /// Volume [m³] of a shape; infinity for a half-space.
 double volume(const Shape& shape);
 
 /// Closed forms for a solid of uniform density with the given mass [kg] > 0:
-///   sphere 2/5 m r²;  box m/12 (b² + c²), full edges;  cylinder ½ m r² about Y, m/12 (3r² + h²) across.
+///   sphere 2/5 m r²;  box m/12 (b² + c²), full edges;  cylinder ½ m r² about Y, m/12 (3r² + h²)
+///   across.
 /// @throws std::invalid_argument for a half-space, or if mass is not a positive finite number.
 MassProperties solidMass(const Shape& shape, double mass);
 
 /// A body at rest at the origin with these mass properties.
-/// @throws std::invalid_argument if mass is not positive and finite or inertia not positive definite.
+/// @throws std::invalid_argument if mass is not positive and finite or inertia not symmetric and
+/// positive definite.
 RigidBody makeBody(const MassProperties& mass);
 
 /// A body of infinite mass at a pose, moving on steadily with v [m/s] and omega [rad/s].

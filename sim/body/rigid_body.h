@@ -1,4 +1,5 @@
-// Chapter 3, body: one rigid body under the notes' four headings, and its way into an array and back.
+// Chapter 3, body: one rigid body under the notes' four headings, and its way into an array and
+// back.
 #pragma once
 
 #include <span>
@@ -8,29 +9,30 @@
 namespace tumble {
 
 /// A rigid body (slides SD11–SD22; Baraff, Rigid Body Simulation I, §2). World frame, SI, unless
-/// a name ends in _B. Only integrators and impulses write state; only `updateDerived` writes derived.
+/// a name ends in _B. Only integrators and impulses write state; only `updateDerived` writes
+/// derived.
 struct RigidBody {
   // Constant quantities.
-  double invM = 1.0;                  ///< [1/kg] 1/mass; 0 for a fixed body
-  double M = 1.0;                     ///< [kg] infinity for a fixed body
-  Mat3 Ibody = Mat3::Identity();      ///< [kg m²] inertia tensor about the centre of mass, body frame
-  Mat3 IbodyInv = Mat3::Identity();   ///< [1/(kg m²)] its inverse; 0 for a fixed body
+  double invM = 1.0;              ///< [1/kg] 1/mass; 0 for a fixed body
+  double M = 1.0;                 ///< [kg] infinity for a fixed body
+  Mat3 Ibody = Mat3::Identity();  ///< [kg m²] inertia tensor about the centre of mass, body frame
+  Mat3 IbodyInv = Mat3::Identity();  ///< [1/(kg m²)] its inverse; 0 for a fixed body
 
   // State variables.
-  Vec3 x = Vec3::Zero();          ///< [m] centre of mass
-  Quat q = Quat::Identity();      ///< [1] unit, body to world
-  Vec3 P = Vec3::Zero();          ///< [kg m/s] linear momentum
-  Vec3 L = Vec3::Zero();          ///< [kg m²/s] angular momentum about the centre of mass
+  Vec3 x = Vec3::Zero();      ///< [m] centre of mass
+  Quat q = Quat::Identity();  ///< [1] unit, body to world
+  Vec3 P = Vec3::Zero();      ///< [kg m/s] linear momentum
+  Vec3 L = Vec3::Zero();      ///< [kg m²/s] angular momentum about the centre of mass
 
   // Derived quantities. A fixed body keeps the v and omega it was given.
-  Mat3 R = Mat3::Identity();      ///< rotation matrix of q
-  Mat3 Iinv = Mat3::Identity();   ///< [1/(kg m²)] R IbodyInv Rᵀ
-  Vec3 v = Vec3::Zero();          ///< [m/s] P/M
-  Vec3 omega = Vec3::Zero();      ///< [rad/s] Iinv L
+  Mat3 R = Mat3::Identity();     ///< rotation matrix of q
+  Mat3 Iinv = Mat3::Identity();  ///< [1/(kg m²)] R IbodyInv Rᵀ
+  Vec3 v = Vec3::Zero();         ///< [m/s] P/M
+  Vec3 omega = Vec3::Zero();     ///< [rad/s] Iinv L
 
   // Computed quantities.
-  Vec3 force = Vec3::Zero();      ///< [N] sum of the forces
-  Vec3 torque = Vec3::Zero();     ///< [N m] sum of the torques about x
+  Vec3 force = Vec3::Zero();   ///< [N] sum of the forces
+  Vec3 torque = Vec3::Zero();  ///< [N m] sum of the torques about x
 
   bool fixed() const { return invM == 0.0; }
   Pose pose() const { return {x, q}; }
@@ -45,7 +47,8 @@ void updateDerived(RigidBody& body);
 /// Copies the state into y[0..13).
 void stateToArray(const RigidBody& body, std::span<double> y);
 
-/// Copies y[0..13) into the state and updates what is derived. q is taken as it stands, not normalised.
+/// Copies y[0..13) into the state and updates what is derived. q is taken as it stands, not
+/// normalised.
 void arrayToState(std::span<const double> y, RigidBody& body);
 
 /// dY/dt of one body from its derived and computed quantities:
@@ -57,10 +60,11 @@ inline Vec3 pointVelocity(const RigidBody& body, const Vec3& p) {
   return body.v + body.omega.cross(p - body.x);
 }
 
-/// Adds the impulse J [N·s] at world point p [m]:  P += J,  L += (p − x) × J. A fixed body ignores it.
+/// Adds the impulse J [N·s] at world point p [m]:  P += J,  L += (p − x) × J. A fixed body ignores
+/// it.
 void applyImpulse(RigidBody& body, const Vec3& p, const Vec3& J);
 
-/// Adds the force f [N] at world point p [m] to force and torque.
+/// Adds the force f [N] at world point p [m] to force and torque. A fixed body ignores it.
 void applyForce(RigidBody& body, const Vec3& p, const Vec3& f);
 
 /// Sets P and L so that v and omega become the given ones, and updates what is derived.

@@ -1,0 +1,154 @@
+#include "sim/body/force.h"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using Bodies = std::span<RigidBody>;
+using ConstBodies = std::span<const RigidBody>;
+
+/// Calls act(body) for the one body of a force, or for each, fixed ones left out.
+template <class Span, class Action>
+void forEachFree(Span bodies, int index, Action act) {
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    if ((index == kNoBody || index == i) && !bodies[i].fixed()) act(bodies[i]);
+  }
+}
+
+/// One end of a spring: where it is and how fast it moves. World frame.
+struct End {
+  Vec3 p, v;
+};
+
+End endOf(ConstBodies bodies, int index, const Vec3& anchor_B) {
+  if (index == kNoBody) return {anchor_B, Vec3::Zero()};
+  const Vec3 p = bodies[index].R * anchor_B + bodies[index].x;
+  return {p, pointVelocity(bodies[index], p)};
+}
+
+bool isFree(ConstBodies bodies, int index) {
+  return index != kNoBody && !bodies[index].fixed();
+}
+
+/// What a spring does at this moment; one of no length has no direction and pulls at nothing.
+struct Pull {
+  End a, b;
+  Vec3 force = Vec3::Zero();  ///< [N] on a
+  double stretch = 0.0;       ///< [m] l − rest
+  double rate = 0.0;          ///< [m/s] l̇
+};
+
+Pull pullOf(const Spring& s, ConstBodies bodies) {
+  Pull pull{endOf(bodies, s.a, s.anchorA_B), endOf(bodies, s.b, s.anchorB_B)};
+  const Vec3 span = pull.a.p - pull.b.p;
+  const double length = span.norm();
+  pull.stretch = length - s.rest;
+  if (length == 0.0) return pull;
+  const Vec3 along = span / length;
+  pull.rate = along.dot(pull.a.v - pull.b.v);
+  pull.force = -(s.stiffness * pull.stretch + s.damping * pull.rate) * along;
+  return pull;
+}
+
+void add(const UniformWind& wind, Bodies bodies) {
+  forEachFree(bodies, wind.body, [&](RigidBody& body) { body.force += wind.force; });
+}
+
+void add(const LinearDrag& drag, Bodies bodies) {
+  forEachFree(bodies, drag.body, [&](RigidBody& body) {
+    body.force -= drag.linear * body.v;
+    body.torque -= drag.angular * body.omega;
+  });
+}
+
+void add(const PointForce& f, Bodies bodies) {
+  RigidBody& body = bodies[f.body];
+  applyForce(body, body.R * f.point_B + body.x, f.force);
+}
+
+void add(const Spring& spring, Bodies bodies) {
+  const Pull pull = pullOf(spring, bodies);
+  if (isFree(bodies, spring.a)) applyForce(bodies[spring.a], pull.a.p, pull.force);
+  if (isFree(bodies, spring.b)) applyForce(bodies[spring.b], pull.b.p, -pull.force);
+}
+
+double power(const UniformWind& wind, ConstBodies bodies) {
+  double sum = 0.0;
+  forEachFree(bodies, wind.body, [&](const RigidBody& body) { sum += wind.force.dot(body.v); });
+  return sum;
+}
+
+double power(const LinearDrag& drag, ConstBodies bodies) {
+  double sum = 0.0;
+  forEachFree(bodies, drag.body, [&](const RigidBody& body) {
+    sum -= drag.linear * body.v.squaredNorm() + drag.angular * body.omega.squaredNorm();
+  });
+  return sum;
+}
+
+double power(const PointForce& f, ConstBodies bodies) {
+  const RigidBody& body = bodies[f.body];
+  return body.fixed() ? 0.0 : f.force.dot(pointVelocity(body, body.R * f.point_B + body.x));
+}
+
+double power(const Spring& spring, ConstBodies bodies) {
+  const Pull pull = pullOf(spring, bodies);
+  // The damper takes c l̇²; an end that is led along gives what its bearer pushes.
+  double sum = -spring.damping * pull.rate * pull.rate;
+  if (!isFree(bodies, spring.a)) sum -= pull.force.dot(pull.a.v);
+  if (!isFree(bodies, spring.b)) sum += pull.force.dot(pull.b.v);
+  return sum;
+}
+
+/// Energy [J] that a force has stored; only springs do.
+double stored(const Spring& spring, ConstBodies bodies) {
+  const double stretch = pullOf(spring, bodies).stretch;
+  return 0.5 * spring.stiffness * stretch * stretch;
+}
+
+template <class OtherForce>
+double stored(const OtherForce&, ConstBodies) {
+  return 0.0;
+}
+
+}  // namespace
+
+void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<RigidBody> bodies) {
+  for (RigidBody& body : bodies) {
+    body.force.setZero();
+    body.torque.setZero();
+    if (!body.fixed()) body.force = body.M * gravity;
+  }
+  for (const Force& force : forces) {
+    std::visit([&](const auto& f) { add(f, bodies); }, force);
+  }
+}
+
+double kineticEnergy(std::span<const RigidBody> bodies) {
+  double sum = 0.0;
+  for (const RigidBody& body : bodies) sum += kineticEnergy(body);
+  return sum;
+}
+
+double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
+                       std::span<const RigidBody> bodies) {
+  double sum = 0.0;
+  for (const RigidBody& body : bodies) {
+    if (!body.fixed()) sum -= body.M * gravity.dot(body.x);
+  }
+  for (const Force& force : forces) {
+    sum += std::visit([&](const auto& f) { return stored(f, bodies); }, force);
+  }
+  return sum;
+}
+
+double powerOfForces(std::span<const Force> forces, std::span<const RigidBody> bodies) {
+  double sum = 0.0;
+  for (const Force& force : forces) {
+    sum += std::visit([&](const auto& f) { return power(f, bodies); }, force);
+  }
+  return sum;
+}
+
+}  // namespace tumble

@@ -1,0 +1,104 @@
+#include "sim/body/mass_properties.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace tumble {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kPi = std::numbers::pi;
+
+void requireMass(double mass) {
+  if (!(mass > 0.0 && mass < kInfinity)) {
+    throw std::invalid_argument("mass: must be positive and finite");
+  }
+}
+
+double volumeOf(const Sphere& s) {
+  return 4.0 / 3.0 * kPi * s.r * s.r * s.r;
+}
+double volumeOf(const Box& b) {
+  return 8.0 * b.half.x() * b.half.y() * b.half.z();
+}
+double volumeOf(const Cylinder& c) {
+  return kPi * c.r * c.r * c.h;
+}
+double volumeOf(const HalfSpace&) {
+  return kInfinity;
+}
+
+/// Principal moments [m²] about the body axes, per mass.
+Vec3 momentsOf(const Sphere& s) {
+  return Vec3::Constant(0.4 * s.r * s.r);
+}
+
+Vec3 momentsOf(const Box& box) {
+  const Vec3 squares = (2.0 * box.half).cwiseAbs2();
+  return Vec3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y()) /
+         12.0;
+}
+
+Vec3 momentsOf(const Cylinder& c) {
+  const double along = 0.5 * c.r * c.r;
+  const double across = (3.0 * c.r * c.r + c.h * c.h) / 12.0;
+  return {across, along, across};
+}
+
+Vec3 momentsOf(const HalfSpace&) {
+  throw std::invalid_argument("shape: a half-space has no finite mass");
+}
+
+/// Symmetric and positive definite.
+bool isInertia(const Mat3& I) {
+  return I.allFinite() && I.isApprox(I.transpose()) && Eigen::LLT<Mat3>(I).info() == Eigen::Success;
+}
+
+/// The inverse; reciprocals where the body axes are principal, so that nothing is lost.
+Mat3 inverseInertia(const Mat3& I) {
+  if (I.isDiagonal(0.0)) return Vec3(I.diagonal().cwiseInverse()).asDiagonal();
+  return I.inverse();
+}
+
+}  // namespace
+
+double volume(const Shape& shape) {
+  return std::visit([](const auto& s) { return volumeOf(s); }, shape);
+}
+
+MassProperties solidMass(const Shape& shape, double mass) {
+  requireMass(mass);
+  const Vec3 moments = std::visit([](const auto& s) { return momentsOf(s); }, shape);
+  return {mass, (mass * moments).asDiagonal()};
+}
+
+RigidBody makeBody(const MassProperties& mass) {
+  requireMass(mass.mass);
+  if (!isInertia(mass.inertia)) {
+    throw std::invalid_argument("inertia: must be symmetric and positive definite");
+  }
+  RigidBody body;
+  body.M = mass.mass;
+  body.invM = 1.0 / mass.mass;
+  body.Ibody = mass.inertia;
+  body.IbodyInv = inverseInertia(mass.inertia);
+  updateDerived(body);
+  return body;
+}
+
+RigidBody makeFixedBody(const Pose& pose, const Vec3& v, const Vec3& omega) {
+  RigidBody body;
+  body.M = kInfinity;
+  body.invM = 0.0;
+  body.Ibody = kInfinity * Mat3::Identity();
+  body.IbodyInv.setZero();
+  body.x = pose.x;
+  body.q = pose.q;
+  setVelocity(body, v, omega);
+  return body;
+}
+
+}  // namespace tumble
