@@ -15,7 +15,8 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// PNG file bytes with the given text chunks (key → UTF-8 value). The same pixels give the same bytes.
+/// PNG file bytes with the given text chunks (key → UTF-8 value). The same pixels give the same
+/// bytes.
 std::vector<std::uint8_t> encodePng(const Image& image,
                                     const std::map<std::string, std::string>& text = {});
 
@@ -31,9 +32,9 @@ Image readPng(const std::string& path);
 struct ImageDifference {
   bool sameSize = true;
   bool exact = true;
-  double share = 0.0;   ///< share of pixels that differ by more than 2/255 in some channel
-  double mean = 0.0;    ///< mean absolute difference over all channels, in levels of 255
-  int largest = 0;      ///< largest difference, levels
+  double share = 0.0;  ///< share of pixels that differ by more than 2/255 in some channel
+  double mean = 0.0;   ///< mean absolute difference over all channels, in levels of 255
+  int largest = 0;     ///< largest difference, levels
   /// Exact, or at most 0.02 % of the pixels off by more than 2 levels and a mean of at most 0.004.
   bool passes() const { return sameSize && (exact || (share <= 2e-4 && mean <= 0.004)); }
 };

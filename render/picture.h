@@ -22,9 +22,10 @@ struct Instance {
   Form form = Form::Box;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< half extents: box edges/2; (r, r, r); (r, h/2, r)
+  Eigen::Vector3d scale =
+      Eigen::Vector3d::Ones();  ///< half extents: box edges/2; (r, r, r); (r, h/2, r)
   Colour colour = {0.23f, 0.44f, 0.66f};
-  float alpha = 1.0f;                               ///< of a ghost
+  float alpha = 1.0f;  ///< of a ghost
   Finish finish = Finish::Solid;
 };
 
@@ -34,7 +35,7 @@ enum class Stroke { Solid, Dotted };
 struct Polyline {
   std::vector<Eigen::Vector3d> points;
   Colour colour = {0.17f, 0.18f, 0.21f};
-  float width = 1.8f;        ///< [px]
+  float width = 1.8f;  ///< [px]
   Stroke stroke = Stroke::Solid;
 };
 
@@ -42,7 +43,7 @@ struct Polyline {
 struct Arrow {
   Eigen::Vector3d base = Eigen::Vector3d::Zero(), tip = Eigen::Vector3d::UnitY();
   Colour colour = {0.835f, 0.251f, 0.102f};
-  float radius = 1.9f;       ///< [px] of the shaft
+  float radius = 1.9f;  ///< [px] of the shaft
 };
 
 /// A ring of fixed pixel size at a world point, with lines of text under it on a short leader.
@@ -63,36 +64,38 @@ struct Label {
   bool bold = false;
   Align align = Align::Left;
   Colour colour = {0.17f, 0.18f, 0.21f};
+  bool italic = false;
 };
 
-/// An arrow on the page with text behind it, and a leader from a world point: a row of a ladder of bars.
+/// An arrow on the page with text behind it, and a leader from a world point: a row of a ladder of
+/// bars.
 struct PageArrow {
-  std::optional<Eigen::Vector3d> leader;             ///< world point the row belongs to
-  Eigen::Vector2d base = Eigen::Vector2d::Zero();    ///< [px]
-  double length = 0.0;                               ///< [px] to the right
+  std::optional<Eigen::Vector3d> leader;           ///< world point the row belongs to
+  Eigen::Vector2d base = Eigen::Vector2d::Zero();  ///< [px]
+  double length = 0.0;                             ///< [px] to the right
   std::string text;
   Colour colour = {0.835f, 0.251f, 0.102f};
 };
 
 /// Linear colour scale with ticks, at the lower right.
 struct ColourBar {
-  std::string caption;                               ///< "time / s"
-  std::vector<Colour> stops;                         ///< evenly spaced
+  std::string caption;        ///< "time / s"
+  std::vector<Colour> stops;  ///< evenly spaced
   double from = 0.0, to = 1.0;
   std::vector<double> ticks;
 };
 
 struct Camera {
   Eigen::Vector3d eye = {0.0, 2.0, 8.0}, target = {0.0, 1.0, 0.0};
-  double fov = 24.0;         ///< [deg] vertical
+  double fov = 24.0;  ///< [deg] vertical
 };
 
 /// The floor y = height, drawn as a disc that fades into the page, with grid and rule.
 struct Floor {
   bool visible = true;
-  double height = 0.0;                               ///< [m]
-  double grid = 1.0, fineGrid = 0.2;                 ///< [m]
-  bool rule = true;                                  ///< a measured line with numbers in front of the motion
+  double height = 0.0;                ///< [m]
+  double grid = 1.0, fineGrid = 0.2;  ///< [m]
+  bool rule = true;                   ///< a measured line with numbers in front of the motion
 };
 
 struct Picture {
@@ -105,8 +108,9 @@ struct Picture {
   std::vector<PageArrow> pageArrows;
   std::optional<ColourBar> bar;
   Floor floor;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m] of what is to be lit, shadowed and framed
-  double radius = 3.0;                               ///< [m] about the centre
+  Eigen::Vector3d centre =
+      Eigen::Vector3d::Zero();  ///< [m] of what is to be lit, shadowed and framed
+  double radius = 3.0;          ///< [m] about the centre
   std::string title, subtitle;
 };
 

@@ -16,7 +16,7 @@ struct RenderOptions {
   int width = 1280, height = 720;
   AntiAlias antialias = AntiAlias::Msaa4;
   int shadowMapSize = 1024;
-  double lightScale = 1.0;     ///< [1] multiplies the key light
+  double lightScale = 1.0;  ///< [1] multiplies the key light
 };
 
 /// Owns shaders, meshes, fonts and framebuffers of one context.
@@ -24,7 +24,8 @@ class Renderer {
  public:
   /// @param shaders folder of the GLSL files
   /// @param fonts   folder with Lato-Regular.ttf, Lato-Bold.ttf, DejaVuSans.ttf
-  /// @throws NoContext if a file is missing or a shader or framebuffer fails, with the driver's words.
+  /// @throws NoContext if a file is missing or a shader or framebuffer fails, with the driver's
+  /// words.
   Renderer(Context& context, const std::string& shaders, const std::string& fonts);
   ~Renderer();
 

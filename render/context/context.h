@@ -20,13 +20,13 @@ class Context {
   virtual ~Context() = default;
   virtual std::string_view name() const = 0;
   virtual void makeCurrent() = 0;
-  std::string renderer() const;   ///< GL_RENDERER
-  std::string version() const;    ///< GL_VERSION
+  std::string renderer() const;  ///< GL_RENDERER
+  std::string version() const;   ///< GL_VERSION
 };
 
 /// A row of the table of contexts.
 struct ContextKind {
-  std::string_view name;          ///< "osmesa", "egl"
+  std::string_view name;  ///< "osmesa", "egl"
   std::string_view summary;
   std::unique_ptr<Context> (*make)();  ///< @throws NoContext
 };

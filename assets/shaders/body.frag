@@ -1,0 +1,100 @@
+// Surface of a body: form, edge line, bevel and spin mark, then light by its finish.
+#include "stage.glsl"
+#include "light.glsl"
+in vec3 worldPoint;
+in vec3 bodyPoint;
+flat in vec3 bodyNormal, half_B, centre, colour;
+flat in vec4 turnBody;
+flat in float alpha;
+uniform float opacity;            // of the whole pass
+layout(location = 0) out vec4 result;
+
+vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
+struct Surface {
+  vec3 point, normal;             // in the world
+  vec3 point_B;                   // in the body
+  float edge;                     // 1 on an edge line
+};
+
+// Size of a pixel at a point, and the width of an edge line in pixels (never below a visible one).
+float pixelSize(vec3 p) { return dot(p - eye.xyz, forward.xyz) * eye.w; }
+float lineScale() { return max(forward.w, 0.75); }
+
+float edgeLine(float pixels, float smallest, float pixel) {
+  float scale = lineScale();
+  return (1.0 - smoothstep(0.35 * scale, 1.5 * scale, pixels)) * clamp(smallest / (4.0 * pixel * scale), 0.0, 1.0);
+}
+
+Surface boxSurface() {
+  vec3 away = 1e3 * abs(bodyNormal);
+  vec3 toEdge = half_B - abs(bodyPoint);
+  vec3 pixels = toEdge / max(fwidth(bodyPoint), 1e-6) + away;
+  float smallest = min(half_B.x, min(half_B.y, half_B.z)), pixel = pixelSize(worldPoint);
+  vec3 bevel = clamp(1.0 - (toEdge + away) / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
+  vec3 tilted = bodyNormal + 0.9 * bevel * sign(bodyPoint);
+  return Surface(worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
+                 edgeLine(min(pixels.x, min(pixels.y, pixels.z)), smallest, pixel));
+}
+
+Surface cylinderSurface() {
+  bool cap = abs(bodyNormal.y) > 0.5;
+  vec3 outward = vec3(bodyPoint.x, 0.0, bodyPoint.z) / max(length(bodyPoint.xz), 1e-9);
+  vec3 upward = vec3(0.0, sign(bodyPoint.y), 0.0);
+  float toRim = cap ? half_B.x - length(bodyPoint.xz) : half_B.y - abs(bodyPoint.y);
+  float smallest = min(half_B.x, half_B.y), pixel = pixelSize(worldPoint);
+  float bevel = clamp(1.0 - toRim / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
+  vec3 tilted = cap ? upward + 0.9 * bevel * outward : outward + 0.9 * bevel * upward;
+  return Surface(worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
+                 edgeLine(toRim / max(fwidth(toRim), 1e-6), smallest, pixel));
+}
+
+// Where the sight line through this fragment first meets the exact sphere.
+Surface ballSurface() {
+  vec3 sight = normalize(worldPoint - eye.xyz), p = worldPoint - centre;
+  float r = half_B.x, along = dot(p, sight);
+  float root = sqrt(max(0.0, along * along - dot(p, p) + r * r));
+  vec3 normal = normalize(p - (along + root) * sight);
+  vec4 back = vec4(-turnBody.xyz, turnBody.w);
+  return Surface(centre + r * normal, normal, r * rotate(back, normal), 0.0);
+}
+
+// A band about the z axis of the body, that its spin can be seen; left out on bodies too small for it.
+vec3 spinMark(vec3 base, Surface s) {
+#ifdef BOX
+  return base;
+#else
+  float distance = abs(s.point_B.z) - 0.16 * half_B.x, pixel = pixelSize(s.point);
+  float band = clamp(0.5 - distance / pixel, 0.0, 1.0) * clamp((half_B.x / (pixel * lineScale()) - 8.0) / 8.0, 0.0, 1.0);
+  return mix(base, 0.45 * base + 0.42, band);
+#endif
+}
+
+void main() {
+#if defined(BOX)
+  Surface s = boxSurface();
+#elif defined(BALL)
+  Surface s = ballSurface();
+#else
+  Surface s = cylinderSurface();
+#endif
+  vec3 toEye = normalize(eye.xyz - s.point);
+  float facing = abs(dot(s.normal, toEye));
+#if defined(GLASS)
+  float rim = 1.0 - facing;
+  vec3 c = mix(shadePlain(colour, s.normal), 0.55 * colour, s.edge);
+  result = vec4(c, opacity * mix(0.18 + 0.25 * rim * rim * rim, 0.85, s.edge));
+#else
+#if defined(GHOST)
+  vec3 c = shadePlain(spinMark(colour, s), s.normal);
+#else
+  vec3 c = shadeSolid(spinMark(colour, s), s.point, s.normal, toEye);
+#endif
+  c = mix(c, 0.52 * c, 0.75 * s.edge);
+#ifdef BALL
+  float limb = (1.0 - facing) * (1.0 - facing);
+  c *= sqrt(1.0 - 0.38 * limb * limb);
+#endif
+  result = vec4(c, opacity * alpha);
+#endif
+}

@@ -1,0 +1,31 @@
+// Arrows in the world with a thickness in pixels and a pale rim that lifts them off what is behind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/gl.h"
+#include "render/mesh.h"
+#include "render/picture.h"
+#include "render/stage.h"
+
+namespace tumble {
+
+class Arrows {
+ public:
+  explicit Arrows(const std::string& shaders);
+  void load(const std::vector<Arrow>& arrows, const Stage& stage);
+  void draw() const;
+
+ private:
+  /// As arrow.vert reads it.
+  struct Shaft {
+    float base[3], radius, reach[3], colour[3];
+  };
+  gl::Program program_;
+  Mesh mesh_ = makeArrow(16);
+  gl::Object buffer_;
+  std::vector<Shaft> shafts_;
+};
+
+}  // namespace tumble

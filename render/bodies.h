@@ -1,0 +1,64 @@
+// Boxes, cylinders and balls: sorted into batches once per picture, drawn by every pass that needs
+// them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/gl.h"
+#include "render/mesh.h"
+#include "render/picture.h"
+#include "render/stage.h"
+
+namespace tumble {
+
+class Bodies {
+ public:
+  /// @param shaders  folder of the GLSL files
+  explicit Bodies(const std::string& shaders);
+
+  void load(const Picture& picture, const Stage& stage);
+
+  void drawFromLight() const;  ///< depth of what is solid, into the shadow map
+  void drawFromAbove() const;  ///< contact, height and cast shadow, into the map from above
+  void drawSolids() const;     ///< with what sank below the floor shown through it
+  void drawGhosts() const;     ///< at each sample the nearest ghost alone
+  void drawGlass() const;      ///< far sides, then at each sample the nearest near side
+  bool drawsInColour() const { return !instances_.empty(); }
+
+ private:
+  enum Group { kSolid, kSunk, kGhost, kGlass, kGroups };
+  enum Shape { kBox, kCylinder, kSmallBall, kBall, kLargeBall, kShapes };
+  enum Use { kSolidUse, kGhostUse, kGlassUse, kDepthUse, kLightUse, kAboveUse, kCastUse, kUses };
+  enum Surface { kBoxSurface, kCylinderSurface, kBallSurface, kSurfaces };
+
+  /// As instance.glsl reads it.
+  struct Body {
+    float centre[3], alpha;
+    float turn[4];
+    float half[3], present;
+    float colour[3], unused;
+  };
+  struct Range {
+    int first = 0, count = 0;
+  };
+
+  static Group groupOf(const Instance& instance, const Stage& stage);
+  static Shape shapeOf(const Instance& instance, const Stage& stage);
+  void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 1.0f) const;
+
+  std::vector<gl::Program> programs_;  // [use][surface]
+  std::vector<Mesh> meshes_;           // [shape]
+  gl::Object buffer_;
+  std::vector<Body> instances_;
+  std::array<std::array<Range, kShapes>, kGroups> ranges_{};
+};
+
+/// Lowest point of a body [m], world.
+double lowestPoint(const Instance& instance);
+
+/// Radius of a ball about the body's position that holds it [m].
+double reachOf(const Instance& instance);
+
+}  // namespace tumble

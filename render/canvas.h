@@ -1,0 +1,70 @@
+// Flat drawing onto an image: text, strokes, discs, with smooth edges. Works without OpenGL.
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+
+#include "render/font.h"
+#include "render/image.h"
+#include "render/picture.h"
+
+namespace tumble {
+
+/// The colours of the page.
+namespace ink {
+inline constexpr Colour text = {0.169f, 0.184f, 0.212f};
+inline constexpr Colour secondary = {0.361f, 0.388f, 0.431f};
+inline constexpr Colour leader = {0.725f, 0.753f, 0.788f};
+inline constexpr Colour frame = {0.788f, 0.808f, 0.839f};
+inline constexpr Colour paper = {0.984f, 0.980f, 0.969f};
+inline constexpr Colour page = {0.973f, 0.973f, 0.965f};
+inline constexpr Colour alarm = {0.835f, 0.251f, 0.102f};
+}  // namespace ink
+
+/// Draws in pixels of a page 720 high, scaled to the image; x to the right, y down, whole numbers
+/// at corners.
+class Canvas {
+ public:
+  /// Both must outlive the canvas.
+  Canvas(Image& image, Fonts& fonts) : image_(image), fonts_(fonts), scale_(image.height / 720.0) {}
+  /// The same with a scale of its own [pixels of the image per pixel drawn].
+  Canvas(Image& image, Fonts& fonts, double scale) : image_(image), fonts_(fonts), scale_(scale) {}
+
+  double width() const { return image_.width / scale_; }
+  double height() const { return image_.height / scale_; }
+
+  void fill(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size, const Colour& colour);
+  void disc(const Eigen::Vector2d& centre, double radius, const Colour& colour, double alpha = 1.0);
+  void ring(const Eigen::Vector2d& centre, double radius, double stroke, const Colour& colour);
+  void stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
+              const Colour& colour, double alpha = 1.0);
+  void triangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
+                const Colour& colour);
+  void frame(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size, double stroke,
+             const Colour& colour);
+
+  struct TextStyle {
+    double size = 14.0;
+    Face face = Face::Regular;
+    Align align = Align::Left;
+    Colour colour = ink::text;
+  };
+  /// @param pen  where the text starts, ends or has its middle, on the baseline
+  void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style);
+  /// Width of the text [px].
+  double textWidth(std::string_view utf8, const TextStyle& style);
+
+ private:
+  /// Blends the colour over pixels near a shape given by its signed distance [px of the image], < 0
+  /// inside.
+  template <class Distance>
+  void paint(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& colour,
+             double alpha, const Distance& distance);
+  void blend(int x, int y, const Colour& colour, double alpha);
+
+  Image& image_;
+  Fonts& fonts_;
+  double scale_;
+};
+
+}  // namespace tumble

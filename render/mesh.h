@@ -1,0 +1,44 @@
+// The few solids that everything is drawn with, to be drawn many at a time.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "render/gl.h"
+
+namespace tumble {
+
+struct Vertex {
+  Eigen::Vector4f position;  ///< w is free
+  Eigen::Vector3f normal;
+};
+
+/// An attribute that differs from instance to instance: its place in the shader, size and offset in
+/// floats.
+struct InstanceAttribute {
+  GLuint location;
+  GLint size;
+  int offset;
+};
+
+/// Triangles in OpenGL's memory; counter-clockwise from outside.
+class Mesh {
+ public:
+  Mesh(const std::vector<Vertex>& vertices, const std::vector<GLuint>& indices);
+  /// Draws `count` copies with attributes from a buffer of `stride` floats per instance.
+  void draw(GLuint buffer, int stride, const std::vector<InstanceAttribute>& attributes, int first,
+            int count) const;
+
+ private:
+  gl::Object array_, vertices_, indices_;
+  GLsizei count_ = 0;
+};
+
+Mesh makeBox();                ///< corners at ±1
+Mesh makeCylinder(int sides);  ///< radius 1 about Y, from −1 to 1
+Mesh makeDisc(int sides);      ///< in x and y, as large as the unit circle, facing +z
+Mesh makeQuad();               ///< x from 0 to 1, y from −1 to 1
+Mesh makeArrow(int sides);     ///< for arrow.vert
+
+}  // namespace tumble

@@ -1,0 +1,99 @@
+#include "render/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/lines.h"
+
+namespace tumble {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDotSpacing = 13.0, kDotRadius = 2.1, kDotHalo = 3.3, kDotHaloAlpha = 0.9;
+
+Vector2d flat(const Vector3d& point) {
+  return point.head<2>();
+}
+
+/// Beads along a curve, evenly spaced on the image, in front of everything.
+void drawDots(const Polyline& line, const Projection& projection, Canvas& canvas) {
+  std::vector<Vector2d> beads;
+  for (const std::vector<Vector3d>& piece : projectLine(line.points, projection)) {
+    double next = 0.0, done = 0.0;
+    for (std::size_t i = 0; i + 1 < piece.size(); ++i) {
+      const Vector2d from = flat(piece[i]), along = flat(piece[i + 1]) - from;
+      const double length = along.norm();
+      for (; next <= done + length && length > 0.0; next += kDotSpacing)
+        beads.push_back(from + (next - done) / length * along);
+      done += length;
+    }
+  }
+  // All rims before all dots, so that neighbours do not bite into each other.
+  const double grow = line.width / 1.8;
+  for (const Vector2d& bead : beads) canvas.disc(bead, kDotHalo * grow, ink::paper, kDotHaloAlpha);
+  for (const Vector2d& bead : beads) canvas.disc(bead, kDotRadius * grow, line.colour);
+}
+
+void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
+  const auto place = projection.project(mark.position);
+  if (!place) return;
+  const Vector2d centre = flat(*place);
+  if (!mark.lines.empty())
+    canvas.stroke(centre + Vector2d(0.0, 6.0), centre + Vector2d(0.0, 34.0), 1.0, ink::secondary);
+  canvas.ring(centre, 5.0, 1.6, mark.colour);
+  double baseline = 49.0;
+  for (const std::string& line : mark.lines) {
+    const Colour colour = baseline == 49.0 ? ink::text : ink::secondary;
+    canvas.text(centre + Vector2d(0.0, baseline), line,
+                {14.0, Face::Regular, Align::Centre, colour});
+    baseline += 18.0;
+  }
+}
+
+void drawLabel(const Label& label, const Projection& projection, Canvas& canvas) {
+  Vector2d pen = label.offset;
+  if (label.anchor) {
+    const auto place = projection.project(*label.anchor);
+    if (!place) return;
+    pen += flat(*place);
+  }
+  const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
+  canvas.text(pen, label.text, {label.size, face, label.align, label.colour});
+}
+
+void drawPageArrow(const PageArrow& arrow, const Projection& projection, Canvas& canvas) {
+  const double head = std::min(13.0, 0.6 * arrow.length), halfHead = 0.46 * head,
+               halfShaft = 0.32 * halfHead;
+  const Vector2d tip = arrow.base + Vector2d(arrow.length, 0.0), neck = tip - Vector2d(head, 0.0);
+  if (arrow.leader)
+    if (const auto place = projection.project(*arrow.leader))
+      canvas.stroke(flat(*place), arrow.base - Vector2d(8.0, 0.0), 1.0, ink::leader);
+  if (arrow.length > 0.5) {
+    const Vector2d rise(0.0, halfHead);
+    canvas.stroke(arrow.base + Vector2d(halfShaft, 0.0), neck, 2.0 * halfShaft, arrow.colour);
+    // The upper half of the head a little lighter, as light falls from above.
+    Colour light = arrow.colour;
+    for (float& channel : light) channel += 0.12f * (1.0f - channel);
+    canvas.triangle(neck - rise, neck + rise, tip, arrow.colour);
+    canvas.triangle(neck - rise, neck, tip, light);
+  }
+  canvas.text(tip + Vector2d(10.0, 5.0), arrow.text, {14.0, Face::Regular, Align::Left, ink::text});
+}
+
+}  // namespace
+
+void drawOverlay(const Picture& picture, const Projection& projection, Canvas& canvas) {
+  if (picture.floor.visible && picture.floor.rule) drawRule(picture, projection, canvas);
+  for (const Polyline& line : picture.lines)
+    if (line.stroke == Stroke::Dotted) drawDots(line, projection, canvas);
+  for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
+  for (const PageArrow& arrow : picture.pageArrows) drawPageArrow(arrow, projection, canvas);
+  for (const Label& label : picture.labels) drawLabel(label, projection, canvas);
+  if (picture.bar) drawColourBar(*picture.bar, canvas);
+  canvas.text({32.0, 46.0}, picture.title, {22.0, Face::Bold, Align::Left, ink::text});
+  canvas.text({32.0, 70.0}, picture.subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
+}
+
+}  // namespace tumble

@@ -1,0 +1,18 @@
+// The page under the drawing, and the layers put together on it.
+#pragma once
+
+#include "render/image.h"
+#include "render/targets.h"
+
+namespace tumble {
+
+/// Bodies over floor over a page that brightens downwards. Layers are premultiplied:
+///   c = c_bodies + (1 − α_bodies) (c_floor + (1 − α_floor) c_page), in 8-bit sRGB, rounded once a
+///   layer.
+/// An empty layer is left out.
+Image composePage(int width, int height, const Layer& floor, const Layer& bodies);
+
+/// The image at half the size, each pixel the mean of four. Width and height are even.
+Image halved(const Image& image);
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+// The framebuffers that a picture is drawn into, and what is read back from them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/gl.h"
+
+namespace tumble {
+
+/// Premultiplied RGBA of part of the frame; rows upwards, as OpenGL counts.
+struct Layer {
+  gl::Rectangle place;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// A layer for bodies, lines and arrows, with depth and several samples a pixel if wanted,
+/// and a single-sampled one for the floor, which has no edges to smooth.
+class Targets {
+ public:
+  /// @param samples  1, or 4 for multisampling
+  /// @throws NoContext if the driver refuses.
+  void resize(int width, int height, int samples);
+
+  /// Clears `place`, restricts drawing to it, and makes the target current.
+  void beginBodies(const gl::Rectangle& place);
+  void beginFloor();
+
+  /// Resolves and reads the layer back.
+  Layer readBodies(const gl::Rectangle& place);
+  Layer readFloor();
+
+ private:
+  Layer read(GLuint framebuffer, const gl::Rectangle& place) const;
+
+  int width_ = 0, height_ = 0, samples_ = 0;
+  gl::Object colour_, depth_, bodies_;    // the layer of bodies
+  gl::Object resolvedColour_, resolved_;  // its mean over samples; the floor before that
+};
+
+}  // namespace tumble
