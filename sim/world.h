@@ -21,7 +21,8 @@ struct BodySample {
   Vec3 omega = Vec3::Zero();
 };
 
-/// One contact point at one time: separation ≤ 1e-9 m, or a force. Force [N] on a, friction included.
+/// One contact point at one time: separation ≤ 1e-9 m, or a force. Force [N] on a, friction
+/// included.
 struct ContactSample {
   int a = 0, b = 0;
   Vec3 p = Vec3::Zero(), n = Vec3::UnitY();
@@ -32,7 +33,7 @@ struct ContactSample {
 /// Everything about one instant.
 struct Sample {
   double t = 0.0;
-  std::vector<BodySample> bodies;      ///< in scene order, fixed ones too
+  std::vector<BodySample> bodies;  ///< in scene order, fixed ones too
   std::vector<ContactSample> contacts;
   double kinetic = 0.0, potential = 0.0;  ///< [J]
 };
@@ -46,12 +47,13 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Lets time run until the state at t [s] is known, or the report says stopped. The method keeps its
-  /// own steps: where it is asked to pause never changes the motion. Times must not decrease;
+  /// Lets time run until the state at t [s] is known, or the report says stopped. The method keeps
+  /// its own steps: where it is asked to pause never changes the motion. Times must not decrease;
   /// beyond the duration nothing moves.
   void advance(double t);
 
-  /// The instant t ≤ the last advance, and no earlier than the one before. At an event: the state after it.
+  /// The instant t ≤ the last advance, and no earlier than the one before. At an event: the state
+  /// after it.
   Sample sample(double t) const;
 
   const Model& model() const;

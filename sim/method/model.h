@@ -17,15 +17,15 @@ namespace tumble {
 struct BodyDef {
   std::string name;
   Shape shape = Sphere{};
-  std::optional<double> density;       ///< [kg/m³]
-  std::optional<double> mass;          ///< [kg]
-  std::optional<Vec3> inertia;         ///< [kg m²] principal
+  std::optional<double> density;  ///< [kg/m³]
+  std::optional<double> mass;     ///< [kg]
+  std::optional<Vec3> inertia;    ///< [kg m²] principal
   double restitution = 0.0, friction = 0.0;
-  std::string material;                ///< for the pairs table; may be empty
-  Vec3 position = Vec3::Zero();        ///< [m]
+  std::string material;          ///< for the pairs table; may be empty
+  Vec3 position = Vec3::Zero();  ///< [m]
   Quat orientation = Quat::Identity();
-  Vec3 velocity = Vec3::Zero();        ///< [m/s]
-  Vec3 angularVelocity = Vec3::Zero(); ///< [rad/s] world frame
+  Vec3 velocity = Vec3::Zero();         ///< [m/s]
+  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
   bool fixed = false;
 };
 
@@ -37,23 +37,23 @@ struct PairDef {
 
 struct CourseSettings {
   std::string integrator = "rk4";
-  double step = 1.0 / 240.0;   ///< [s]
+  double step = 1.0 / 240.0;  ///< [s]
   std::string plan = "backstep";
   std::string contact = "constraint";
 };
 
 struct SteppingSettings {
-  double step = 1.0 / 240.0;   ///< [s]
+  double step = 1.0 / 240.0;  ///< [s]
   std::string solver = "pgs";
-  double tolerance = 1e-12;    ///< natural-map residual, relative
+  double tolerance = 1e-12;  ///< natural-map residual, relative
 };
 
 /// Everything a world is made from.
 struct WorldDef {
-  Vec3 gravity = {0.0, -9.81, 0.0};   ///< [m/s²]
+  Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
   std::string method = "course";
   std::string impact = "simultaneous";
-  double duration = 5.0;              ///< [s] the last step ends there
+  double duration = 5.0;  ///< [s] the last step ends there
   CourseSettings course;
   SteppingSettings stepping;
   std::vector<BodyDef> bodies;
@@ -81,8 +81,8 @@ struct Surface {
 /// The checked definition, ready to run: constant bodies, shapes, surfaces, forces and settings.
 struct Model {
   WorldDef def;
-  std::vector<Shape> shapes;     ///< per body
-  double size = 1.0;             ///< [m] largest bounding radius or distance from the origin at the start
+  std::vector<Shape> shapes;  ///< per body
+  double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }
   bool fixed(int body) const { return def.bodies[body].fixed; }

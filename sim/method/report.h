@@ -28,19 +28,19 @@ struct Certificate {
   long steps = 0, events = 0;
   double max_penetration = 0.0;      ///< [m] max(0, −separation)
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
-  double energy_start = 0.0, energy_end = 0.0;  ///< [J]
+  double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
-  double work_of_forces = 0.0;       ///< [J] by forces without a potential and by moving fixed bodies
-  double energy_balance_error = 0.0; ///< |E_end − E_start + lost − work| / max kinetic energy
-  double momentum_error = 0.0;       ///< worst |P − P₀ − ∫F − Σ impulses| / max Σ|P|
+  double work_of_forces = 0.0;  ///< [J] by forces without a potential and by moving fixed bodies
+  double energy_balance_error = 0.0;  ///< |E_end − E_start + lost − work| / max kinetic energy
+  double momentum_error = 0.0;        ///< worst |P − P₀ − ∫F − Σ impulses| / max Σ|P|
 };
 
 /// What a method leaves behind: certificate, events in order of time, and why it stopped if it did.
 struct Report {
   Certificate certificate;
   std::vector<Event> events;
-  bool stopped = false;       ///< the physics could not go on
-  std::string reason;         ///< one sentence: what, where, when
+  bool stopped = false;            ///< the physics could not go on
+  std::string reason;              ///< one sentence: what, where, when
   std::vector<std::string> notes;  ///< approximations that were taken, once each
 };
 

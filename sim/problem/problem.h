@@ -12,54 +12,57 @@ namespace tumble {
 
 /// One scalar row of the Jacobian J:  u = linear·(va − vb) + angularA·ωa + angularB·ωb + bias.
 struct Row {
-  int a = 0, b = 0;                 ///< bodies
-  Vec3 linear = Vec3::Zero();       ///< +n for a contact normal
-  Vec3 angularA = Vec3::Zero();     ///< (p − xa) × n
-  Vec3 angularB = Vec3::Zero();     ///< −(p − xb) × n
+  int a = 0, b = 0;              ///< bodies
+  Vec3 linear = Vec3::Zero();    ///< +n for a contact normal
+  Vec3 angularA = Vec3::Zero();  ///< (p − xa) × n
+  Vec3 angularB = Vec3::Zero();  ///< −(p − xb) × n
   double bias = 0.0;
 };
 
 /// Which multipliers are allowed, and what their rows must then do.
 enum class ConeKind {
   Push,      ///< one row:  λ ≥ 0, u ≥ 0, λ u = 0
-  Friction,  ///< three rows n, t1, t2:  Push on n;  |λt| ≤ mu λn;  u_t = 0, or λt = −mu λn u_t/|u_t|
+  Friction,  ///< three rows n, t1, t2:  Push on n;  |λt| ≤ mu λn;  u_t = 0, or λt = −mu λn
+             ///< u_t/|u_t|
   Slide,     ///< two rows n, t with t along the slip velocity:  Push on n;  λt = −mu λn
   Equality,  ///< one row:  u = 0, λ free
 };
 
 struct Cone {
   ConeKind kind = ConeKind::Push;
-  int row = 0;       ///< its first row
-  double mu = 0.0;   ///< [1] coefficient of friction
+  int row = 0;      ///< its first row
+  double mu = 0.0;  ///< [1] coefficient of friction
 };
 
 /// Find v and λ with  M (v − vStar) = Jᵀ λ,  u = J v + bias,  and every cone satisfied.
 /// At velocity level v is in m/s and λ an impulse in N·s; at acceleration level v is an
-/// acceleration, λ a force in N. Twists are (linear, angular), world frame, about each centre of mass.
+/// acceleration, λ a force in N. Twists are (linear, angular), world frame, about each centre of
+/// mass.
 struct Problem {
-  std::vector<double> invM;       ///< [1/kg] per body; 0 = immovable
-  std::vector<Mat3> Iinv;         ///< [1/(kg m²)] per body, world frame
-  std::vector<Vec6> vStar;        ///< per body: the motion without the unknown λ
+  std::vector<double> invM;  ///< [1/kg] per body; 0 = immovable
+  std::vector<Mat3> Iinv;    ///< [1/(kg m²)] per body, world frame
+  std::vector<Vec6> vStar;   ///< per body: the motion without the unknown λ
   std::vector<Row> rows;
   std::vector<Cone> cones;
 };
 
 struct Solution {
-  std::vector<double> lambda;     ///< per row
-  std::vector<Vec6> v;            ///< per body
+  std::vector<double> lambda;  ///< per row
+  std::vector<Vec6> v;         ///< per body
 };
 
 enum class SolveStatus { Solved, NotConverged, Infeasible };
 
 struct SolveReport {
   SolveStatus status = SolveStatus::Solved;
-  double residual = 0.0;    ///< largest entry of the natural map, in units of u, over the largest |J vStar + bias|
-  int iterations = 0;       ///< sweeps or pivots
+  double residual =
+      0.0;  ///< largest entry of the natural map, in units of u, over the largest |J vStar + bias|
+  int iterations = 0;  ///< sweeps or pivots
 };
 
 struct SolveSettings {
-  double tolerance = 1e-12;     ///< on SolveReport::residual
-  int maxIterations = 20000;    ///< sweeps or pivots
+  double tolerance = 1e-12;   ///< on SolveReport::residual
+  int maxIterations = 20000;  ///< sweeps or pivots
 };
 
 /// A row of the table of solvers. λ in `solution` (if of the right length) is the starting point.
@@ -79,6 +82,9 @@ void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<do
 /// v = vStar + M⁻¹ Jᵀ λ.
 void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda,
                           std::span<Vec6> v);
+
+/// The largest |J vStar + bias| of all rows: what residuals are measured by. 1 if it is 0.
+double velocityScale(const Problem& problem);
 
 /// Natural-map residual of (λ, v) as in SolveReport: per cone |λ − Π_K(λ − ρ û)|/ρ with
 /// ρ = 1/(largest diagonal entry of J M⁻¹ Jᵀ in the cone), û = u + mu |u_t| n for friction.

@@ -1,0 +1,83 @@
+// Chapter 7, contact: two bodies that touch – how they approach, how the normal turns, what is
+// rest.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/body/rigid_body.h"
+#include "sim/collide/contact_point.h"
+
+namespace tumble {
+
+/// The three kinds of contact of slides SD30–SD31 and SD37–SD38.
+enum class ContactClass { Colliding, Resting, Separating };
+
+/// Bands inside which a number counts as zero. All of them grow with the size of the world [m],
+/// because rounding does.
+struct ContactTolerance {
+  double touch = 1e-9;   ///< [m] nearer than this is touching
+  double root = 1e-12;   ///< [m] overlap that dates a collision
+  double drift = 1e-10;  ///< [m] overlap that a lasting contact may gain in one step
+  double rest = 1e-10;   ///< [m/s] |vrel| of a resting contact
+  double keep = 1e-6;    ///< [m/s] |vrel| up to which a lasting contact stays lasting
+  double stick = 1e-9;   ///< [m/s] slip of a sticking contact
+
+  static ContactTolerance forSize(double size);
+};
+
+/// A contact point that rides along with its two bodies: the features that touch, in body frames.
+struct Anchor {
+  Vec3 pa_B = Vec3::Zero(), pb_B = Vec3::Zero();  ///< [m] material points of a and b
+  Vec3 n_B = Vec3::Zero();                        ///< normal in the frame of the body it is tied to
+  Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< edge directions
+};
+
+/// One contact between two bodies of a world.
+struct Contact {
+  int a = 0, b = 0;    ///< bodies; b stands first in the scene
+  ContactPoint point;  ///< as found, or as last followed
+  Anchor anchor;
+  double restitution = 0.0, friction = 0.0;
+  bool lasting = false;               ///< rests: takes part in the contact forces
+  bool sliding = false;               ///< its friction is kinetic
+  Vec3 slipDirection = Vec3::Zero();  ///< of the slip when sliding began
+  Vec3 force = Vec3::Zero();          ///< [N] on a, friction included
+};
+
+/// vrel = n·(ṗa − ṗb) [m/s]: < 0 approaches (slide SD30; Baraff, Rigid Body Simulation II, §8).
+double approachVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// Tangential part of ṗa − ṗb [m/s] at the contact point.
+Vec3 slipVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// Colliding below −tolerance, separating above it, resting between. [m/s]
+ContactClass classify(double vrel, double tolerance);
+
+/// Ties a contact point, as found at this pose, to its two bodies.
+Anchor anchorOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// Where the same features are now: brings p, n, separation, pa, pb and edges of `c.point` up to
+/// date with the poses of a and b.
+void follow(const RigidBody& a, const RigidBody& b, Contact& c);
+
+/// ṅ [1/s]: how fast the contact normal turns with the features it is tied to.
+Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// Velocity [m/s] of the place of contact, which is a material point of neither body when they
+/// roll.
+Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// The part of d²(separation)/dt² [m/s²] that does not come from accelerations:
+///   n·(ωa×(ωa×ra) − ωb×(ωb×rb)) + 2 ṅ·(ṗa − ṗb) − |pa − pb| |ṅ|²
+/// Baraff II, §9.3, with the last term added for round bodies. ra, rb reach to pa, pb.
+double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// The part of d(slip)/dt [m/s²] along t that does not come from accelerations.
+double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c,
+                            const Vec3& t);
+
+/// Two unit tangents, the first along `preferred` where that has a tangential part.
+void tangents(const Vec3& n, const Vec3& preferred, Vec3& t1, Vec3& t2);
+
+}  // namespace tumble

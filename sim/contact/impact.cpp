@@ -1,0 +1,130 @@
+#include "sim/contact/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact/impulse.h"
+
+namespace tumble {
+namespace {
+
+constexpr ImpactLaw kLaws[] = {
+    {"simultaneous", "Newton's law at all contacts at once, as one LCP", impactSimultaneous},
+    {"sequential", "Newton's law at one contact after the other", impactSequential},
+};
+
+/// Tangent plane of one struck contact and its Coulomb bound.
+struct Tangential {
+  int contact;
+  double bound;  // [N·s] mu j
+  double step;   // [kg] 1 / largest inverse effective mass in the plane
+  Vec3 sum = Vec3::Zero();
+};
+
+}  // namespace
+
+std::span<const ImpactLaw> impactLaws() {
+  return kLaws;
+}
+
+const ImpactLaw* findImpactLaw(std::string_view name) {
+  for (const ImpactLaw& law : kLaws)
+    if (law.name == name) return &law;
+  return nullptr;
+}
+
+std::vector<int> reachOfImpact(const Impact& impact) {
+  const auto approaching = [&](const Contact& c) {
+    return approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point) <
+           -impact.tolerance.rest;
+  };
+  std::vector<char> bodyReached(impact.bodies.size(), 0), reached(impact.contacts.size(), 0);
+  const auto reachBody = [&](int body) {
+    if (impact.bodies[body].fixed()) return;
+    bodyReached[body] = 1;
+  };
+  bool grew = false;
+  for (std::size_t i = 0; i < impact.contacts.size(); ++i) {
+    if (!approaching(impact.contacts[i])) continue;
+    reached[i] = 1;
+    grew = true;
+    reachBody(impact.contacts[i].a);
+    reachBody(impact.contacts[i].b);
+  }
+  while (grew) {
+    grew = false;
+    for (std::size_t i = 0; i < impact.contacts.size(); ++i) {
+      const Contact& c = impact.contacts[i];
+      if (reached[i] || !(bodyReached[c.a] || bodyReached[c.b])) continue;
+      reached[i] = 1;
+      grew = true;
+      reachBody(c.a);
+      reachBody(c.b);
+    }
+  }
+  std::vector<int> list;
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    if (reached[i]) list.push_back(static_cast<int>(i));
+  return list;
+}
+
+ImpulseEnergy applyContactImpulse(const Impact& impact, int contact, const Vec3& J) {
+  const Contact& c = impact.contacts[contact];
+  RigidBody& a = impact.bodies[c.a];
+  RigidBody& b = impact.bodies[c.b];
+  const double before = kineticEnergy(a) + kineticEnergy(b);
+  ImpulseEnergy energy;
+  if (a.fixed()) energy.work = -J.dot(pointVelocity(a, c.point.p));
+  if (b.fixed()) energy.work = J.dot(pointVelocity(b, c.point.p));
+  applyImpulse(a, c.point.p, J);
+  applyImpulse(b, c.point.p, -J);
+  energy.lost = before - (kineticEnergy(a) + kineticEnergy(b)) + energy.work;
+  impact.impulse[contact] += J;
+  return energy;
+}
+
+ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contacts,
+                               std::span<const double> j) {
+  constexpr int kSweeps = 2000;
+  constexpr double kSettled = 1e-14;  // change of a sweep relative to the largest bound
+
+  std::vector<Tangential> struck;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& c = impact.contacts[contacts[i]];
+    const double bound = c.friction * j[i];
+    if (bound <= 0.0) continue;
+    Vec3 t1, t2;
+    const RigidBody &a = impact.bodies[c.a], &b = impact.bodies[c.b];
+    tangents(c.point.n, slipVelocity(a, b, c.point), t1, t2);
+    const double k =
+        inverseEffectiveMass(a, b, c.point.p, t1) + inverseEffectiveMass(a, b, c.point.p, t2);
+    struck.push_back({contacts[i], bound, 1.0 / k});
+    largest = std::max(largest, bound);
+  }
+
+  // Each contact in turn pulls its slip towards zero, held inside its disc of radius mu j. A first
+  // pull of full strength settles a lone contact whose two tangents weigh the same at once.
+  ImpulseEnergy energy;
+  for (int sweep = 0; sweep < kSweeps && !struck.empty(); ++sweep) {
+    double change = 0.0;
+    for (Tangential& s : struck) {
+      const Contact& c = impact.contacts[s.contact];
+      const RigidBody &a = impact.bodies[c.a], &b = impact.bodies[c.b];
+      const double gain = sweep == 0 ? 2.0 * s.step : s.step;
+      Vec3 wanted = s.sum - gain * slipVelocity(a, b, c.point);
+      const double size = wanted.norm();
+      if (size > s.bound) wanted *= s.bound / size;
+      const Vec3 J = wanted - s.sum;
+      s.sum = wanted;
+      const ImpulseEnergy step = applyContactImpulse(impact, s.contact, J);
+      energy.lost += step.lost;
+      energy.work += step.work;
+      change = std::max(change, J.norm());
+    }
+    if (change <= kSettled * largest) break;
+  }
+  return energy;
+}
+
+}  // namespace tumble

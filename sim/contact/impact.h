@@ -1,0 +1,68 @@
+// Chapter 7, contact: what happens to all bodies at the instant of a collision (slides SD36–SD45).
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sim/contact/contact.h"
+
+namespace tumble {
+
+/// Where the energy of an impact went [J], and how well it was solved.
+struct ImpactReport {
+  double lostNormal = 0.0;  ///< taken by restitution < 1
+  double lostFriction = 0.0;
+  double work = 0.0;               ///< done on the others by fixed bodies that move
+  double residual = 0.0;           ///< worst natural-map residual
+  bool finishedInelastic = false;  ///< the passes ran out; the last one took e = 0
+};
+
+/// The contacts struck at one instant, and what they get.
+struct Impact {
+  std::span<RigidBody> bodies;
+  std::span<const Contact> contacts;    ///< all that touch, lasting ones too
+  std::span<const double> restitution;  ///< [1] per contact, for this instant
+  std::span<Vec3> impulse;              ///< [N·s] out: on a, per contact, friction included
+  ContactTolerance tolerance;
+};
+
+/// A row of the table of impact laws. Changes P and L (and what is derived) of the bodies until no
+/// contact approaches any more. Never gains energy.
+struct ImpactLaw {
+  std::string_view name;
+  std::string_view summary;
+  ImpactReport (*apply)(const Impact&);
+};
+
+/// All impact laws. To add one: write `sim/contact/impact_<name>.cpp` and add its row in
+/// impact.cpp.
+std::span<const ImpactLaw> impactLaws();
+const ImpactLaw* findImpactLaw(std::string_view name);
+
+/// Newton's law for all contacts at once:  n·v⁺ ≥ −e n·v⁻,  j ≥ 0,  complementary. A brick that
+/// lands flat leaves flat. Repeated while friction or a break-away leaves a contact approaching.
+ImpactReport impactSimultaneous(const Impact& impact);
+
+/// Newton's law for one contact at a time, the fastest approach first (slide SD46).
+ImpactReport impactSequential(const Impact& impact);
+
+/// Contacts that a collision can reach: those connected to an approaching one through bodies that
+/// can move. Ascending indices into impact.contacts; empty if nothing approaches.
+std::vector<int> reachOfImpact(const Impact& impact);
+
+/// What an impulse did to the energy [J]: taken from the bodies, and given by fixed bodies that
+/// move.
+struct ImpulseEnergy {
+  double lost = 0.0, work = 0.0;
+};
+
+/// Gives J [N·s] to a and −J to b of a contact, at its point, and adds it to impact.impulse.
+ImpulseEnergy applyContactImpulse(const Impact& impact, int contact, const Vec3& J);
+
+/// Coulomb friction of an impact, after the normal impulses j [N·s] of the listed contacts: the
+/// tangential impulses |jt| ≤ mu j that leave the least kinetic energy. Adds to impact.impulse.
+ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contacts,
+                               std::span<const double> j);
+
+}  // namespace tumble

@@ -1,0 +1,43 @@
+// Chapter 7, contact: the forces of lasting contacts (slides SD47–SD57).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/contact/contact.h"
+#include "sim/problem/problem.h"
+
+namespace tumble {
+
+/// Finds the contact forces of all lasting contacts at one instant.
+///
+///   a = A f + b,   a ≥ 0,  f ≥ 0,  f·a = 0      (a: relative normal accelerations)
+///
+/// with A and b assembled from Jacobian rows as in Baraff, Rigid Body Simulation II, §9; friction
+/// adds two rows a contact (sticking: Coulomb cone at acceleration level; sliding: −mu f_n against
+/// the slip). Departure: b carries vrel (2/τ) + separation/τ², which draws rounding errors of
+/// lasting contacts back to zero with the time constant τ; they stay at the size of rounding.
+class RestForces {
+ public:
+  /// @param tau  time constant τ [s] > 0 of the pull towards zero; a few steps
+  explicit RestForces(double tau) : tau_(tau) {}
+
+  /// Reads pose, velocity, force and torque of the bodies, sets `force` of every lasting contact
+  /// and adds the contact forces to force and torque. Contacts must have been followed to this
+  /// pose.
+  SolveReport apply(std::span<RigidBody> bodies, std::span<Contact> contacts);
+
+ private:
+  void addRows(std::span<const RigidBody> bodies, const Contact& contact);
+
+  double tau_;
+  Problem problem_;
+  Solution solution_;
+};
+
+/// Direction of the slip of a sliding contact: along its slip now, but never turned against the
+/// direction in which its sliding began, so that forces stay smooth through the instant of
+/// sticking.
+Vec3 slidingDirection(std::span<const RigidBody> bodies, const Contact& contact);
+
+}  // namespace tumble

@@ -1,0 +1,67 @@
+// The grid of steps, the trail of the motion, and the books behind the certificate.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "sim/body/force.h"
+#include "sim/method/method.h"
+
+namespace tumble {
+
+const char* eventName(EventKind kind) {
+  switch (kind) {
+    case EventKind::Impact:
+      return "impact";
+    case EventKind::Rest:
+      return "rest";
+    case EventKind::Separate:
+      return "separate";
+    case EventKind::Slip:
+      return "slip";
+    case EventKind::Stick:
+      return "stick";
+  }
+  return "";
+}
+
+double gridTime(const Model& model, long k, double h) {
+  const double next = static_cast<double>(k + 1) * h, end = model.def.duration;
+  return next > end - 1e-9 * h ? end : next;  // no sliver of a step is left before the end
+}
+
+void trimTrail(State& state, double t) {
+  std::erase_if(state.trail, [&](const Segment& s) { return s.t1 < t; });
+}
+
+void account(const Model& model, State& state, Report& report) {
+  Certificate& books = report.certificate;
+  Vec3 momentum = Vec3::Zero();
+  double size = 0.0;
+  for (const RigidBody& body : state.bodies) {
+    if (body.fixed()) continue;
+    momentum += body.P;
+    size += body.P.norm();
+  }
+  const double kinetic = kineticEnergy(state.bodies);
+  state.kineticMax = std::max(state.kineticMax, kinetic);
+  state.momentumScale = std::max(state.momentumScale, size);
+
+  books.events = static_cast<long>(report.events.size());
+  books.energy_end = kinetic + potentialEnergy(model.def.gravity, model.def.forces, state.bodies);
+  const double open = books.energy_end - books.energy_start + books.energy_lost_impact +
+                      books.energy_lost_friction - books.work_of_forces;
+  books.energy_balance_error = state.kineticMax > 0.0 ? std::abs(open) / state.kineticMax : 0.0;
+  if (state.momentumScale > 0.0) {
+    const double drift = (momentum - state.momentumStart - state.externalImpulse).norm();
+    books.momentum_error = std::max(books.momentum_error, drift / state.momentumScale);
+  }
+}
+
+void sortEvents(Report& report, std::size_t from) {
+  std::stable_sort(report.events.begin() + static_cast<std::ptrdiff_t>(from), report.events.end(),
+                   [](const Event& p, const Event& q) {
+                     return std::tie(p.t, p.a, p.b) < std::tie(q.t, q.a, q.b);
+                   });
+}
+
+}  // namespace tumble

@@ -1,0 +1,216 @@
+#include "sim/method/course/course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/collide/collide.h"
+#include "sim/math/root.h"
+
+namespace tumble {
+namespace {
+
+/// Time constant of the pull that keeps lasting contacts at zero, in steps.
+constexpr double kPullSteps = 4.0;
+
+double pullTime(const Model& model) {
+  return kPullSteps * model.def.course.step;
+}
+
+std::unique_ptr<Stepper> makeStepper(const Model& model) {
+  const int size = model.count() * kStateSize + CourseSystem::kLedgerSize;
+  return findIntegrator(model.def.course.integrator)->make(size);
+}
+
+/// Upper estimate [m/s²] of what outer forces do to any body, for the reach of the broad phase.
+double accelerationScale(std::span<const RigidBody> bodies, const Vec3& gravity) {
+  double a = gravity.norm();
+  for (const RigidBody& body : bodies) a = std::max(a, body.invM * body.force.norm());
+  return a;
+}
+
+bool allFinite(std::span<const double> y) {
+  return std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+void checkCourse(const Model& model) {
+  const CourseSettings& course = model.def.course;
+  if (!findIntegrator(course.integrator))
+    throw Refusal("course.integrator", "no integrator is called \"" + course.integrator + "\"");
+  if (!(course.step > 0.0) || !std::isfinite(course.step))
+    throw Refusal("course.step", "a step must be a positive number of seconds");
+  if (course.plan != "backstep")
+    throw Refusal("course.plan", "no plan is called \"" + course.plan + "\"; there is: backstep");
+  if (course.contact != "constraint")
+    throw Refusal("course.contact",
+                  "no contact model is called \"" + course.contact + "\"; there is: constraint");
+}
+
+void advanceCourse(const Model& model, State& state, double t_end, Report& report) {
+  Course course(model, state, report);
+  if (state.trail.empty()) course.settle();
+  while (state.t < t_end && !report.stopped) {
+    course.move();
+    course.settle();
+    account(model, state, report);
+  }
+}
+
+void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
+                std::vector<Contact>& contacts) {
+  // The last stretch that begins at or before t; at the end of the trail, the state itself.
+  const Segment* segment = nullptr;
+  for (const Segment& s : state.trail)
+    if (s.t0 <= t) segment = &s;
+  const bool now = !segment || t >= state.t;
+  bodies = now ? state.bodies : segment->start;
+  CourseSystem system(model, bodies, now ? state.lasting : segment->contacts, pullTime(model));
+  if (!now && t > segment->t0) {
+    std::vector<double> y(system.size());
+    system.pack(bodies, y);
+    makeStepper(model)->step(system, segment->t0, t - segment->t0, y);
+    system.unpack(y, bodies);
+  }
+  system.findForces(bodies);
+  contacts = system.contacts();
+}
+
+Course::Course(const Model& model, State& state, Report& report)
+    : model_(model),
+      state_(state),
+      report_(report),
+      tolerance_(ContactTolerance::forSize(model.size)),
+      stepper_(makeStepper(model)),
+      trial_(state.bodies) {}
+
+void Course::settle() {
+  if (report_.stopped) return;
+  const std::size_t firstEvent = report_.events.size();
+  findTouching();
+  if (collides()) respond();
+  chooseLasting();
+  sortEvents(report_, firstEvent);
+}
+
+void Course::findTouching() {
+  const double h = gridTime(model_, state_.gridIndex, model_.def.course.step) - state_.t;
+  sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
+  std::vector<Aabb> boxes;
+  sweptBoxes(model_, state_.bodies, h, accelerationScale(state_.bodies, model_.def.gravity),
+             tolerance_.touch, boxes);
+  state_.near = nearPairs(model_, state_, boxes);
+  touching_.clear();
+  for (const auto& pair : state_.near)
+    findContacts(model_, state_.bodies, pair, tolerance_.touch, touching_);
+  for (const Contact& c : touching_)
+    report_.certificate.max_penetration =
+        std::max(report_.certificate.max_penetration, -c.point.separation);
+}
+
+bool Course::wasLasting(int a, int b) const {
+  return std::any_of(state_.lasting.begin(), state_.lasting.end(),
+                     [&](const Contact& c) { return c.a == a && c.b == b; });
+}
+
+void Course::move() {
+  const double step = model_.def.course.step;
+  const double grid = gridTime(model_, state_.gridIndex, step), span = grid - state_.t;
+  state_.trail.push_back(
+      {.t0 = state_.t, .t1 = grid, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
+
+  CourseSystem system(model_, state_.bodies, state_.lasting, pullTime(model_));
+  y0_.resize(system.size());
+  y_.resize(system.size());
+  system.pack(state_.bodies, y0_);
+
+  // A pair may come as close as touching, or as deep as rounding has already brought it.
+  floor_.clear();
+  allowanceNow_ = std::numeric_limits<double>::infinity();
+  for (const auto& [b, a] : state_.near) {
+    const double now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
+                                  state_.bodies[b].pose());
+    const double slack = wasLasting(a, b) ? tolerance_.drift : tolerance_.root;
+    floor_.push_back(std::min(0.0, now) - slack);
+    allowanceNow_ = std::min(allowanceNow_, now - floor_.back());
+  }
+  for (const Contact& c : state_.lasting)
+    if (c.sliding)
+      allowanceNow_ = std::min(
+          allowanceNow_, slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm());
+
+  // Try the whole stretch; if something collides, or a slip ends, back up to that instant.
+  double h = span;
+  if (allowance(system, span) < 0.0) {
+    h = backUp(system, span);
+    allowance(system, h);
+  }
+  commit(system, h, h < span ? state_.t + h : grid);
+}
+
+double Course::allowance(CourseSystem& system, double h) {
+  y_ = y0_;
+  stepper_->step(system, state_.t, h, y_);
+  if (!allFinite(y_)) return 0.0;  // commit() reports it
+  system.unpack(y_, trial_);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto& [b, a] = state_.near[k];
+    const double gap =
+        separation(model_.shapes[a], trial_[a].pose(), model_.shapes[b], trial_[b].pose());
+    least = std::min(least, gap - floor_[k]);
+  }
+  for (Contact c : state_.lasting) {
+    if (!c.sliding) continue;
+    follow(trial_[c.a], trial_[c.b], c);
+    least = std::min(least, slipVelocity(trial_[c.a], trial_[c.b], c.point).dot(c.slipDirection));
+  }
+  return least;
+}
+
+double Course::backUp(CourseSystem& system, double span) {
+  constexpr double kInstant = 1e-15;  // [s] width of the bracket that is left
+  constexpr int kPatience = 200;      // events without progress before one is passed over
+  const double tooFar = allowance(system, span);
+  const double h = findRoot([&](double s) { return allowance(system, s); }, 0.0, span,
+                            allowanceNow_, tooFar, kInstant)
+                       .lo;
+  if (h > kInstant) {
+    stalled_ = 0;
+    return h;
+  }
+  if (++stalled_ < kPatience) return std::max(h, kInstant);
+  stalled_ = 0;
+  report_.notes.push_back("an event without progress in time was passed over");
+  return span;
+}
+
+void Course::commit(CourseSystem& system, double h, double t1) {
+  Certificate& books = report_.certificate;
+  if (!allFinite(y_)) {
+    report_.stopped = true;
+    report_.reason = "the motion left the range of numbers within " + std::to_string(h) +
+                     " s after t = " + std::to_string(state_.t) + " s; try a smaller course.step";
+    state_.trail.pop_back();
+    return;
+  }
+  system.unpack(y_, state_.bodies);
+  const Ledger ledger = system.ledger(y_);
+  books.work_of_forces += ledger.work;
+  books.energy_lost_friction += ledger.friction;
+  books.max_complementarity = std::max(books.max_complementarity, system.residual());
+  if (system.unsolved() && report_.notes.empty())
+    report_.notes.push_back("resting forces were left unsolved at t = " + std::to_string(t1) +
+                            " s");
+  state_.externalImpulse += ledger.impulse;
+  state_.trail.back().t1 = t1;
+  state_.t = t1;
+  ++books.steps;
+  if (t1 == gridTime(model_, state_.gridIndex, model_.def.course.step)) {
+    ++state_.gridIndex;
+    state_.recentImpacts.clear();
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+// The method of the notes: Y(t) through the ODE black box; detect, back up to the instant of
+// collision, impulses, resting forces from the LCP at acceleration level (slides SD24–SD57).
+#pragma once
+
+#include <memory>
+
+#include "sim/method/course/system.h"
+#include "sim/method/method.h"
+#include "sim/ode/integrator.h"
+
+namespace tumble {
+
+void checkCourse(const Model& model);
+void advanceCourse(const Model& model, State& state, double t_end, Report& report);
+void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
+                std::vector<Contact>& contacts);
+
+/// The flow chart of slide SD39 at work on one world.
+class Course {
+ public:
+  Course(const Model& model, State& state, Report& report);
+
+  /// Events of this instant: contacts found, impulses given, contacts that last listed.
+  void settle();
+  /// One stretch of motion without an event: to the next instant of the grid, or to the first
+  /// event.
+  void move();
+
+ private:
+  void findTouching();
+  bool collides() const;
+  void respond();
+  double restitutionNow(const Contact& contact) const;
+  void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
+  void chooseLasting();
+  void recordChanges(const std::vector<Contact>& before);
+  bool wasLasting(int a, int b) const;
+
+  /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.
+  double allowance(CourseSystem& system, double h);
+  /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
+  double backUp(CourseSystem& system, double span);
+  void commit(CourseSystem& system, double h, double t1);
+
+  const Model& model_;
+  State& state_;
+  Report& report_;
+  ContactTolerance tolerance_;
+  std::unique_ptr<Stepper> stepper_;
+  std::vector<Contact> touching_;
+  std::vector<double> y0_, y_;
+  std::vector<RigidBody> trial_;
+  std::vector<double> floor_;  ///< [m] per near pair: separation that must not be passed
+  double allowanceNow_ = 0.0;  ///< `allowance` of no motion at all
+  int stalled_ = 0;            ///< events in a row that moved time by nothing
+};
+
+}  // namespace tumble

@@ -1,0 +1,144 @@
+// The events of one instant: impulses on colliding contacts, and the list of those that last.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact/impact.h"
+#include "sim/method/course/course.h"
+
+namespace tumble {
+namespace {
+
+// A bounce that would rise less than kHeight and be over within kTime is the last of its row: the
+// contact comes to rest instead of hopping for ever.
+constexpr double kHeight = 1e-10;  // [m]
+constexpr double kTime = 1e-6;     // [s]
+// Pairs that hop where nothing presses them together: rest below this speed after so many hits.
+constexpr double kCrawl = 1e-6;        // [m/s]
+constexpr int kHitsBeforeCrawl = 30;   // within one step
+constexpr int kHitsBeforeRest = 2000;  // within one step, at any speed
+
+/// Relative normal acceleration [m/s²] of a contact under outer forces alone.
+double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  const auto of = [](const RigidBody& body, const Vec3& p) -> Vec3 {
+    if (body.fixed()) return Vec3::Zero();
+    const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
+    return body.invM * body.force + alpha.cross(p - body.x);
+  };
+  return c.n.dot(of(a, c.p) - of(b, c.p)) + normalAccelerationBias(a, b, c);
+}
+
+}  // namespace
+
+bool Course::collides() const {
+  return std::any_of(touching_.begin(), touching_.end(), [&](const Contact& c) {
+    const double band = wasLasting(c.a, c.b) ? tolerance_.keep : tolerance_.rest;
+    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < -band;
+  });
+}
+
+double Course::restitutionNow(const Contact& c) const {
+  const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+  const double rebound = -c.restitution * approachVelocity(a, b, c.point);
+  if (rebound <= 0.0) return c.restitution;
+  const double press = -freeAcceleration(a, b, c.point);
+  if (press > 0.0 && rebound * rebound < 2.0 * press * kHeight &&
+      2.0 * rebound < press * (1.0 - c.restitution) * kTime)
+    return 0.0;
+  const auto recent = state_.recentImpacts.find({c.a, c.b});
+  const int hits = recent == state_.recentImpacts.end() ? 0 : recent->second;
+  if (hits > kHitsBeforeRest || (hits > kHitsBeforeCrawl && rebound < kCrawl)) return 0.0;
+  return c.restitution;
+}
+
+void Course::respond() {
+  std::vector<double> restitution, vrel;
+  for (const Contact& c : touching_) {
+    restitution.push_back(restitutionNow(c));
+    vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
+  }
+  std::vector<Vec3> impulse(touching_.size(), Vec3::Zero());
+  const ImpactReport impact = findImpactLaw(model_.def.impact)
+                                  ->apply({.bodies = state_.bodies,
+                                           .contacts = touching_,
+                                           .restitution = restitution,
+                                           .impulse = impulse,
+                                           .tolerance = tolerance_});
+  Certificate& books = report_.certificate;
+  books.energy_lost_impact += impact.lostNormal;
+  books.energy_lost_friction += impact.lostFriction;
+  books.work_of_forces += impact.work;
+  books.max_complementarity = std::max(books.max_complementarity, impact.residual);
+  recordImpacts(vrel, impulse);
+}
+
+void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse) {
+  // Contacts of one pair stand together and share a normal.
+  for (std::size_t i = 0; i < touching_.size();) {
+    const Contact& first = touching_[i];
+    Event event{.t = state_.t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
+    event.n = first.point.n;
+    event.p.setZero();
+    for (; i < touching_.size() && touching_[i].a == first.a && touching_[i].b == first.b; ++i) {
+      const double j = impulse[i].dot(event.n);
+      event.p += j * touching_[i].point.p;
+      event.j += j;
+      event.vrel = std::min(event.vrel, vrel[i]);
+      if (state_.bodies[first.b].fixed()) state_.externalImpulse += impulse[i];
+      if (state_.bodies[first.a].fixed()) state_.externalImpulse -= impulse[i];
+    }
+    if (event.j <= 0.0) continue;
+    event.p /= event.j;
+    report_.events.push_back(event);
+    ++state_.recentImpacts[{event.a, event.b}];
+  }
+}
+
+void Course::chooseLasting() {
+  std::vector<Contact> lasting;
+  for (Contact c : touching_) {
+    const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+    const double band = wasLasting(c.a, c.b) ? tolerance_.keep : tolerance_.rest;
+    if (classify(approachVelocity(a, b, c.point), band) != ContactClass::Resting) continue;
+    c.lasting = true;
+    c.anchor = anchorOf(a, b, c.point);
+    const Vec3 slip = slipVelocity(a, b, c.point);
+    c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
+    if (c.sliding) c.slipDirection = slip.normalized();
+    lasting.push_back(c);
+  }
+  std::swap(state_.lasting, lasting);
+  recordChanges(lasting);
+}
+
+void Course::recordChanges(const std::vector<Contact>& before) {
+  const auto find = [](const std::vector<Contact>& list, const Contact& c) {
+    return std::find_if(list.begin(), list.end(),
+                        [&](const Contact& o) { return o.a == c.a && o.b == c.b; });
+  };
+  const auto add = [&](EventKind kind, const Contact& c) {
+    report_.events.push_back({.t = state_.t,
+                              .kind = kind,
+                              .a = c.a,
+                              .b = c.b,
+                              .p = c.point.p,
+                              .n = c.point.n,
+                              .vrel = 0.0,
+                              .j = 0.0});
+  };
+  // One event for a pair, told at its first contact.
+  for (auto c = state_.lasting.begin(); c != state_.lasting.end(); ++c) {
+    if (find(state_.lasting, *c) != c) continue;
+    const auto old = find(before, *c);
+    if (old == before.end()) {
+      add(EventKind::Rest, *c);
+      if (c->sliding) add(EventKind::Slip, *c);
+    } else if (old->sliding != c->sliding) {
+      add(c->sliding ? EventKind::Slip : EventKind::Stick, *c);
+    }
+  }
+  for (auto c = before.begin(); c != before.end(); ++c)
+    if (find(before, *c) == c && find(state_.lasting, *c) == state_.lasting.end())
+      add(EventKind::Separate, *c);
+}
+
+}  // namespace tumble

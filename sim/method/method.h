@@ -1,0 +1,57 @@
+// Chapter 9, method: the table of ways to let time run.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "sim/method/model.h"
+#include "sim/method/report.h"
+#include "sim/method/state.h"
+
+namespace tumble {
+
+/// A row of the table of methods. None of them includes another.
+struct Method {
+  std::string_view name;
+  std::string_view summary;
+  /// Throws Refusal for settings or bodies that this method cannot handle.
+  void (*check)(const Model&);
+  /// Makes whole steps of the method's own grid until state.t ≥ t_end or the report says stopped.
+  void (*advance)(const Model&, State&, double t_end, Report&);
+  /// The bodies at time t inside the trail, and their lasting contacts with forces.
+  void (*look)(const Model&, const State&, double t, std::vector<RigidBody>&,
+               std::vector<Contact>&);
+};
+
+/// All methods. To add one: write `sim/method/<name>/` and add its row in methods.cpp.
+std::span<const Method> methods();
+const Method* findMethod(std::string_view name);
+
+/// Pairs of bodies worth a closer look: boxes overlap, and not both are fixed.
+/// `boxes` has one entry per body.
+std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
+                                           std::span<const Aabb> boxes);
+
+/// Boxes that hold each body during the next `h` seconds at its present velocity, grown by the
+/// way a constant acceleration of size `acceleration` [m/s²] goes, and by `margin` [m].
+void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
+                double acceleration, double margin, std::vector<Aabb>& boxes);
+
+/// All contact points of a pair within `margin` [m], with restitution and friction of the pair.
+/// b is the body that stands first in the scene. Appends to `contacts`.
+void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pair<int, int> pair,
+                  double margin, std::vector<Contact>& contacts);
+
+/// The last instant of the grid of step h [s] after step k, not beyond the duration.
+double gridTime(const Model& model, long k, double h);
+
+/// Forgets the stretches of motion that end before t.
+void trimTrail(State& state, double t);
+
+/// Brings the running totals and the certificate up to date at the end of a step.
+void account(const Model& model, State& state, Report& report);
+
+/// Sorts the events that came after the first `from` by time, then a, then b.
+void sortEvents(Report& report, std::size_t from);
+
+}  // namespace tumble

@@ -1,0 +1,28 @@
+// The table of methods.
+#include "sim/method/course/course.h"
+#include "sim/method/method.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+namespace {
+
+constexpr Method kMethods[] = {
+    {"course", "the notes: ODE black box, back up to the collision, impulses, resting forces",
+     checkCourse, advanceCourse, lookCourse},
+    {"stepping", "one velocity-level contact problem per step, for stacks and piles", checkStepping,
+     advanceStepping, lookStepping},
+};
+
+}  // namespace
+
+std::span<const Method> methods() {
+  return kMethods;
+}
+
+const Method* findMethod(std::string_view name) {
+  for (const Method& method : kMethods)
+    if (method.name == name) return &method;
+  return nullptr;
+}
+
+}  // namespace tumble

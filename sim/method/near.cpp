@@ -1,0 +1,49 @@
+// Which bodies are near, and where they touch: the front half of every method's step.
+#include "sim/collide/collide.h"
+#include "sim/method/method.h"
+
+namespace tumble {
+
+std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
+                                           std::span<const Aabb> boxes) {
+  state.broadPhase.update(boxes);
+  std::vector<std::pair<int, int>> near;
+  for (const auto& [i, j] : state.broadPhase.pairs())
+    if (!(model.fixed(i) && model.fixed(j))) near.emplace_back(i, j);
+  return near;
+}
+
+void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
+                double acceleration, double margin, std::vector<Aabb>& boxes) {
+  boxes.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody& body = bodies[i];
+    const double radius = boundingRadius(model.shapes[i]);
+    const double turn = std::isfinite(radius) ? body.omega.norm() * radius * h : 0.0;
+    const double fall = body.fixed() ? 0.0 : acceleration * h * h;
+    Aabb box = boundingBox(model.shapes[i], body.pose(), margin + turn + fall);
+    const Vec3 way = h * body.v;
+    box.lo += way.cwiseMin(0.0);
+    box.hi += way.cwiseMax(0.0);
+    boxes.push_back(box);
+  }
+}
+
+void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pair<int, int> pair,
+                  double margin, std::vector<Contact>& contacts) {
+  const auto [b, a] = pair;
+  Manifold manifold;
+  collide(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose(), margin, manifold);
+  const Surface surface = model.surface(a, b);
+  for (const ContactPoint& point : manifold) {
+    Contact c;
+    c.a = a;
+    c.b = b;
+    c.point = point;
+    c.restitution = surface.restitution;
+    c.friction = surface.friction;
+    contacts.push_back(c);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,50 @@
+// Chapter 9, method: the half of a world that changes.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "sim/body/rigid_body.h"
+#include "sim/collide/broad_phase.h"
+#include "sim/contact/contact.h"
+
+namespace tumble {
+
+/// A stretch of motion without an event in it, kept so that any instant inside can be looked at.
+struct Segment {
+  double t0 = 0.0, t1 = 0.0;     ///< [s]
+  std::vector<RigidBody> start;  ///< the bodies at t0, after the events of t0
+  std::vector<RigidBody> end;  ///< the bodies at t1, before its events; only if the method needs it
+  std::vector<Contact> contacts;  ///< the lasting contacts, with the forces at t0
+};
+
+/// Time, bodies, and what a method remembers from step to step.
+struct State {
+  double t = 0.0;      ///< [s]
+  long gridIndex = 0;  ///< whole steps done; the grid is gridIndex · h
+  std::vector<RigidBody> bodies;
+  std::vector<Contact> lasting;  ///< contacts that rest or slide
+  BroadPhase broadPhase;
+  std::vector<Segment> trail;  ///< from the advance before the last one up to t
+
+  // Running totals behind the certificate.
+  Vec3 externalImpulse = Vec3::Zero();  ///< [N·s] of all forces and impulses from outside
+  Vec3 momentumStart = Vec3::Zero();    ///< [kg m/s]
+  double momentumScale = 0.0;           ///< [kg m/s] max of Σ|P|
+  double kineticMax = 0.0;              ///< [J]
+
+  // What only `stepping` remembers: multipliers of the last step by contact.
+  struct ContactKey {
+    int a, b;
+    std::uint32_t feature;
+    auto operator<=>(const ContactKey&) const = default;
+  };
+  std::map<ContactKey, Vec3> warm;
+
+  // What only `course` remembers: pairs that the next stretch of motion may bring together, and the
+  // impacts of each pair since the last whole step.
+  std::vector<std::pair<int, int>> near;
+  std::map<std::pair<int, int>, int> recentImpacts;
+};
+
+}  // namespace tumble

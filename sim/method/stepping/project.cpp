@@ -1,0 +1,60 @@
+// Position projection: the least displacement, weighed by mass, that lifts what overlaps.
+#include <algorithm>
+
+#include "sim/contact/rows.h"
+#include "sim/math/rotation.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+
+void Stepping::project() {
+  constexpr int kRounds = 10;
+  double deepest = deepestOverlap();
+  for (int round = 0; round < kRounds && deepest > tolerance_.drift; ++round) {
+    lift();
+    deepest = deepestOverlap();
+  }
+  report_.certificate.max_penetration = std::max(report_.certificate.max_penetration, deepest);
+}
+
+double Stepping::deepestOverlap() {
+  // Neighbours within this gap take part, so that nothing is lifted into them.
+  constexpr double kNeighbour = 1e-4;  // [m]
+  overlaps_.clear();
+  for (const auto& pair : state_.near)
+    findContacts(model_, state_.bodies, pair, kNeighbour, overlaps_);
+  double deepest = 0.0;
+  for (const Contact& c : overlaps_) deepest = std::max(deepest, -c.point.separation);
+  return deepest;
+}
+
+void Stepping::lift() {
+  // Displacements obey the problem of the velocities with the gap as bias:
+  //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
+  constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
+  beginVelocityProblem(state_.bodies, problem_);
+  for (Vec6& v : problem_.vStar) v.setZero();
+  for (const Contact& c : overlaps_) {
+    problem_.cones.push_back(
+        {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())});
+    problem_.rows.push_back(
+        pointRow(state_.bodies, c.a, c.b, c.point.p, c.point.n, c.point.separation));
+  }
+  solution_.lambda.clear();
+  solveByIslands(*findSolver(model_.def.stepping.solver), problem_,
+                 {.tolerance = kTolerance, .maxIterations = 200}, solution_);
+
+  // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
+  constexpr double kLargestTurn = 0.1;  // [rad]
+  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+    RigidBody& body = state_.bodies[i];
+    if (body.fixed() || solution_.v[i].isZero(0.0)) continue;
+    Vec3 turn = solution_.v[i].tail<3>();
+    if (turn.norm() > kLargestTurn) turn *= kLargestTurn / turn.norm();
+    body.x += solution_.v[i].head<3>();
+    body.q = rotated(body.q, turn).normalized();
+    updateDerived(body);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,270 @@
+#include "sim/method/stepping/stepping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/body/force.h"
+#include "sim/contact/rows.h"
+#include "sim/math/rotation.h"
+
+namespace tumble {
+namespace {
+
+/// First row of cone i, and one past its last.
+std::pair<std::size_t, std::size_t> rowsOf(const Problem& problem, std::size_t i) {
+  const std::size_t first = problem.cones[i].row;
+  const bool last = i + 1 == problem.cones.size();
+  return {first, last ? problem.rows.size() : problem.cones[i + 1].row};
+}
+
+}  // namespace
+
+void checkStepping(const Model& model) {
+  const SteppingSettings& stepping = model.def.stepping;
+  if (!findSolver(stepping.solver))
+    throw Refusal("stepping.solver", "no solver is called \"" + stepping.solver + "\"");
+  if (!(stepping.step > 0.0) || !std::isfinite(stepping.step))
+    throw Refusal("stepping.step", "a step must be a positive number of seconds");
+  if (!(stepping.tolerance > 0.0) || !std::isfinite(stepping.tolerance))
+    throw Refusal("stepping.tolerance", "a tolerance must be a positive number");
+}
+
+void advanceStepping(const Model& model, State& state, double t_end, Report& report) {
+  Stepping stepping(model, state, report);
+  // The forces at t = 0 are those of the first step.
+  while ((state.t < t_end || state.trail.empty()) && !report.stopped) stepping.step();
+}
+
+Stepping::Stepping(const Model& model, State& state, Report& report)
+    : model_(model),
+      state_(state),
+      report_(report),
+      tolerance_(ContactTolerance::forSize(model.size)) {}
+
+void Stepping::step() {
+  const double t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
+  const double h = t1 - state_.t;
+  state_.trail.push_back(
+      {.t0 = state_.t, .t1 = t1, .start = state_.bodies, .end = {}, .contacts = {}});
+
+  sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
+  findNear(h);
+  buildProblem(h);
+  solve(h);
+  applyImpulses(h);
+  moveBodies(h);
+  project();
+
+  recordEvents(t1);
+  state_.trail.back().end = state_.bodies;
+  state_.trail.back().contacts = state_.lasting;
+  state_.t = t1;
+  ++state_.gridIndex;
+  ++report_.certificate.steps;
+  account(model_, state_, report_);
+}
+
+void Stepping::findNear(double h) {
+  std::vector<Aabb> boxes;
+  const double g = model_.def.gravity.norm();
+  sweptBoxes(model_, state_.bodies, h, g, tolerance_.touch, boxes);
+  state_.near = nearPairs(model_, state_, boxes);
+  contacts_.clear();
+  for (const auto& pair : state_.near) {
+    // As far as the two surfaces can come towards each other within the step.
+    const RigidBody &b = state_.bodies[pair.first], &a = state_.bodies[pair.second];
+    double speed = (a.v - b.v).norm();
+    for (int i : {pair.first, pair.second}) {
+      const double radius = boundingRadius(model_.shapes[i]);
+      if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
+    }
+    findContacts(model_, state_.bodies, pair, h * speed + 2.0 * g * h * h + tolerance_.touch,
+                 contacts_);
+  }
+}
+
+void Stepping::buildProblem(double h) {
+  beginVelocityProblem(state_.bodies, problem_);
+  before_ = problem_.vStar;
+  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+    const RigidBody& body = state_.bodies[i];
+    if (body.fixed()) continue;
+    problem_.vStar[i] << body.v + h * body.invM * body.force,
+        body.Iinv * (body.L + h * body.torque);
+  }
+  solution_.lambda.clear();
+  for (const Contact& contact : contacts_) addContact(contact, h);
+}
+
+void Stepping::addContact(const Contact& contact, double h) {
+  const RigidBody &a = state_.bodies[contact.a], &b = state_.bodies[contact.b];
+  const ContactPoint& c = contact.point;
+  Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
+
+  // A gap may be closed by the end of the step and no further; a hit inside the step rebounds.
+  const auto along = [&](const std::vector<Vec6>& v) {
+    return normal.linear.dot(v[contact.a].head<3>() - v[contact.b].head<3>()) +
+           normal.angularA.dot(v[contact.a].tail<3>()) +
+           normal.angularB.dot(v[contact.b].tail<3>());
+  };
+  const double vrel = along(before_);
+  const bool hits = c.separation + h * along(problem_.vStar) < 0.0;
+  const bool rebounds = hits && vrel < 0.0 && contact.restitution > 0.0;
+  normal.bias = rebounds ? contact.restitution * vrel : std::max(0.0, c.separation) / h;
+
+  const auto warm = state_.warm.find({contact.a, contact.b, c.feature});
+  const Vec3 guess = warm == state_.warm.end() ? Vec3(Vec3::Zero()) : warm->second;
+  Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())};
+  problem_.rows.push_back(normal);
+  solution_.lambda.push_back(std::max(0.0, guess.dot(c.n)));
+  if (contact.friction > 0.0) {
+    cone.kind = ConeKind::Friction;
+    cone.mu = contact.friction;
+    Vec3 t1, t2;
+    tangents(c.n, slipVelocity(a, b, c), t1, t2);
+    for (const Vec3& t : {t1, t2}) {
+      problem_.rows.push_back(pointRow(state_.bodies, contact.a, contact.b, c.p, t, 0.0));
+      solution_.lambda.push_back(guess.dot(t));
+    }
+  }
+  problem_.cones.push_back(cone);
+}
+
+void Stepping::solve(double h) {
+  const SteppingSettings& settings = model_.def.stepping;
+  const SolveReport solved = solveByIslands(*findSolver(settings.solver), problem_,
+                                            {.tolerance = settings.tolerance}, solution_);
+  Certificate& books = report_.certificate;
+  books.max_complementarity = std::max(books.max_complementarity, solved.residual);
+  if (solved.status != SolveStatus::Solved && report_.notes.empty())
+    report_.notes.push_back(
+        "a step was left above the tolerance, first at t = " + std::to_string(state_.t + h) + " s");
+}
+
+void Stepping::applyImpulses(double h) {
+  Certificate& books = report_.certificate;
+  std::vector<RigidBody>& bodies = state_.bodies;
+  touched_.assign(bodies.size(), 0);
+  impulse_.assign(contacts_.size(), Vec3::Zero());
+  const double powerBefore = powerOfForces(model_.def.forces, bodies);
+  for (RigidBody& body : bodies) {
+    if (body.fixed()) continue;
+    body.P += h * body.force;
+    body.L += h * body.torque;
+    state_.externalImpulse += h * body.force;
+  }
+
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& contact = contacts_[i];
+    const auto [first, end] = rowsOf(problem_, i);
+    for (std::size_t r = first; r < end; ++r) {
+      const Row& row = problem_.rows[r];
+      const double lambda = solution_.lambda[r];
+      impulse_[i] += lambda * row.linear;
+      // Work over the step is λ times the mean of the velocities before and after.
+      const Vec6 a = 0.5 * (before_[row.a] + solution_.v[row.a]);
+      const Vec6 b = 0.5 * (before_[row.b] + solution_.v[row.b]);
+      const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
+      const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
+      (r == first ? books.energy_lost_impact : books.energy_lost_friction) -= lambda * (ofA + ofB);
+      if (bodies[row.a].fixed()) books.work_of_forces -= lambda * ofA;
+      if (bodies[row.b].fixed()) books.work_of_forces -= lambda * ofB;
+    }
+    if (impulse_[i].isZero(0.0)) continue;
+    applyImpulse(bodies[contact.a], contact.point.p, impulse_[i]);
+    applyImpulse(bodies[contact.b], contact.point.p, -impulse_[i]);
+    touched_[contact.a] = touched_[contact.b] = 1;
+    if (bodies[contact.b].fixed()) state_.externalImpulse += impulse_[i];
+    if (bodies[contact.a].fixed()) state_.externalImpulse -= impulse_[i];
+  }
+  for (RigidBody& body : bodies) updateDerived(body);
+  books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, bodies));
+}
+
+void Stepping::moveBodies(double h) {
+  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+    RigidBody& body = state_.bodies[i];
+    if (body.fixed() && body.v.isZero(0.0) && body.omega.isZero(0.0)) continue;
+    if (touched_[i] || body.fixed()) {  // as the contact problem foresaw it
+      body.x += h * body.v;
+      body.q = rotated(body.q, h * body.omega);
+    } else {  // free flight: the parabola, and the midpoint rule for the rotor
+      body.x += 0.5 * h * (before_[i].head<3>() + body.v);
+      RigidBody half = body;
+      half.q = rotated(body.q, 0.5 * h * body.omega);
+      half.L = body.L - 0.5 * h * body.torque;
+      updateDerived(half);
+      body.q = rotated(body.q, h * half.omega);
+    }
+    body.q.normalize();
+    updateDerived(body);
+  }
+}
+
+void Stepping::recordEvents(double t) {
+  const std::size_t firstEvent = report_.events.size();
+  const double landing = -2.0 * model_.def.gravity.norm() * model_.def.stepping.step;
+  std::vector<Contact> before;
+  std::swap(before, state_.lasting);
+  state_.warm.clear();
+  const auto holds = [](const std::vector<Contact>& list, const Contact& c) {
+    return std::find_if(list.begin(), list.end(),
+                        [&](const Contact& o) { return o.a == c.a && o.b == c.b; });
+  };
+
+  // Contacts of one pair stand together and share a normal.
+  for (std::size_t i = 0; i < contacts_.size();) {
+    const Contact& first = contacts_[i];
+    Event event{.t = t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
+    event.n = first.point.n;
+    event.p.setZero();
+    bool rebounds = false;
+    for (; i < contacts_.size() && contacts_[i].a == first.a && contacts_[i].b == first.b; ++i) {
+      Contact& c = contacts_[i];
+      const double j = impulse_[i].dot(c.point.n);
+      if (j <= 0.0) continue;
+      const auto [row, end] = rowsOf(problem_, i);
+      const RigidBody &a = state_.trail.back().start[c.a], &b = state_.trail.back().start[c.b];
+      event.p += j * c.point.p;
+      event.j += j;
+      event.vrel = std::min(event.vrel, approachVelocity(a, b, c.point));
+      rebounds = rebounds || problem_.rows[row].bias < landing;
+      state_.warm[{c.a, c.b, c.point.feature}] = impulse_[i];
+      c.anchor = anchorOf(a, b, c.point);
+      c.force = impulse_[i] / (t - state_.t);
+      const Vec3 tangential = impulse_[i] - j * c.point.n;
+      c.sliding =
+          c.friction > 0.0 && tangential.norm() >= c.friction * j * (1.0 - 1e-9) &&
+          slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm() > tolerance_.stick;
+      c.lasting = true;
+      state_.lasting.push_back(c);
+    }
+    if (event.j <= 0.0) continue;
+    event.p /= event.j;
+    if (event.vrel < landing) report_.events.push_back(event);
+    if (rebounds) continue;
+    const auto old = holds(before, first), now = holds(state_.lasting, first);
+    event.j = event.vrel = 0.0;
+    if (old == before.end()) {
+      event.kind = EventKind::Rest;
+      report_.events.push_back(event);
+    } else if (old->sliding != now->sliding) {
+      event.kind = now->sliding ? EventKind::Slip : EventKind::Stick;
+      report_.events.push_back(event);
+    }
+  }
+  for (auto c = before.begin(); c != before.end(); ++c) {
+    if (holds(before, *c) != c || holds(state_.lasting, *c) != state_.lasting.end()) continue;
+    report_.events.push_back({.t = t,
+                              .kind = EventKind::Separate,
+                              .a = c->a,
+                              .b = c->b,
+                              .p = c->point.p,
+                              .n = c->point.n,
+                              .vrel = 0.0,
+                              .j = 0.0});
+  }
+  sortEvents(report_, firstEvent);
+}
+
+}  // namespace tumble

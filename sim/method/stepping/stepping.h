@@ -1,0 +1,50 @@
+// Time stepping after Moreau: each step solves one contact problem for the velocities at its end,
+//   M (v⁺ − v) = h F + Jᵀ λ,   u_n ≥ −separation/h,  λ_n ≥ 0, complementary, Coulomb's cone,
+// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity.
+#pragma once
+
+#include <vector>
+
+#include "sim/method/method.h"
+#include "sim/problem/problem.h"
+
+namespace tumble {
+
+void checkStepping(const Model& model);
+void advanceStepping(const Model& model, State& state, double t_end, Report& report);
+void lookStepping(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
+                  std::vector<Contact>& contacts);
+
+class Stepping {
+ public:
+  Stepping(const Model& model, State& state, Report& report);
+
+  /// One step of the grid, shorter only at the end of the run.
+  void step();
+
+ private:
+  void findNear(double h);
+  void buildProblem(double h);
+  void addContact(const Contact& contact, double h);
+  void solve(double h);
+  void applyImpulses(double h);
+  void moveBodies(double h);
+  void project();
+  double deepestOverlap();
+  void lift();
+  void recordEvents(double t);
+
+  const Model& model_;
+  State& state_;
+  Report& report_;
+  ContactTolerance tolerance_;
+  Problem problem_;
+  Solution solution_;
+  std::vector<Contact> contacts_;
+  std::vector<Contact> overlaps_;  ///< what the projection sees
+  std::vector<Vec6> before_;       ///< twists at the start of the step
+  std::vector<char> touched_;      ///< per body: a contact pushed it in this step
+  std::vector<Vec3> impulse_;      ///< [N·s] per contact, on a
+};
+
+}  // namespace tumble

@@ -1,0 +1,97 @@
+#include "sim/problem/friction_block.h"
+
+#include <cmath>
+
+#include "sim/problem/cone.h"
+
+namespace tumble {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+constexpr int kNewtonSteps = 12;
+constexpr int kProjections = 60;
+constexpr double kTurn = 1e-15;  ///< the slip direction stands when it turns less than this [rad]
+
+/// d turned by the angle whose tangent is `tangent`.
+Vec2 turned(const Vec2& d, double tangent) {
+  const double length = std::sqrt(1.0 + tangent * tangent);
+  return Vec2(d[0] - tangent * d[1], d[1] + tangent * d[0]) / length;
+}
+
+/// λ = W⁻¹ r by Cholesky; false if W is singular.
+bool solveThree(const Mat3& W, const Vec3& r, Vec3& lambda) {
+  const double floor = 1e-14 * (W(0, 0) + W(1, 1) + W(2, 2));
+  if (!(W(0, 0) > floor)) return false;
+  const double l10 = W(1, 0) / W(0, 0), l20 = W(2, 0) / W(0, 0);
+  const double d1 = W(1, 1) - l10 * W(1, 0);
+  if (!(d1 > floor)) return false;
+  const double e21 = W(2, 1) - l20 * W(1, 0), l21 = e21 / d1;
+  const double d2 = W(2, 2) - l20 * W(2, 0) - l21 * e21;
+  if (!(d2 > floor)) return false;
+  const double y1 = r[1] - l10 * r[0], y2 = r[2] - l20 * r[0] - l21 * y1;
+  lambda[2] = y2 / d2;
+  lambda[1] = y1 / d1 - l21 * lambda[2];
+  lambda[0] = r[0] / W(0, 0) - l10 * lambda[1] - l20 * lambda[2];
+  return true;
+}
+
+/// Slip direction d with u_n = 0 and u_t parallel to d: false if Newton does not find it.
+bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, Vec3& lambda) {
+  const Vec2 coupling(W(0, 1), W(0, 2)), drift(c[1], c[2]);
+  const Eigen::Matrix2d tangential = W.bottomRightCorner<2, 2>();
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    // Slip per unit of λn, with λn = −c_n/(W_nn − mu W_nt·d); h is its part across d.
+    const Vec2 across(-d[1], d[0]);
+    const double normal = W(0, 0) - mu * coupling.dot(d);
+    if (!(normal > 0.0)) return false;
+    const Vec2 slip = coupling - mu * (tangential * d) - drift * (normal / c[0]);
+    const Vec2 rate = -mu * (tangential * across) + drift * (mu * coupling.dot(across) / c[0]);
+    const double along = d.dot(slip), h = across.dot(slip), slope = across.dot(rate) - along;
+
+    // Newton's turn, or straight to the slip direction where Newton points away from it.
+    const double turn = -h / slope;
+    if (slope < 0.0 && std::abs(turn) < 1.0) {
+      d = turned(d, turn);
+    } else {
+      const double size = slip.norm();
+      if (!(size > 0.0)) return false;
+      d = slip / size;
+      continue;
+    }
+    if (std::abs(turn) > kTurn && step + 1 < kNewtonSteps) continue;
+    if (std::abs(turn) > 1e-9 || along <= 0.0) return false;
+    const double push = -c[0] / (W(0, 0) - mu * coupling.dot(d));
+    lambda = Vec3(push, -mu * push * d[0], -mu * push * d[1]);
+    return push >= 0.0;
+  }
+  return false;
+}
+
+}  // namespace
+
+Vec3 solveFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start) {
+  if (c[0] >= 0.0) return Vec3::Zero();
+  Vec3 lambda;
+  if (solveThree(W, -c, lambda)) {
+    const double held = std::sqrt(lambda[1] * lambda[1] + lambda[2] * lambda[2]);
+    if (held <= mu * lambda[0]) return lambda;
+  }
+  if (mu <= 0.0) return {-c[0] / W(0, 0), 0.0, 0.0};
+
+  const double pull = std::sqrt(start[1] * start[1] + start[2] * start[2]);
+  const double drift = std::sqrt(c[1] * c[1] + c[2] * c[2]);
+  if (pull > 0.0 && slide(W, c, mu, Vec2(-start[1], -start[2]) / pull, lambda)) return lambda;
+  if (drift > 0.0 && slide(W, c, mu, Vec2(c[1], c[2]) / drift, lambda)) return lambda;
+
+  const double rho = 1.0 / W.trace();
+  lambda = start;
+  for (int k = 0; k < kProjections; ++k) {
+    Vec3 u = W * lambda + c;
+    u[0] += mu * std::sqrt(u[1] * u[1] + u[2] * u[2]);
+    lambda = projectOnFrictionCone(lambda - rho * u, mu);
+  }
+  return lambda;
+}
+
+}  // namespace tumble

@@ -1,0 +1,69 @@
+#include "sim/problem/problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/problem/cone.h"
+
+namespace tumble {
+namespace {
+
+double rowVelocity(const Row& row, std::span<const Vec6> v) {
+  return row.linear.dot(v[row.a].head<3>() - v[row.b].head<3>()) +
+         row.angularA.dot(v[row.a].tail<3>()) + row.angularB.dot(v[row.b].tail<3>()) + row.bias;
+}
+
+/// Diagonal entry of J M⁻¹ Jᵀ: how much u of the row changes per unit of its λ.
+double rowMobility(const Problem& problem, const Row& row) {
+  return (problem.invM[row.a] + problem.invM[row.b]) * row.linear.squaredNorm() +
+         row.angularA.dot(problem.Iinv[row.a] * row.angularA) +
+         row.angularB.dot(problem.Iinv[row.b] * row.angularB);
+}
+
+}  // namespace
+
+void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<double> u) {
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) u[i] = rowVelocity(problem.rows[i], v);
+}
+
+void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda,
+                          std::span<Vec6> v) {
+  // First the impulses on each body, then the velocities they give.
+  for (Vec6& twist : v) twist.setZero();
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+    const Row& row = problem.rows[i];
+    v[row.a].head<3>() += lambda[i] * row.linear;
+    v[row.b].head<3>() -= lambda[i] * row.linear;
+    v[row.a].tail<3>() += lambda[i] * row.angularA;
+    v[row.b].tail<3>() += lambda[i] * row.angularB;
+  }
+  for (std::size_t body = 0; body < v.size(); ++body) {
+    const Vec3 angular = problem.Iinv[body] * v[body].tail<3>();
+    v[body].head<3>() = problem.vStar[body].head<3>() + problem.invM[body] * v[body].head<3>();
+    v[body].tail<3>() = problem.vStar[body].tail<3>() + angular;
+  }
+}
+
+double velocityScale(const Problem& problem) {
+  double largest = 0.0;
+  for (const Row& row : problem.rows)
+    largest = std::max(largest, std::abs(rowVelocity(row, problem.vStar)));
+  return largest > 0.0 ? largest : 1.0;
+}
+
+double naturalResidual(const Problem& problem, const Solution& solution) {
+  double worst = 0.0;
+  for (const Cone& cone : problem.cones) {
+    double u[3] = {}, mobility = 0.0;
+    for (int k = 0; k < coneRows(cone.kind); ++k) {
+      const Row& row = problem.rows[cone.row + k];
+      u[k] = rowVelocity(row, solution.v);
+      mobility = std::max(mobility, rowMobility(problem, row));
+    }
+    const double rho = mobility > 0.0 ? 1.0 / mobility : 1.0;
+    worst = std::max(worst, coneResidual(cone, &solution.lambda[cone.row], u, rho));
+  }
+  return worst / velocityScale(problem);
+}
+
+}  // namespace tumble

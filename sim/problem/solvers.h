@@ -1,0 +1,20 @@
+// Chapter 6, problem: the rows of the table of solvers.
+#pragma once
+
+#include "sim/problem/problem.h"
+
+namespace tumble {
+
+/// Projected Gauss–Seidel at velocity level: cone after cone is solved exactly while all others
+/// keep their λ, forwards and backwards in turn. Moreau 1988; Jean, The Non-Smooth Contact Dynamics
+/// Method, 1999, §4. Departure: between sweeps a step of nonlinear conjugate gradients (Silcowitz,
+/// Niebe & Erleben, A Nonsmooth Nonlinear Conjugate Gradient Method for Interactive Contact Force
+/// Problems, 2010).
+SolveReport solvePgs(const Problem& problem, const SolveSettings& settings, Solution& solution);
+
+/// Dense Dantzig pivoting (see lcp.h): pushing and equality rows at once, friction by a fixed point
+/// around them that ends on the true cone. O(n³) for n rows: for small problems.
+SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
+                          Solution& solution);
+
+}  // namespace tumble

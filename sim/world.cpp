@@ -1,0 +1,203 @@
+#include "sim/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/collide/collide.h"
+#include "sim/contact/impact.h"
+#include "sim/method/method.h"
+
+namespace tumble {
+namespace {
+
+std::string bodyPath(std::size_t i, const char* field = "") {
+  return "bodies[" + std::to_string(i) + "]" + field;
+}
+
+void need(bool holds, const std::string& where, const std::string& what) {
+  if (!holds) throw Refusal(where, what);
+}
+
+/// Mass and inertia as the author wants them; mass wins over density, inertia over the shape's.
+MassProperties massOf(const BodyDef& def, std::size_t i) {
+  need(def.mass || def.density, bodyPath(i),
+       "body \"" + def.name + "\" moves, so it needs a mass or a material with a density");
+  const double mass = def.mass ? *def.mass : *def.density * volume(def.shape);
+  need(mass > 0.0 && std::isfinite(mass), bodyPath(i, ".mass"),
+       "the mass of \"" + def.name + "\" must be a positive number of kg");
+  MassProperties properties = solidMass(def.shape, mass);
+  if (def.inertia) {
+    need(def.inertia->allFinite() && def.inertia->minCoeff() > 0.0, bodyPath(i, ".inertia"),
+         "the inertia of \"" + def.name + "\" must be three positive numbers in kg m²");
+    properties.inertia = def.inertia->asDiagonal();
+  }
+  return properties;
+}
+
+RigidBody bodyOf(const BodyDef& def, std::size_t i) {
+  need(def.position.allFinite(), bodyPath(i, ".position"), "a position must be finite");
+  need(def.velocity.allFinite(), bodyPath(i, ".velocity"), "a velocity must be finite");
+  need(def.angularVelocity.allFinite(), bodyPath(i, ".angular_velocity"),
+       "an angular velocity must be finite");
+  need(def.restitution >= 0.0 && def.restitution <= 1.0, bodyPath(i, ".restitution"),
+       "restitution must lie in [0, 1]");
+  need(def.friction >= 0.0 && std::isfinite(def.friction), bodyPath(i, ".friction"),
+       "friction must be 0 or more");
+  const Pose pose{def.position, def.orientation.normalized()};
+  need(pose.q.coeffs().allFinite(), bodyPath(i, ".orientation"),
+       "an orientation must be a quaternion that is not zero");
+  if (const HalfSpace* plane = std::get_if<HalfSpace>(&def.shape)) {
+    need(def.fixed, bodyPath(i, ".fixed"), "a plane is always fixed");
+    const double scale = def.velocity.norm() + def.angularVelocity.norm();
+    need(std::abs(plane->n.dot(def.velocity)) <= 1e-12 * scale &&
+             plane->n.cross(def.angularVelocity).norm() <= 1e-12 * scale,
+         bodyPath(i, ".velocity"),
+         "a plane can only move within itself, and turn about its normal");
+  }
+  if (def.fixed) return makeFixedBody(pose, def.velocity, def.angularVelocity);
+  RigidBody body = makeBody(massOf(def, i));
+  body.x = pose.x;
+  body.q = pose.q;
+  updateDerived(body);
+  setVelocity(body, def.velocity, def.angularVelocity);
+  return body;
+}
+
+/// Refuses pairs that the table of shapes does not know, and bodies that overlap at the start.
+void checkPairs(const Model& model, std::span<const RigidBody> bodies) {
+  const double touch = ContactTolerance::forSize(model.size).touch;
+  for (int b = 0; b < model.count(); ++b) {
+    for (int a = b + 1; a < model.count(); ++a) {
+      if (model.fixed(a) && model.fixed(b)) continue;
+      const std::string &nameA = model.def.bodies[a].name, &nameB = model.def.bodies[b].name;
+      need(canCollide(model.shapes[a], model.shapes[b]), bodyPath(a, ".shape"),
+           "\"" + nameA + "\" (" + std::string(shapeName(model.shapes[a])) + ") and \"" + nameB +
+               "\" (" + std::string(shapeName(model.shapes[b])) +
+               ") could meet, and there is no contact rule for these two shapes");
+      const double gap =
+          separation(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose());
+      char depth[32];
+      std::snprintf(depth, sizeof depth, "%.6g", -gap);
+      need(gap >= -touch, bodyPath(a, ".position"),
+           "\"" + nameA + "\" overlaps \"" + nameB + "\" by " + depth +
+               " m at the start; move them apart");
+    }
+  }
+}
+
+double worldSize(const Model& model) {
+  double size = 0.0;
+  for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
+    const double radius = boundingRadius(model.shapes[i]);
+    if (std::isfinite(radius)) size = std::max(size, radius + model.def.bodies[i].position.norm());
+  }
+  return size;
+}
+
+}  // namespace
+
+struct World::Parts {
+  Model model;
+  State state;
+  Report report;
+  const Method* method = nullptr;
+  double lastAdvance = 0.0;
+};
+
+World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
+  Model& model = parts_->model;
+  State& state = parts_->state;
+  model.def = def;
+  parts_->method = findMethod(def.method);
+  need(parts_->method, "method", "no method is called \"" + def.method + "\"");
+  need(findImpactLaw(def.impact), "impact", "no impact law is called \"" + def.impact + "\"");
+  need(def.duration > 0.0 && std::isfinite(def.duration), "duration",
+       "a duration must be a positive number of seconds");
+  need(def.gravity.allFinite(), "gravity", "gravity must be finite");
+  need(!def.bodies.empty(), "bodies", "a scene needs at least one body");
+  for (std::size_t i = 0; i < def.bodies.size(); ++i) {
+    model.shapes.push_back(def.bodies[i].shape);
+    state.bodies.push_back(bodyOf(def.bodies[i], i));
+  }
+  model.size = worldSize(model);
+  parts_->method->check(model);
+  checkPairs(model, state.bodies);
+
+  for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
+  Certificate& books = parts_->report.certificate;
+  books.energy_start =
+      kineticEnergy(state.bodies) + potentialEnergy(def.gravity, def.forces, state.bodies);
+  account(model, state, parts_->report);
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::advance(double t) {
+  const double end = std::min(t, parts_->model.def.duration);
+  trimTrail(parts_->state, parts_->lastAdvance);
+  parts_->method->advance(parts_->model, parts_->state, end, parts_->report);
+  parts_->lastAdvance = end;
+}
+
+Sample World::sample(double t) const {
+  std::vector<RigidBody> bodies;
+  std::vector<Contact> contacts;
+  parts_->method->look(parts_->model, parts_->state, t, bodies, contacts);
+  Sample sample;
+  sample.t = t;
+  for (const RigidBody& body : bodies)
+    sample.bodies.push_back({body.x, body.q, body.v, body.omega});
+  for (const Contact& c : contacts)
+    sample.contacts.push_back({c.a, c.b, c.point.p, c.point.n, c.point.separation, c.force});
+  sample.kinetic = kineticEnergy(bodies);
+  sample.potential = potentialEnergy(parts_->model.def.gravity, parts_->model.def.forces, bodies);
+  return sample;
+}
+
+const Model& World::model() const {
+  return parts_->model;
+}
+
+const Report& World::report() const {
+  return parts_->report;
+}
+
+std::vector<std::string> World::features() const {
+  const Model& model = parts_->model;
+  const auto anyBody = [&](auto&& test) {
+    return std::any_of(model.def.bodies.begin(), model.def.bodies.end(), test);
+  };
+  std::vector<std::string> list;
+  const auto add = [&](bool used, const char* name) {
+    if (used) list.emplace_back(name);
+  };
+  add(!model.def.gravity.isZero(0.0), "gravity");
+  add(model.count() > 1, "contact");
+  add(anyBody([](const BodyDef& b) { return b.restitution > 0.0; }), "restitution");
+  bool friction = false;
+  for (int b = 0; b < model.count() && !friction; ++b)
+    for (int a = b + 1; a < model.count() && !friction; ++a)
+      friction = model.surface(a, b).friction > 0.0;
+  add(friction, "friction");
+  add(anyBody([](const BodyDef& b) {
+        return b.fixed && !(b.velocity.isZero(0.0) && b.angularVelocity.isZero(0.0));
+      }),
+      "moving fixed bodies");
+  const char* kForces[] = {"wind", "drag", "point forces", "springs"};
+  for (std::size_t kind = 0; kind < std::size(kForces); ++kind)
+    add(std::any_of(model.def.forces.begin(), model.def.forces.end(),
+                    [&](const Force& f) { return f.index() == kind; }),
+        kForces[kind]);
+  return list;
+}
+
+std::vector<MethodName> methodNames() {
+  std::vector<MethodName> names;
+  for (const Method& method : methods()) names.push_back({method.name, method.summary});
+  return names;
+}
+
+}  // namespace tumble

@@ -1,0 +1,162 @@
+// The course's method on scenes with closed forms.
+#include "tests/catch.h"
+#include "tests/world/scenes.h"
+
+using namespace tumble;
+using namespace tumble::scenes;
+
+namespace {
+
+WorldDef courseWorld(double duration) {
+  WorldDef def;
+  def.method = "course";
+  def.duration = duration;
+  return def;
+}
+
+std::vector<Event> impacts(const World& world) {
+  std::vector<Event> list;
+  for (const Event& e : world.report().events)
+    if (e.kind == EventKind::Impact) list.push_back(e);
+  return list;
+}
+
+}  // namespace
+
+// Oracle: t_n = t1 (1 + 2 Σ e^k) for a ball dropped from h. Measured 2e-12 s, allowed 1e-10 s.
+TEST_CASE("a dropped ball hits the floor at the times of the geometric series") {
+  for (double e : {0.3, 0.8, 1.0}) {
+    CAPTURE(e);
+    WorldDef def = courseWorld(4.0);
+    def.bodies = {ground(), ball("ball", 0.1, {0.0, 2.1, 0.0}, e)};
+    World world(def);
+    run(world);
+    const double t1 = std::sqrt(2.0 * 2.0 / 9.81);
+    double t = t1, flight = 2.0 * t1 * e;
+    const std::vector<Event> hits = impacts(world);
+    REQUIRE(hits.size() >= 4);
+    for (int k = 0; k < 4; ++k) {
+      CHECK(hits[k].t == Approx(t).margin(1e-10));
+      t += flight;
+      flight *= e;
+    }
+    CHECK_FALSE(world.report().stopped);
+  }
+}
+
+// Oracle: t∞ = t1 (1+e)/(1−e). Zeno's bounces end in rest; measured 1e-6 s, allowed 1e-5 s.
+TEST_CASE("bounces accumulate and go over into lasting contact") {
+  for (double e : {0.2, 0.5, 0.8}) {
+    CAPTURE(e);
+    WorldDef def = courseWorld(7.0);
+    def.bodies = {ground(), box("brick", {0.4, 0.1, 0.3}, {0.0, 2.05, 0.0}, e)};
+    World world(def);
+    const Sample end = run(world);
+    double rest = -1.0;
+    for (const Event& event : world.report().events)
+      if (event.kind == EventKind::Rest) rest = event.t;
+    const double t1 = std::sqrt(2.0 * 2.0 / 9.81);
+    CHECK(rest == Approx(t1 * (1.0 + e) / (1.0 - e)).margin(1e-5));
+    CHECK(end.bodies[1].x.y() == Approx(0.05).margin(1e-9));
+    CHECK(end.bodies[1].v.norm() < 1e-9);
+    CHECK(world.report().certificate.energy_balance_error < 1e-9);
+  }
+}
+
+// Oracle: f = m g. Measured 1e-15 relative, allowed 1e-10.
+TEST_CASE("the forces under a resting brick add up to its weight") {
+  WorldDef def = courseWorld(1.0);
+  def.bodies = {ground(), box("brick", {0.4, 0.1, 0.3}, {0.0, 0.05, 0.0})};
+  World world(def);
+  const Sample end = run(world);
+  Vec3 sum = Vec3::Zero();
+  for (const ContactSample& c : end.contacts) sum += c.force;
+  CHECK(end.contacts.size() == 4);
+  CHECK((sum - Vec3(0.0, 12.0 * 9.81, 0.0)).norm() < 1e-10 * 12.0 * 9.81);
+  CHECK(end.bodies[1].v.norm() < 1e-12);
+}
+
+// Oracle: a = g (sin θ − mu cos θ) on a slope made by tilting gravity; s = ½ a t².
+// Measured 1e-13 m, allowed 1e-9 m.
+TEST_CASE("a block slides down a slope iff it is steeper than its friction") {
+  const double angle = 0.5, g = 9.81;
+  for (double mu : {0.0, 0.3, 0.54, 0.55, 0.8}) {
+    CAPTURE(mu);
+    WorldDef def = courseWorld(1.0);
+    def.gravity = {g * std::sin(angle), -g * std::cos(angle), 0.0};
+    def.bodies = {ground(0.0, mu), box("block", {0.4, 0.1, 0.3}, {0.0, 0.05, 0.0}, 0.0, mu)};
+    World world(def);
+    const Sample end = run(world);
+    const double a = std::max(0.0, g * (std::sin(angle) - mu * std::cos(angle)));
+    CHECK(end.bodies[1].x.x() == Approx(0.5 * a).margin(1e-9));
+    CHECK(std::abs(end.bodies[1].x.z()) < 1e-9);
+    CHECK(world.report().certificate.energy_balance_error < 1e-9);
+  }
+}
+
+// Oracle: stops after v²/(2 mu g) and stays. Measured 1e-12 m, allowed 1e-9 m.
+TEST_CASE("a sliding block stops where Coulomb says and does not turn back") {
+  WorldDef def = courseWorld(2.0);
+  def.bodies = {ground(0.0, 0.5), box("block", {0.4, 0.1, 0.3}, {0.0, 0.05, 0.0}, 0.0, 0.5)};
+  def.bodies[1].velocity = {1.2, 0.0, 1.6};
+  World world(def);
+  const Sample end = run(world);
+  const double way = 4.0 / (2.0 * 0.5 * 9.81);
+  CHECK(end.bodies[1].x.x() == Approx(0.6 * way).margin(1e-9));
+  CHECK(end.bodies[1].x.z() == Approx(0.8 * way).margin(1e-9));
+  CHECK(end.bodies[1].v.norm() < 1e-9);
+  const Certificate& c = world.report().certificate;
+  CHECK(c.energy_lost_friction == Approx(0.5 * 12.0 * 4.0).epsilon(1e-9));
+}
+
+// Oracle: a ball that starts sliding at v0 rolls from t = 2 v0/(7 mu g) on, at 5/7 v0.
+// Measured 1e-12, allowed 1e-9.
+TEST_CASE("a sliding ball begins to roll when its slip is used up") {
+  const double v0 = 5.0, mu = 0.3;
+  WorldDef def = courseWorld(1.0);
+  def.bodies = {ground(0.0, mu), ball("ball", 0.2, {0.0, 0.2, 0.0}, 0.0, mu)};
+  def.bodies[1].velocity = {v0, 0.0, 0.0};
+  World world(def);
+  const Sample end = run(world);
+  CHECK(end.bodies[1].v.x() == Approx(5.0 / 7.0 * v0).margin(1e-9));
+  CHECK(end.bodies[1].omega.z() == Approx(-5.0 / 7.0 * v0 / 0.2).margin(1e-8));
+  double stick = -1.0;
+  for (const Event& event : world.report().events)
+    if (event.kind == EventKind::Stick) stick = event.t;
+  CHECK(stick == Approx(2.0 * v0 / (7.0 * mu * 9.81)).margin(1e-9));
+}
+
+// Oracle: bit equality. Where a run is looked at never changes it.
+TEST_CASE("sampling never changes the motion") {
+  const auto hash = [](double rate) {
+    WorldDef def = courseWorld(1.5);
+    def.bodies = {ground(), box("brick", {0.4, 0.1, 0.3}, {0.0, 1.0, 0.0}, 0.5)};
+    def.bodies[1].orientation = fromAxisAngle({0.3, 0.2, 1.0}, 0.5);
+    World world(def);
+    for (int k = 0; k / rate < 1.5; ++k) {
+      world.advance(k / rate);
+      world.sample(k / rate);
+    }
+    world.advance(1.5);
+    return world.sample(1.5);
+  };
+  const Sample one = hash(60.0), two = hash(7.3);
+  CHECK(one.bodies[1].x == two.bodies[1].x);
+  CHECK(one.bodies[1].q.coeffs() == two.bodies[1].q.coeffs());
+  CHECK(one.bodies[1].omega == two.bodies[1].omega);
+}
+
+// Oracle: the certificate itself, on a scene with every kind of event: two free bodies, spring,
+// wind. Measured 2e-13, allowed 1e-10.
+TEST_CASE("momentum changes only by what acts from outside") {
+  WorldDef def = courseWorld(1.0);
+  def.bodies = {ground(0.0, 0.4), box("lower", {0.5, 0.5, 0.5}, {0.0, 0.6, 0.0}, 0.4, 0.4),
+                box("upper", {0.3, 0.2, 0.4}, {0.1, 1.3, 0.05}, 0.4, 0.4),
+                ball("ball", 0.1, {1.0, 0.5, 0.0}, 0.4, 0.4)};
+  def.forces = {UniformWind{3, {2.0, 0.0, 1.0}}};
+  World world(def);
+  run(world);
+  CHECK_FALSE(world.report().stopped);
+  CHECK(world.report().certificate.momentum_error < 1e-10);
+  CHECK(world.report().certificate.max_penetration < 1e-7);
+}
