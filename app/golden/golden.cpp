@@ -1,0 +1,118 @@
+#include "app/golden/golden.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/record/file.h"
+
+namespace tumble {
+
+namespace fs = std::filesystem;
+
+bool Finding::exact() const {
+  return remark.empty() && (numbers ? numbers->exact : expected && actual && image.exact);
+}
+
+bool Finding::passes() const {
+  return remark.empty() && (numbers ? numbers->passes() : expected && actual && image.passes());
+}
+
+std::string Finding::verdict() const {
+  if (!remark.empty()) return remark;
+  if (numbers) {
+    if (numbers->exact) return "equal to the last bit";
+    return fmt::format("{:.3g} of what is allowed at {}", numbers->worst, numbers->where);
+  }
+  if (!image.sameSize) return "the sizes differ";
+  if (image.exact) return "equal to the last bit";
+  return fmt::format(
+      "{:.4f} % of the pixels off by more than 2 (allowed 0.02), mean {:.5f} (allowed "
+      "0.004), largest {}",
+      100.0 * image.share, image.mean, image.largest);
+}
+
+namespace {
+
+std::string hashIn(const Manifest& manifest, const std::string& subject, const std::string& name) {
+  const auto images = manifest.images.find(subject);
+  if (images == manifest.images.end()) return "";
+  const auto hash = images->second.find(name);
+  return hash == images->second.end() ? "" : hash->second;
+}
+
+Finding compareImage(const Golden& now, const NamedImage& drawn, const Manifest& manifest,
+                     const fs::path& folder) {
+  Finding finding{.subject = now.subject, .name = drawn.name, .actual = drawn.image};
+  const fs::path file = folder / now.subject / (drawn.name + ".png");
+  if (!fs::exists(file)) {
+    finding.remark = "there is no golden of this name";
+    return finding;
+  }
+  finding.expected = readPng(file.string());
+  finding.image = compare(*finding.expected, drawn.image);
+  if (pixelHash(*finding.expected) != hashIn(manifest, now.subject, drawn.name))
+    finding.remark = "the golden is not the one in manifest.json";
+  return finding;
+}
+
+Finding compareTable(const Golden& now, const fs::path& folder) {
+  Finding finding{.subject = now.subject, .name = "numbers"};
+  const fs::path file = folder / now.subject / "numbers.csv";
+  finding.numbers = NumberDifference{};
+  if (fs::exists(file))
+    finding.numbers = compareNumbers(readFile(file.string()), now.numbers);
+  else
+    finding.remark = "there are no golden numbers";
+  return finding;
+}
+
+bool has(const Golden& golden, const std::string& name) {
+  return std::any_of(golden.images.begin(), golden.images.end(),
+                     [&](const NamedImage& image) { return image.name == name; });
+}
+
+}  // namespace
+
+std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
+                                   const std::string& folder) {
+  std::vector<Finding> findings;
+  for (const NamedImage& drawn : now.images)
+    findings.push_back(compareImage(now, drawn, manifest, folder));
+  if (!now.numbers.empty()) findings.push_back(compareTable(now, folder));
+
+  // An image of the manifest that is drawn no more is a loss, too.
+  const auto known = manifest.images.find(now.subject);
+  if (known == manifest.images.end()) return findings;
+  for (const auto& [name, hash] : known->second)
+    if (!has(now, name))
+      findings.push_back({.subject = now.subject, .name = name, .remark = "no longer drawn"});
+  return findings;
+}
+
+void storeGolden(const Golden& now, Manifest& manifest, const std::string& folder) {
+  const fs::path place = fs::path(folder) / now.subject;
+  makeFolder(place.string());
+  for (const auto& [name, hash] : manifest.images[now.subject])
+    if (!has(now, name)) fs::remove(place / (name + ".png"));
+  manifest.images[now.subject].clear();
+  for (const NamedImage& drawn : now.images) {
+    writePng((place / (drawn.name + ".png")).string(), drawn.image);
+    manifest.images[now.subject][drawn.name] = pixelHash(drawn.image);
+  }
+  if (!now.numbers.empty()) writeFile((place / "numbers.csv").string(), now.numbers);
+}
+
+std::vector<NamedImage> distinctImages(std::vector<NamedImage> candidates) {
+  std::vector<NamedImage> kept;
+  for (NamedImage& candidate : candidates) {
+    const bool isNew = std::none_of(kept.begin(), kept.end(), [&](const NamedImage& earlier) {
+      return compare(earlier.image, candidate.image).passes();
+    });
+    if (isNew) kept.push_back(std::move(candidate));
+  }
+  return kept;
+}
+
+}  // namespace tumble

@@ -1,0 +1,54 @@
+// Goldens: small images and numbers of every demo that the next version has to reproduce.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/golden/manifest.h"
+#include "app/golden/numbers.h"
+#include "render/image.h"
+
+namespace tumble {
+
+/// An image with the name of its file, without ending.
+struct NamedImage {
+  std::string name;
+  Image image;
+};
+
+/// What one subject – a demo, or the window – looks like now.
+struct Golden {
+  std::string subject;
+  std::vector<NamedImage> images;
+  std::string numbers;  ///< CSV, 17 digits; empty for a subject without motion
+};
+
+/// One comparison. An image without an expected one is missing, and fails.
+struct Finding {
+  std::string subject, name;
+  std::optional<Image> expected = {}, actual = {};  ///< of an image
+  ImageDifference image = {};
+  std::optional<NumberDifference> numbers = {};  ///< of a table
+  std::string remark = {};                       ///< what is wrong besides pixels or numbers
+  bool exact() const;
+  bool passes() const;
+  /// One line for people: passed how, or failed why.
+  std::string verdict() const;
+};
+
+/// Holds what is drawn now against folder/<subject>/*.png and numbers.csv.
+/// @throws FileError if a golden that is there cannot be read.
+std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
+                                   const std::string& folder);
+
+/// Puts a subject's images and numbers into the folder, enters them in the manifest, and removes
+/// images that are no longer drawn. @throws FileError
+void storeGolden(const Golden& now, Manifest& manifest, const std::string& folder);
+
+/// Images from the candidates that show something new: each fails against all that are kept before
+/// it.
+std::vector<NamedImage> distinctImages(std::vector<NamedImage> candidates);
+
+}  // namespace tumble

@@ -1,0 +1,44 @@
+#include "app/golden/manifest.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/record/file.h"
+
+namespace tumble {
+
+Manifest readManifest(const std::string& path) {
+  Manifest manifest;
+  if (!std::filesystem::exists(path)) return manifest;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(readFile(path));
+    json.at("gl_renderer").get_to(manifest.glRenderer);
+    json.at("gl_version").get_to(manifest.glVersion);
+    json.at("program").get_to(manifest.program);
+    json.at("images").get_to(manifest.images);
+  } catch (const nlohmann::json::exception& error) {
+    throw FileError("'" + path + "' is no manifest of goldens: " + error.what());
+  }
+  return manifest;
+}
+
+void writeManifest(const std::string& path, const Manifest& manifest) {
+  const nlohmann::ordered_json json = {{"gl_renderer", manifest.glRenderer},
+                                       {"gl_version", manifest.glVersion},
+                                       {"program", manifest.program},
+                                       {"images", manifest.images}};
+  writeFile(path, json.dump(2) + "\n");
+}
+
+std::string pixelHash(const Image& image) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto eat = [&hash](std::uint8_t byte) { hash = (hash ^ byte) * 0x100000001b3u; };
+  for (const int side : {image.width, image.height})
+    for (int shift = 0; shift < 32; shift += 8) eat(static_cast<std::uint8_t>(side >> shift));
+  for (const std::uint8_t byte : image.rgb) eat(byte);
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace tumble

@@ -1,0 +1,117 @@
+// Goldens: what passes, what fails, and what a failure leaves behind.
+#include "app/golden/golden.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/golden/report.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+namespace fs = std::filesystem;
+
+namespace {
+
+Image plain(std::uint8_t level) {
+  Image image;
+  image.width = 48;
+  image.height = 27;
+  image.rgb.assign(3 * 48 * 27, level);
+  return image;
+}
+
+// A folder that is gone when the test ends.
+struct Scratch {
+  fs::path path = fs::temp_directory_path() / ("tumble-golden-" + std::to_string(::getpid()));
+  Scratch() { fs::create_directories(path); }
+  ~Scratch() { fs::remove_all(path); }
+};
+
+Golden sample() {
+  return {"drop", {{"start", plain(40)}, {"end", plain(90)}}, "t,y\n0,2\n1,0.5\n"};
+}
+
+bool allPass(const std::vector<Finding>& findings) {
+  return std::all_of(findings.begin(), findings.end(), [](const Finding& f) { return f.passes(); });
+}
+
+}  // namespace
+
+TEST_CASE("what was stored is found again to the last bit") {
+  const Scratch scratch;
+  Manifest manifest;
+  storeGolden(sample(), manifest, scratch.path.string());
+  writeManifest((scratch.path / "manifest.json").string(), manifest);
+  const Manifest again = readManifest((scratch.path / "manifest.json").string());
+  const auto findings = compareGolden(sample(), again, scratch.path.string());
+  REQUIRE(findings.size() == 3);
+  for (const Finding& finding : findings) CHECK(finding.exact());
+}
+
+TEST_CASE("a subject without goldens fails in every part") {
+  const Scratch scratch;
+  const auto findings = compareGolden(sample(), Manifest{}, scratch.path.string());
+  REQUIRE(findings.size() == 3);
+  for (const Finding& finding : findings) CHECK_FALSE(finding.passes());
+}
+
+TEST_CASE("one level more of light, an image gone, and a hand-made golden each fail") {
+  const Scratch scratch;
+  Manifest manifest;
+  const std::string folder = scratch.path.string();
+  storeGolden(sample(), manifest, folder);
+
+  Golden brighter = sample();
+  brighter.images[0].image = plain(41);
+  CHECK_FALSE(allPass(compareGolden(brighter, manifest, folder)));
+
+  Golden fewer = sample();
+  fewer.images.pop_back();
+  CHECK_FALSE(allPass(compareGolden(fewer, manifest, folder)));
+
+  writePng((scratch.path / "drop/start.png").string(), plain(41));
+  CHECK_FALSE(allPass(compareGolden(brighter, manifest, folder)));
+}
+
+TEST_CASE("an update removes images that are no longer drawn") {
+  const Scratch scratch;
+  Manifest manifest;
+  storeGolden(sample(), manifest, scratch.path.string());
+  Golden fewer = sample();
+  fewer.images.pop_back();
+  storeGolden(fewer, manifest, scratch.path.string());
+  CHECK_FALSE(fs::exists(scratch.path / "drop/end.png"));
+  CHECK(allPass(compareGolden(fewer, manifest, scratch.path.string())));
+}
+
+TEST_CASE("only images that show something new are kept") {
+  const auto kept = distinctImages({{"a", plain(10)}, {"b", plain(10)}, {"c", plain(200)}});
+  REQUIRE(kept.size() == 2);
+  CHECK(kept[1].name == "c");
+}
+
+TEST_CASE("the report holds the failing images themselves and no link to anything outside") {
+  const Scratch scratch;
+  Manifest manifest;
+  storeGolden(sample(), manifest, scratch.path.string());
+  Golden now = sample();
+  now.images[0].image = plain(60);
+  const auto findings = compareGolden(now, manifest, scratch.path.string());
+  const std::string html = htmlReport(findings, "llvmpipe <22.3>");
+  CHECK(html.find(base64(encodePng(plain(40)))) != std::string::npos);
+  CHECK(html.find(base64(encodePng(plain(60)))) != std::string::npos);
+  CHECK(html.find("drop: start") != std::string::npos);
+  CHECK(html.find("drop: end") == std::string::npos);
+  CHECK(html.find("llvmpipe &lt;22.3&gt;") != std::string::npos);
+  CHECK(html.find("http") == std::string::npos);
+}
+
+TEST_CASE("base64 agrees with the examples of RFC 4648, section 10") {
+  const auto encode = [](const std::string& text) { return base64({text.begin(), text.end()}); };
+  CHECK(encode("") == "");
+  CHECK(encode("f") == "Zg==");
+  CHECK(encode("fo") == "Zm8=");
+  CHECK(encode("foo") == "Zm9v");
+  CHECK(encode("foobar") == "Zm9vYmFy");
+}
