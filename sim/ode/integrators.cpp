@@ -1,0 +1,46 @@
+#include "sim/ode/integrator.h"
+#include "sim/ode/steppers.h"
+
+namespace tumble {
+namespace {
+
+constexpr Integrator kIntegrators[] = {
+    {.name = "euler",
+     .summary = "follow the derivative at the start for the whole step",
+     .order = 1,
+     .make = makeEuler},
+    {.name = "symplectic-euler",
+     .summary = "kick the momenta, then drift with the new velocities",
+     .order = 1,
+     .needsKickDrift = true,
+     .make = makeSymplecticEuler},
+    {.name = "midpoint",
+     .summary = "follow the derivative half-way for the whole step",
+     .order = 2,
+     .make = makeMidpoint},
+    {.name = "rk4",
+     .summary = "weigh four derivatives: start, twice half-way, end",
+     .order = 4,
+     .make = makeRk4},
+    {.name = "dopri5",
+     .summary = "Dormand-Prince 5(4): divides a step until its error estimate is small",
+     .order = 5,
+     .adaptive = true,
+     .hasDense = true,
+     .make = makeDopri5},
+};
+
+}  // namespace
+
+std::span<const Integrator> integrators() {
+  return kIntegrators;
+}
+
+const Integrator* findIntegrator(std::string_view name) {
+  for (const Integrator& row : kIntegrators) {
+    if (row.name == name) return &row;
+  }
+  return nullptr;
+}
+
+}  // namespace tumble
