@@ -16,7 +16,7 @@ double fifthRoot(double a) {
   const int k = exponent > 0 ? (exponent + 4) / 5 : exponent / 5;
   m = std::ldexp(m, exponent - 5 * k);
   double x = 1.0;
-  for (int i = 0; i < 9; ++i) x -= (x - m / (x * x * x * x)) / 5.0;
+  for (int i = 0; i < 12; ++i) x -= (x - m / (x * x * x * x)) / 5.0;
   return std::ldexp(x, k);
 }
 
