@@ -3,6 +3,7 @@
 
 namespace tumble::command {
 int describe(int argc, char** argv);
+int doctor(int argc, char** argv);
 int list(int argc, char** argv);
 int simulate(int argc, char** argv);
 }  // namespace tumble::command
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
       {"describe", "what a scene contains, which method and features it uses, its claim",
        command::describe},
       {"simulate", "numbers only: trajectory, events, contacts, summary", command::simulate},
+      {"doctor", "what this machine offers for drawing, and what is missing", command::doctor},
   };
   return dispatch(table, argc, argv);
 }
