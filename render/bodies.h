@@ -46,7 +46,7 @@ class Bodies {
 
   static Group groupOf(const Instance& instance, const Stage& stage);
   static Shape shapeOf(const Instance& instance, const Stage& stage);
-  void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 1.0f) const;
+  void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
 
   std::vector<gl::Program> programs_;  // [use][surface]
   std::vector<Mesh> meshes_;           // [shape]

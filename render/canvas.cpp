@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/page.h"
+
 namespace tumble {
 namespace {
 
@@ -104,15 +106,14 @@ void Canvas::text(const Vector2d& pen, std::string_view utf8, const TextStyle& s
   const double share = style.align == Align::Left ? 0.0 : style.align == Align::Centre ? 0.5 : 1.0;
   const int x0 = static_cast<int>(std::lround(pen.x() * scale_ - share * line.advance)) + line.left;
   const int y0 = static_cast<int>(std::lround(pen.y() * scale_)) + line.top;
-  const auto lay = [&](const std::vector<std::uint8_t>& coverage, const Colour& colour,
-                       double alpha) {
-    for (int y = 0; y < line.height; ++y)
-      for (int x = 0; x < line.width; ++x)
-        if (const int value = coverage[static_cast<std::size_t>(y) * line.width + x])
-          blend(x0 + x, y0 + y, colour, alpha * value / 255.0);
-  };
-  lay(line.halo, ink::paper, kHaloAlpha);
-  lay(line.ink, style.colour, 1.0);
+  for (int y = 0; y < line.height; ++y) {
+    const Colour paper = paper_.value_or(pageColour((y0 + y + 0.5) / image_.height));
+    for (int x = 0; x < line.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * line.width + x;
+      if (line.halo[i]) blend(x0 + x, y0 + y, paper, kHaloAlpha * line.halo[i] / 255.0);
+      if (line.ink[i]) blend(x0 + x, y0 + y, style.colour, line.ink[i] / 255.0);
+    }
+  }
 }
 
 }  // namespace tumble

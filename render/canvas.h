@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 
 #include "render/font.h"
@@ -29,6 +30,9 @@ class Canvas {
   Canvas(Image& image, Fonts& fonts) : image_(image), fonts_(fonts), scale_(image.height / 720.0) {}
   /// The same with a scale of its own [pixels of the image per pixel drawn].
   Canvas(Image& image, Fonts& fonts, double scale) : image_(image), fonts_(fonts), scale_(scale) {}
+
+  /// The colour that text is lifted off with; without it, that of the page behind a drawing.
+  void setPaper(const Colour& paper) { paper_ = paper; }
 
   double width() const { return image_.width / scale_; }
   double height() const { return image_.height / scale_; }
@@ -65,6 +69,7 @@ class Canvas {
   Image& image_;
   Fonts& fonts_;
   double scale_;
+  std::optional<Colour> paper_;
 };
 
 }  // namespace tumble

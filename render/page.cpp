@@ -1,23 +1,21 @@
 #include "render/page.h"
 
-#include <cmath>
 #include <cstddef>
 
 namespace tumble {
 namespace {
 
 // The same as in page.glsl.
-constexpr double kTop[3] = {235.0, 239.0, 244.0}, kBottom[3] = {250.0, 249.0, 246.0};
+constexpr float kTop[3] = {235.0f, 239.0f, 244.0f}, kBottom[3] = {250.0f, 249.0f, 246.0f};
 
 Image emptyPage(int width, int height) {
   Image page{width, height, {}};
   page.rgb.reserve(3u * static_cast<std::size_t>(width) * height);
   for (int y = 0; y < height; ++y) {
-    const double s = (y + 0.5) / height;
-    std::uint8_t colour[3];
-    for (int c = 0; c < 3; ++c)
-      colour[c] = static_cast<std::uint8_t>(std::lround(kTop[c] + s * (kBottom[c] - kTop[c])));
-    for (int x = 0; x < width; ++x) page.rgb.insert(page.rgb.end(), colour, colour + 3);
+    const Colour colour = pageColour((y + 0.5) / height);
+    std::uint8_t level[3];
+    for (int c = 0; c < 3; ++c) level[c] = static_cast<std::uint8_t>(255.0f * colour[c] + 0.5f);
+    for (int x = 0; x < width; ++x) page.rgb.insert(page.rgb.end(), level, level + 3);
   }
   return page;
 }
@@ -43,6 +41,13 @@ void cover(Image& page, const Layer& layer) {
 }
 
 }  // namespace
+
+Colour pageColour(double s) {
+  const auto t = static_cast<float>(s);
+  Colour colour;
+  for (int c = 0; c < 3; ++c) colour[c] = (kTop[c] + t * (kBottom[c] - kTop[c])) / 255.0f;
+  return colour;
+}
 
 Image composePage(int width, int height, const Layer& floor, const Layer& bodies) {
   Image page = emptyPage(width, height);

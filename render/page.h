@@ -2,9 +2,13 @@
 #pragma once
 
 #include "render/image.h"
+#include "render/picture.h"
 #include "render/targets.h"
 
 namespace tumble {
+
+/// Colour of the page at a height, s = 0 at the top of the image and 1 at the bottom.
+Colour pageColour(double s);
 
 /// Bodies over floor over a page that brightens downwards. Layers are premultiplied:
 ///   c = c_bodies + (1 − α_bodies) (c_floor + (1 − α_floor) c_page), in 8-bit sRGB, rounded once a

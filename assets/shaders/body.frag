@@ -7,6 +7,7 @@ flat in vec3 bodyNormal, half_B, centre, colour;
 flat in vec4 turnBody;
 flat in float alpha;
 uniform float opacity;            // of the whole pass
+uniform float keepAbove;          // as in body.vert
 layout(location = 0) out vec4 result;
 
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
@@ -70,6 +71,15 @@ vec3 spinMark(vec3 base, Surface s) {
 #endif
 }
 
+// Share of this fragment on the wanted side of the floor; boxes and cylinders are cut before.
+float kept(Surface s) {
+#ifdef BALL
+  return keepAbove == 0.0 ? 1.0 : clamp(0.5 + keepAbove * s.point.y / max(fwidth(s.point.y), 1e-6), 0.0, 1.0);
+#else
+  return 1.0;
+#endif
+}
+
 void main() {
 #if defined(BOX)
   Surface s = boxSurface();
@@ -78,6 +88,8 @@ void main() {
 #else
   Surface s = cylinderSurface();
 #endif
+  float share = kept(s);
+  if (share == 0.0) discard;
   vec3 toEye = normalize(eye.xyz - s.point);
   float facing = abs(dot(s.normal, toEye));
 #if defined(GLASS)
@@ -95,6 +107,6 @@ void main() {
   float limb = (1.0 - facing) * (1.0 - facing);
   c *= sqrt(1.0 - 0.38 * limb * limb);
 #endif
-  result = vec4(c, opacity * alpha);
+  result = vec4(c, opacity * alpha * share);
 #endif
 }

@@ -9,7 +9,7 @@ out vec2 heights;                 // lowest and highest point of the body above 
 flat out vec3 bodyNormal, half_B, centre, colour;
 flat out vec4 turnBody;
 flat out float alpha, present;
-uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below
+uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below, 0 all
 
 // A ball is a disc that faces the onlooker, for the camera the circle where its rays touch the ball.
 vec3 ballCorner(vec3 c, float r) {
@@ -46,7 +46,11 @@ void main() {
   float rise = 0.0;
 #endif
   heights = worldPoint.y + vec2(-rise, rise);
+#ifdef BALL
+  gl_ClipDistance[0] = 1.0;         // the fragment knows where the surface is
+#else
   gl_ClipDistance[0] = keepAbove * worldPoint.y;
+#endif
 
 #if defined(FROM_LIGHT)
   gl_Position = lightProjection * vec4(worldPoint, 1.0);

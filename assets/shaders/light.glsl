@@ -7,12 +7,18 @@ const vec3 kGround = vec3(0.36, 0.345, 0.33), kSky = vec3(0.46, 0.485, 0.52);
 
 vec3 ambient(vec3 n) { return mix(kGround, kSky, 0.5 + 0.5 * n.y); }
 
-// Share of the key light that arrives: four taps of the shadow map, about one texel apart.
+// Share of the key light that arrives: 3 by 3 comparisons, weighted by a quadratic spline about the
+// point, so that the edge of a shadow moves smoothly from texel to texel.
 float lit(vec3 p) {
   vec3 m = (lightProjection * vec4(p, 1.0)).xyz * 0.5 + 0.5;
   float t = image.z;
-  return 0.25 * (texture(shadowMap, m + vec3(-0.75, -0.25, 0.0) * t) + texture(shadowMap, m + vec3(0.25, -0.75, 0.0) * t) +
-                 texture(shadowMap, m + vec3(0.75, 0.25, 0.0) * t) + texture(shadowMap, m + vec3(-0.25, 0.75, 0.0) * t));
+  vec2 f = m.xy / t - floor(m.xy / t) - 0.5, near = 0.5 * (0.5 - f) * (0.5 - f), far = 0.5 * (0.5 + f) * (0.5 + f);
+  vec3 wx = vec3(near.x, 0.75 - f.x * f.x, far.x), wy = vec3(near.y, 0.75 - f.y * f.y, far.y);
+  float sum = 0.0;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      sum += wx[i] * wy[j] * texture(shadowMap, m + t * vec3(float(i - 1), float(j - 1), 0.0));
+  return sum;
 }
 
 vec2 aboveCoordinate(vec3 p) { return 0.5 + 0.5 * vec2(p.x, -p.z) / extent.y; }
