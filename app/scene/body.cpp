@@ -1,0 +1,132 @@
+#include "app/scene/body.h"
+
+#include "app/scene/settings.h"
+#include "app/scene/shape.h"
+
+namespace tumble {
+
+namespace {
+
+constexpr std::size_t kMostBodies = 100'000;
+constexpr std::size_t kLongestLabel = 200;
+
+void readMass(Section& section, BodyDef& def) {
+  section.read("mass", def.mass, positive("kg"));
+  section.read("inertia", def.inertia, positive("kg m²"));
+  if (!def.inertia) return;
+  const Vec3& I = *def.inertia;
+  if (2.0 * I.maxCoeff() > I.sum() * (1.0 + 1e-12))
+    section.complain("inertia", "no body has these: one is larger than the sum of the other two");
+}
+
+void readMotion(Section& section, BodyDef& def) {
+  section.read("position", def.position, any("m"));
+  readOrientation(section, def.orientation);
+  section.read("velocity", def.velocity, any("m/s"));
+  section.read("angular_velocity", def.angularVelocity, any("rad/s"));
+  Vec3 omega_B = Vec3::Zero();
+  section.read("angular_velocity_body", omega_B, any("rad/s"));
+  if (!section.find("angular_velocity_body")) return;
+  if (section.find("angular_velocity"))
+    section.complain("angular_velocity_body", "angular_velocity is given too; keep one");
+  def.angularVelocity = def.orientation * omega_B;
+}
+
+// A half-space is fixed and stands where its n and d say.
+void checkPlane(Section& section, BodyDef& def) {
+  if (section.find("fixed") && !def.fixed) section.complain("fixed", "a plane is always fixed");
+  def.fixed = true;
+  for (const char* key : {"position", "orientation"})
+    if (section.find(key))
+      section.complain(key, "a plane stands where its [nx, ny, nz, d] says; leave this out");
+}
+
+}  // namespace
+
+BodyEntry readBody(Section& section, const std::string& name, const Materials& materials) {
+  BodyEntry entry;
+  BodyDef& def = entry.def;
+  def.name = name;
+
+  // The surface and density of the material, unless the body has its own.
+  Material surface;
+  section.read("material", def.material);
+  const auto row = materials.find(def.material);
+  if (row != materials.end())
+    surface = row->second;
+  else if (section.find("material"))
+    section.complain("material", "unknown material " + quoted(def.material) +
+                                     hint(def.material, namesOf(materials)));
+  surface.read(section);
+  def.density = surface.density;
+  def.restitution = surface.restitution;
+  def.friction = surface.friction;
+  entry.colour = surface.colour;
+  section.read("label", entry.label);
+  if (entry.label.size() > kLongestLabel) section.complain("label", "longer than 200 bytes");
+
+  section.read("fixed", def.fixed);
+  readMass(section, def);
+  readMotion(section, def);
+  if (const std::optional<Shape> shape = readShape(section)) {
+    def.shape = *shape;
+    if (std::get_if<HalfSpace>(&def.shape)) checkPlane(section, def);
+    if (!def.fixed && !def.mass && !def.density)
+      section.complain("mass",
+                       "missing; a moving body needs a mass, or a density of its own or its "
+                       "material's");
+  }
+  return entry;
+}
+
+void Bodies::add(BodyEntry entry, Spot spot, Section& section) {
+  const std::string& name = entry.def.name;
+  if (!isName(name))
+    section.findings().complain(spot, section.path("name"),
+                                "expected 1 to 64 of A-Z a-z 0-9 _ and ., found " + quoted(name));
+  else if (!indices_.emplace(name, static_cast<int>(next())).second)
+    section.findings().complain(spot, section.path("name"),
+                                "there is a body " + quoted(name) + " already");
+  scene_.colours.push_back(entry.colour);
+  scene_.labels.push_back(std::move(entry.label));
+  scene_.world.bodies.push_back(std::move(entry.def));
+}
+
+bool Bodies::full(Spot spot, Findings& findings) const {
+  if (next() < kMostBodies) return false;
+  findings.complain(spot, "", "more than " + std::to_string(kMostBodies) + " bodies");
+  return true;
+}
+
+std::optional<int> Bodies::named(Section& section, std::string_view key) const {
+  std::string name;
+  section.read(key, name);
+  if (!section.find(key) || !section.good()) return {};
+  const auto it = indices_.find(name);
+  if (it != indices_.end()) return it->second;
+  std::vector<std::string> names;
+  for (const BodyDef& body : scene_.world.bodies) names.push_back(body.name);
+  section.complain(key, "unknown body " + quoted(name) + hint(name, names));
+  return {};
+}
+
+void readBodies(Section& root, const Materials& materials, Bodies& bodies) {
+  int number = 0;
+  for (const Node& node : root.tables("body")) {
+    if (bodies.full(node.spot, root.findings())) return;
+    // The name first: complaints about the other keys use it.
+    const std::string index = std::to_string(number++);
+    const Table* table = node.as<Table>();
+    const Entry* given = table ? table->find("name") : nullptr;
+    const std::string* name = given ? given->node.as<std::string>() : nullptr;
+    Section section(node, "body." + (name && isName(*name) ? *name : index), root.findings(),
+                    bodies.nextPath());
+    std::string text = "body." + index;
+    section.read("name", text);
+    BodyEntry entry = readBody(section, text, materials);
+    section.finish();
+    bodies.add(std::move(entry), given ? given->node.spot : node.spot, section);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,44 @@
+// One table [[body]], or the template of an array, to a body of the world.
+#pragma once
+
+#include "app/scene/material.h"
+
+namespace tumble {
+
+/// A body with what is drawn of it.
+struct BodyEntry {
+  BodyDef def;
+  std::optional<Rgb> colour;
+  std::string label;
+};
+
+/// Reads all keys of a body but its name, which the caller has found already.
+/// A key of the body wins over its material.
+BodyEntry readBody(Section& section, const std::string& name, const Materials& materials);
+
+/// Appends to the scene, where forces will look for the name.
+class Bodies {
+ public:
+  explicit Bodies(Scene& scene) : scene_(scene) {}
+
+  /// Complains, at the spot and on behalf of the section, about a name that is taken or not a name.
+  void add(BodyEntry entry, Spot spot, Section& section);
+  /// Index of the next body; its path into the world is "bodies[next]".
+  std::size_t next() const { return scene_.world.bodies.size(); }
+  std::string nextPath() const { return "bodies[" + std::to_string(next()) + "]"; }
+  /// True, after a complaint, if there are so many bodies that no more are taken.
+  bool full(Spot spot, Findings& findings) const;
+
+  /// Index of the body that the key of the section names; nothing, after a complaint, if there is
+  /// none.
+  std::optional<int> named(Section& section, std::string_view key) const;
+
+ private:
+  Scene& scene_;
+  std::map<std::string, int> indices_;
+};
+
+/// Reads [[body]].
+void readBodies(Section& root, const Materials& materials, Bodies& bodies);
+
+}  // namespace tumble

@@ -1,0 +1,40 @@
+#include "app/scene/choices.h"
+
+#include "sim/contact/impact.h"
+#include "sim/ode/integrator.h"
+#include "sim/problem/problem.h"
+#include "sim/world.h"
+
+namespace tumble {
+
+namespace {
+
+template <class Rows>
+std::vector<std::string> namesOf(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.emplace_back(row.name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> methodChoices() {
+  return namesOf(methodNames());
+}
+std::vector<std::string> impactChoices() {
+  return namesOf(impactLaws());
+}
+std::vector<std::string> integratorChoices() {
+  return namesOf(integrators());
+}
+std::vector<std::string> solverChoices() {
+  return namesOf(solvers());
+}
+std::vector<std::string> planChoices() {
+  return {"backstep"};
+}
+std::vector<std::string> contactChoices() {
+  return {"constraint"};
+}
+
+}  // namespace tumble

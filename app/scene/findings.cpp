@@ -1,0 +1,80 @@
+#include "app/scene/findings.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace tumble {
+
+namespace {
+
+constexpr std::size_t kMostComplaints = 100;
+constexpr std::size_t kMostListed = 16;   // names in a hint
+constexpr std::size_t kLongestWord = 64;  // a slip of the finger happens in shorter words
+
+int slips(std::string_view a, std::string_view b) {
+  // Three rows of the table of distances between prefixes: a swap looks two rows back.
+  std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::swap(before, last);
+    std::swap(last, row);
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+void Findings::complain(Spot spot, const std::string& key, const std::string& what) {
+  diagnostics_.push_back({place(spot), key.empty() ? what : key + ": " + what});
+  if (diagnostics_.size() >= kMostComplaints) raise();
+}
+
+void Findings::raise() {
+  if (diagnostics_.empty()) return;
+  std::stable_sort(
+      diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+        return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
+      });
+  throw SceneError(std::move(diagnostics_));
+}
+
+std::string nearestName(std::string_view word, const std::vector<std::string>& names) {
+  if (word.size() > kLongestWord) return "";
+  int fewest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  std::string nearest;
+  int begun = 0;
+  std::string longer;
+  for (const std::string& name : names) {
+    if (name.size() > kLongestWord) continue;
+    const int count = slips(word, name);
+    if (count < fewest) {
+      fewest = count;
+      nearest = name;
+    }
+    if (!word.empty() && name.starts_with(word)) {
+      ++begun;
+      longer = name;
+    }
+  }
+  if (!nearest.empty()) return nearest;
+  return begun == 1 ? longer : "";
+}
+
+std::string hint(std::string_view word, const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  const std::string nearest = nearestName(word, names);
+  std::string text = nearest.empty() ? "; valid: " : ", did you mean '" + nearest + "'? Valid: ";
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+    text += (i == 0 ? "" : ", ") + names[i];
+  return text + (names.size() > kMostListed ? ", …" : "");
+}
+
+}  // namespace tumble

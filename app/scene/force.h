@@ -1,0 +1,10 @@
+// [[force]]: wind, drag, point forces and springs.
+#pragma once
+
+#include "app/scene/body.h"
+
+namespace tumble {
+
+void readForces(Section& root, const Bodies& bodies, std::vector<Force>& forces);
+
+}  // namespace tumble

@@ -1,0 +1,145 @@
+#include "app/scene/node.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace tumble {
+
+namespace {
+
+constexpr std::size_t kLongestQuote = 60;
+
+// The shortest digits that read back as the same double.
+std::string shortest(double x) {
+  if (std::isnan(x)) return "nan";
+  if (std::isinf(x)) return x > 0.0 ? "inf" : "-inf";
+  char digits[32];
+  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, x);
+  return std::string(digits, end.ptr);
+}
+
+bool isWord(const std::string& text) {
+  const auto isLetter = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(), isLetter) && text != "true" && text != "false" &&
+         text != "inf" && text != "nan";
+}
+
+// A TOML basic string: quotes, backslashes and control characters escaped.
+std::string escaped(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const unsigned char code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      constexpr char hex[] = "0123456789abcdef";
+      out += std::string("\\u00") + hex[code >> 4] + hex[code & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+struct Writer {
+  std::string operator()(Moment) const { return "1970-01-01"; }
+  std::string operator()(bool b) const { return b ? "true" : "false"; }
+  std::string operator()(std::int64_t i) const { return std::to_string(i); }
+  std::string operator()(double x) const { return shortest(x); }
+  std::string operator()(const std::string& text) const {
+    return isWord(text) ? text : escaped(text);
+  }
+  std::string operator()(const Array& array) const {
+    std::string out;
+    for (const Node& node : array) out += (out.empty() ? "" : ", ") + inner(node);
+    return "[" + out + "]";
+  }
+  std::string operator()(const Table& table) const {
+    std::string out;
+    for (const Entry& entry : table.entries)
+      out += (out.empty() ? "" : ", ") + escaped(entry.key) + " = " + inner(entry.node);
+    return "{" + out + "}";
+  }
+  // Inside a bracket every string needs its quotes.
+  std::string inner(const Node& node) const {
+    const std::string* text = node.as<std::string>();
+    return text ? escaped(*text) : std::visit(*this, node.value);
+  }
+};
+
+auto lowerBound(auto& entries, std::string_view key) {
+  return std::lower_bound(entries.begin(), entries.end(), key,
+                          [](const Entry& entry, std::string_view k) { return entry.key < k; });
+}
+
+}  // namespace
+
+Entry* Table::find(std::string_view key) {
+  const auto it = lowerBound(entries, key);
+  return it != entries.end() && it->key == key ? &*it : nullptr;
+}
+
+const Entry* Table::find(std::string_view key) const {
+  const auto it = lowerBound(entries, key);
+  return it != entries.end() && it->key == key ? &*it : nullptr;
+}
+
+Entry& Table::at(std::string_view key, Spot spot) {
+  if (Entry* entry = find(key)) return *entry;
+  return *entries.insert(lowerBound(entries, key), Entry{std::string(key), spot, {spot, {}}});
+}
+
+bool Node::number(double& out) const {
+  if (const std::int64_t* i = as<std::int64_t>()) {
+    out = static_cast<double>(*i);
+    return true;
+  }
+  if (const double* x = as<double>()) {
+    out = *x;
+    return true;
+  }
+  return false;
+}
+
+std::string describe(const Node& node) {
+  if (node.as<Moment>()) return "a date or time";
+  if (node.as<Table>()) return "a table";
+  if (const Array* array = node.as<Array>())
+    return array->size() == 1 ? "a list of 1 value"
+                              : "a list of " + std::to_string(array->size()) + " values";
+  if (const std::string* text = node.as<std::string>()) return "the string " + quoted(*text);
+  return toToml(node);
+}
+
+std::string toToml(const Node& node) {
+  return std::visit(Writer{}, node.value);
+}
+
+std::string quoted(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, kLongestQuote)) {
+    const unsigned char code = static_cast<unsigned char>(c);
+    out += code < 0x20 || code == 0x7f ? '?' : c;
+  }
+  // A cut must not end inside a UTF-8 sequence.
+  if (text.size() > kLongestQuote) {
+    while (!out.empty() && (static_cast<unsigned char>(out.back()) & 0x80) != 0) out.pop_back();
+    out += "…";
+  }
+  return "'" + out + "'";
+}
+
+bool isName(std::string_view text) {
+  const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; };
+  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), allowed);
+}
+
+std::string plain(std::string_view key) {
+  return isName(key) ? std::string(key) : quoted(key);
+}
+
+}  // namespace tumble

@@ -1,0 +1,21 @@
+// --set key.path=value: changes the text's tree before it gets a meaning.
+#pragma once
+
+#include "app/scene/findings.h"
+
+namespace tumble {
+
+/// "key.path" and the value behind the first '='.
+struct Override {
+  std::string key, value;
+};
+
+/// @throws UsageError if there is no '=' or a part of the key is empty.
+Override splitOverride(const std::string& text);
+
+/// Replaces the value at the key, or makes it. Elements of an array of tables are addressed by
+/// their `name` or by number from 0; a name with dots is found too. The value is TOML, or else a
+/// string. Complains about an element or material that is not there. `source` counts from 1.
+void apply(const Override& override, int source, Node& root, Findings& findings);
+
+}  // namespace tumble

@@ -1,0 +1,21 @@
+// The tables of a scene that hold single settings: [world] [course] [stepping] [camera] [image]
+// [show].
+#pragma once
+
+#include "app/scene/section.h"
+
+namespace tumble {
+
+void readTexts(Section& root, Scene& scene);
+void readWorld(Section& root, Scene& scene);
+void readCourse(Section& root, CourseSettings& course);
+void readStepping(Section& root, SteppingSettings& stepping);
+void readCamera(Section& root, CameraView& camera);
+void readImage(Section& root, ImageFormat& image);
+void readShow(Section& root, ShowFlags& show);
+void readSweep(Section& root, std::optional<Sweep>& sweep);
+
+/// A colour, sRGB in [0, 1].
+void readColour(Section& section, std::optional<Rgb>& colour);
+
+}  // namespace tumble

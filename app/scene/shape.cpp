@@ -1,0 +1,105 @@
+// `shape = { box = [1, 2, 3] }` and `orientation = …`.
+#include "app/scene/shape.h"
+
+#include <array>
+
+#include "sim/math/rotation.h"
+
+namespace tumble {
+
+namespace {
+
+// Shorter, an inertia would underflow; longer, a volume would drown everything else.
+constexpr Range kLength{1e-9, 1e6, false, "m"};
+
+std::optional<Shape> readSphere(Section& shape) {
+  Sphere sphere;
+  shape.read("sphere", sphere.r, kLength);
+  return sphere;
+}
+
+std::optional<Shape> readBox(Section& shape) {
+  Vec3 edges = Vec3::Ones();
+  shape.read("box", edges, kLength);
+  return Box{0.5 * edges};
+}
+
+std::optional<Shape> readCylinder(Section& shape) {
+  double size[2] = {0.5, 1.0};
+  shape.read("cylinder", size, 2, kLength);
+  return Cylinder{size[0], size[1]};
+}
+
+std::optional<Shape> readPlane(Section& shape) {
+  double p[4] = {0.0, 1.0, 0.0, 0.0};
+  shape.read("plane", p, 4, any("m"));
+  const Vec3 n(p[0], p[1], p[2]);
+  const double length = n.stableNorm();
+  if (length < 1e-9) {
+    shape.complain("plane", "expected [nx, ny, nz, d] with a normal that is not zero");
+    return {};
+  }
+  return HalfSpace{n / length, p[3] / length};
+}
+
+struct ShapeRow {
+  const char* name;
+  std::optional<Shape> (*read)(Section&);
+};
+constexpr std::array<ShapeRow, 4> kShapes = {
+    {{"sphere", readSphere}, {"box", readBox}, {"cylinder", readCylinder}, {"plane", readPlane}}};
+
+}  // namespace
+
+std::optional<Shape> readShape(Section& body) {
+  const Node* node = body.find("shape");
+  if (!node) {
+    body.complain("shape", "missing, for example shape = { sphere = 0.1 }");
+    return {};
+  }
+  Section section(*node, body.path("shape"), body.findings());
+  std::optional<Shape> shape;
+  int given = 0;
+  for (const ShapeRow& row : kShapes) {
+    if (!section.find(row.name)) continue;
+    shape = row.read(section);
+    ++given;
+  }
+  section.finish();
+  if (!section.good()) return {};
+  if (given != 1) {
+    body.complain("shape", "expected one of sphere, box, cylinder, plane, found " +
+                               std::to_string(given) + " of them");
+    return {};
+  }
+  return shape;
+}
+
+void readOrientation(Section& section, Quat& out) {
+  const Node* node = section.find("orientation");
+  if (!node) return;
+  if (node->as<Table>()) {
+    Section turn(*node, section.path("orientation"), section.findings());
+    Vec3 axis = Vec3::Zero();
+    double degrees = 0.0;
+    turn.read("axis", axis, any({}));
+    turn.read("degrees", degrees, {-1e6, 1e6, false, "deg"});
+    turn.finish();
+    if (!turn.good()) return;
+    if (axis.stableNorm() < 1e-9)
+      return turn.complain("axis", "expected three numbers that are not all zero");
+    out = fromAxisAngle(axis.stableNormalized(), degrees * (3.14159265358979323846 / 180.0));
+    return;
+  }
+  double wxyz[4] = {0.0, 0.0, 0.0, 0.0};
+  const std::size_t before = section.findings().count();
+  section.read("orientation", wxyz, 4, any({}));
+  if (section.findings().count() != before) return;
+  const Vec4 q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  const double length = q.stableNorm();
+  if (length < 1e-9)
+    return section.complain("orientation", "expected [w, x, y, z] that is not zero");
+  out = Quat(q[0] / length, q[1] / length, q[2] / length, q[3] / length);
+}
+
+}  // namespace tumble
