@@ -55,10 +55,4 @@ class Bodies {
   std::array<std::array<Range, kShapes>, kGroups> ranges_{};
 };
 
-/// Lowest point of a body [m], world.
-double lowestPoint(const Instance& instance);
-
-/// Radius of a ball about the body's position that holds it [m].
-double reachOf(const Instance& instance);
-
 }  // namespace tumble

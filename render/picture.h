@@ -29,6 +29,12 @@ struct Instance {
   Finish finish = Finish::Solid;
 };
 
+/// Lowest point of a body [m], world.
+double lowestPoint(const Instance& instance);
+
+/// Radius of a ball about the body's position that holds it [m].
+double reachOf(const Instance& instance);
+
 enum class Stroke { Solid, Dotted };
 
 /// A line through world points; the hidden part is drawn fainter.

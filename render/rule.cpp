@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/bodies.h"
 #include "render/overlay.h"
 
 namespace tumble {

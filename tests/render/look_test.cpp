@@ -1,0 +1,176 @@
+// What the picture says about space: shadows, ghosts, glass, bodies that sank.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/camera.h"
+#include "render/overlay.h"
+#include "render/sheet.h"
+#include "tests/render/plates.h"
+#include "tests/render/studio.h"
+
+using namespace tumble;
+using Eigen::Vector3d;
+
+namespace {
+
+const RenderOptions kFull;
+
+Picture stage() {
+  Picture picture;
+  picture.camera = {{0.0, 3.0, 9.0}, {0.0, 0.5, 0.0}, 30.0};
+  picture.centre = {0.0, 0.5, 0.0};
+  picture.radius = 2.5;
+  picture.floor.rule = false;
+  picture.floor.grid = picture.floor.fineGrid = 0.0;
+  return picture;
+}
+
+Instance box(const Vector3d& position, Finish finish) {
+  Instance body;
+  body.position = position;
+  body.scale = {0.3, 0.3, 0.3};
+  body.finish = finish;
+  body.alpha = 0.6f;
+  return body;
+}
+
+double brightnessAt(const Image& image, const Picture& picture, const Vector3d& point) {
+  const Vector3d place = *Projection(picture.camera, 1280, 720).project(point);
+  return brightness(image, static_cast<int>(place.x()), static_cast<int>(place.y()));
+}
+
+}  // namespace
+
+// Oracle: geometry. The light stands 38° to the left of the onlooker (who looks along −Z here) and
+// 52° high: a point at height y casts its shadow y/tan 52° away, to the right and backwards.
+TEST_CASE("a ball casts its shadow where the light says") {
+  Picture picture = stage();
+  const Image empty = studio().draw(picture, kFull);
+  Instance ball;
+  ball.form = Form::Sphere;
+  ball.position = {-0.4, 0.7, 0.3};
+  ball.scale = Vector3d::Constant(0.25);
+  picture.instances = {ball};
+  const Image image = studio().draw(picture, kFull);
+  const double degree = std::numbers::pi / 180.0, away = 0.7 / std::tan(52.0 * degree);
+  const Vector3d foot(-0.4, 0.0, 0.3),
+      towards(std::sin(38.0 * degree), 0.0, -std::cos(38.0 * degree));
+  const auto ratio = [&](const Vector3d& point) {
+    return brightnessAt(image, picture, point) / brightnessAt(empty, picture, point);
+  };
+  CHECK(ratio(foot + away * towards) < 0.90);
+  CHECK(ratio(foot - away * towards) > 0.99);
+  CHECK(ratio(foot + away * Vector3d(-towards.x(), 0.0, towards.z())) > 0.98);
+}
+
+TEST_CASE("a body shades the body behind it in the light, and a ghost does not") {
+  Picture picture = stage();
+  picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid)};
+  const Image alone = studio().draw(picture, kFull);
+  const double degree = std::numbers::pi / 180.0;
+  const Vector3d light(-std::sin(38.0 * degree) * std::cos(52.0 * degree), std::sin(52.0 * degree),
+                       std::cos(38.0 * degree) * std::cos(52.0 * degree));
+  const Vector3d top(0.0, 0.6, 0.0);
+  for (const Finish finish : {Finish::Solid, Finish::Ghost}) {
+    Picture shaded = picture;
+    shaded.instances.push_back(box(top + 1.2 * light, finish));
+    const double ratio = brightnessAt(studio().draw(shaded, kFull), picture, top) /
+                         brightnessAt(alone, picture, top);
+    if (finish == Finish::Solid)
+      CHECK(ratio < 0.85);
+    else
+      CHECK(ratio > 0.97);
+  }
+}
+
+// Oracle: symmetry. At each sample only the nearest ghost is seen, so the order of ghosts means
+// nothing.
+TEST_CASE("ghosts and glass look the same in whatever order they are given") {
+  for (const Finish finish : {Finish::Ghost, Finish::Glass}) {
+    Picture picture = stage();
+    for (int i = 0; i < 6; ++i) {
+      Instance body = box({-0.5 + 0.2 * i, 0.4 + 0.1 * i, 0.3 * (i % 3)}, finish);
+      body.colour = {0.2f * static_cast<float>(i % 5), 0.5f, 0.7f};
+      picture.instances.push_back(body);
+    }
+    Picture reversed = picture;
+    std::reverse(reversed.instances.begin(), reversed.instances.end());
+    CHECK(studio().draw(picture, kFull) == studio().draw(reversed, kFull));
+  }
+}
+
+// Oracle: by hand. One behind the other, ghosts do not add up.
+TEST_CASE("two ghosts in line are no denser than the nearer one") {
+  Picture one = stage();
+  one.floor.visible = false;
+  one.instances = {box({0.0, 0.5, 0.5}, Finish::Ghost)};
+  Picture two = one;
+  two.instances.push_back(box({0.0, 0.5, -0.5}, Finish::Ghost));
+  const Image alone = studio().draw(one, kFull), both = studio().draw(two, kFull);
+  CHECK(brightnessAt(both, one, {0.0, 0.5, 0.8}) == brightnessAt(alone, one, {0.0, 0.5, 0.8}));
+}
+
+// Oracle: closed form of the lowest point of each form, turned by an angle a about Z.
+TEST_CASE("the lowest point of a turned body is known") {
+  const double a = 0.4, s = std::sin(a), c = std::cos(a);
+  Instance body;
+  body.position = {5.0, 2.0, 1.0};
+  body.orientation = Eigen::AngleAxisd(a, Vector3d::UnitZ());
+  body.scale = {0.3, 0.2, 0.3};
+  CHECK(lowestPoint(body) == Approx(2.0 - (0.3 * s + 0.2 * c)).epsilon(1e-12));
+  body.form = Form::Cylinder;
+  CHECK(lowestPoint(body) == Approx(2.0 - (0.3 * s + 0.2 * c)).epsilon(1e-12));
+  body.form = Form::Sphere;
+  CHECK(lowestPoint(body) == Approx(2.0 - 0.3).epsilon(1e-12));
+}
+
+// Oracle: by hand. Below the floor 35 % of the body are left over the floor.
+TEST_CASE("what sank below the floor shows through it") {
+  for (const Form form : {Form::Box, Form::Sphere, Form::Cylinder}) {
+    Picture picture = stage();
+    const Image empty = studio().draw(picture, kFull);
+    Instance body = box({0.0, 0.05, 0.0}, Finish::Solid);
+    body.form = form;
+    body.colour = {0.1f, 0.1f, 0.1f};
+    picture.instances = {body};
+    const Image image = studio().draw(picture, kFull);
+    // On the front of each body, 0.1 m above the floor and 0.12 m below it.
+    const auto front = [&](double y) {
+      const double depth = form == Form::Sphere ? std::sqrt(0.09 - (y - 0.05) * (y - 0.05)) : 0.3;
+      return Vector3d(0.0, y, depth);
+    };
+    const double above = brightnessAt(image, picture, front(0.10)),
+                 below = brightnessAt(image, picture, front(-0.12));
+    const double floor = brightnessAt(empty, picture, front(-0.12));
+    CHECK(above < 0.35 * floor);
+    CHECK(below > 0.62 * floor);
+    CHECK(below < 0.85 * floor);
+  }
+}
+
+TEST_CASE("numbers on a scale have a true minus and as many digits as their step needs") {
+  CHECK(formatTick(-1.5, 0.5) == "\u22121.5");
+  CHECK(formatTick(2.0, 1.0) == "2");
+  CHECK(formatTick(-1e-17, 0.5) == "0.0");
+  CHECK(formatTick(0.25, 0.05) == "0.25");
+  CHECK(formatTick(300.0, 100.0) == "300");
+}
+
+TEST_CASE("a sheet holds its panels' pixels, in rows, and refuses unlike ones") {
+  Fonts fonts(kFonts);
+  const Image red{40, 30, std::vector<std::uint8_t>(3600, 200)},
+      dark{40, 30, std::vector<std::uint8_t>(3600, 20)};
+  const Panel panels[] = {
+      {red, "ε = 0.1", ""}, {dark, "ε = 0.2", ""}, {red, "ε = 0.3", "rests at 2 s"}};
+  const Image sheet = drawSheet(panels, 2, "Title", "", fonts);
+  CHECK(sheet.width == 2 * 32 + 2 * 40 + 16);
+  CHECK(sheet.height == 100 + 2 * (30 + 68));
+  CHECK(brightness(sheet, 32 + 20, 100 + 15) == 200.0);
+  CHECK(brightness(sheet, 32 + 56 + 20, 100 + 15) == 20.0);
+  CHECK(brightness(sheet, 32 + 20, 100 + 98 + 15) == 200.0);
+  CHECK_THROWS_AS(drawSheet({}, 2, "", "", fonts), std::invalid_argument);
+  const Panel unlike[] = {{red, "", ""},
+                          {Image{30, 40, std::vector<std::uint8_t>(3600, 0)}, "", ""}};
+  CHECK_THROWS_AS(drawSheet(unlike, 2, "", "", fonts), std::invalid_argument);
+}
