@@ -1,0 +1,52 @@
+#include "app/claim/claim.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/claim/rows.h"
+
+namespace tumble {
+
+namespace {
+
+constexpr Check kChecks[] = {
+    {"bounce-apex", "n-th apex = e^(2n) h for bodies that fall without spin on a floor",
+     bounceApexRows, bouncePaths},
+    {"rest-time", "a bouncing body rests at t1 (1+e)/(1-e)", restTimeRows, nullptr},
+    {"first-hit", "the first hit comes when parabola and free rotation say", firstHitRows, nullptr},
+    {"arcs",
+     "between hits a parabola; each hit changes momentum, spin and energy as its impulse says",
+     arcRows, arcPaths},
+    {"tower-forces", "contact forces carry the weight above; nothing drifts or sinks", towerRows,
+     nullptr},
+};
+
+}  // namespace
+
+std::span<const Check> checks() {
+  return kChecks;
+}
+
+const Check* findCheck(std::string_view name) {
+  for (const Check& check : kChecks)
+    if (check.name == name) return &check;
+  return nullptr;
+}
+
+WorstRow::WorstRow(std::string label, double allowed)
+    : row_{std::move(label), 0.0, 0.0, std::numeric_limits<double>::infinity(), allowed} {}
+
+void WorstRow::see(double measured, double exact, double error) {
+  if (seen_ && (std::isnan(row_.error) || error <= row_.error)) return;
+  seen_ = true;
+  row_.measured = measured;
+  row_.exact = exact;
+  row_.error = error;
+}
+
+ClaimRow emptyClaim(const std::string& what) {
+  return {what, 0.0, 1.0, std::numeric_limits<double>::infinity(), 0.0};
+}
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+#include "app/claim/free_body.h"
+
+#include <cmath>
+
+namespace tumble {
+
+bool moves(const BodyDef& body) {
+  return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
+}
+
+MassProperties massOf(const BodyDef& body) {
+  const double mass = body.mass ? *body.mass : body.density.value_or(0.0) * volume(body.shape);
+  MassProperties properties = solidMass(body.shape, mass);
+  if (body.inertia) properties.inertia = body.inertia->asDiagonal();
+  return properties;
+}
+
+std::optional<Vec3> freeAcceleration(const WorldDef& world, int body) {
+  const double mass = massOf(world.bodies[body]).mass;
+  Vec3 acceleration = world.gravity;
+  for (const Force& force : world.forces) {
+    if (const UniformWind* wind = std::get_if<UniformWind>(&force)) {
+      if (wind->body == body || wind->body == kNoBody) acceleration += wind->force / mass;
+    } else if (const PointForce* point = std::get_if<PointForce>(&force)) {
+      if (point->body != body) continue;
+      if (!point->point_B.isZero()) return {};
+      acceleration += point->force / mass;
+    } else if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
+      if (drag->body == body || drag->body == kNoBody) return {};
+    } else if (const Spring* spring = std::get_if<Spring>(&force)) {
+      if (spring->a == body || spring->b == body) return {};
+    }
+  }
+  return acceleration;
+}
+
+double reach(const Shape& shape, const Quat& q, const Vec3& n) {
+  const Vec3 n_B = q.conjugate() * n;
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return sphere->r;
+  if (const Box* box = std::get_if<Box>(&shape)) return box->half.dot(n_B.cwiseAbs());
+  if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
+    return 0.5 * cylinder->h * std::abs(n_B.y()) + cylinder->r * std::hypot(n_B.x(), n_B.z());
+  return 0.0;
+}
+
+Vec3 angularMomentum(const Mat3& inertia, const Quat& q, const Vec3& omega) {
+  const Vec3 omega_B = q.conjugate() * omega;
+  const Vec3 L_B = inertia * omega_B;
+  return q * L_B;
+}
+
+Surface surfaceOf(const WorldDef& world, int a, int b) {
+  Model model;
+  model.def = world;
+  return model.surface(a, b);
+}
+
+}  // namespace tumble

@@ -1,0 +1,16 @@
+// What the table of claims is filled with.
+#pragma once
+
+#include "app/claim/claim.h"
+
+namespace tumble {
+
+std::vector<ClaimRow> bounceApexRows(const Scene&, const Recording&);
+std::vector<Curve> bouncePaths(const Scene&, const Recording&);
+std::vector<ClaimRow> restTimeRows(const Scene&, const Recording&);
+std::vector<ClaimRow> firstHitRows(const Scene&, const Recording&);
+std::vector<ClaimRow> arcRows(const Scene&, const Recording&);
+std::vector<Curve> arcPaths(const Scene&, const Recording&);
+std::vector<ClaimRow> towerRows(const Scene&, const Recording&);
+
+}  // namespace tumble
