@@ -1,0 +1,33 @@
+// Arrows for what acts: contact forces, normals, velocities, wind; and the ladder of forces at the
+// side.
+#pragma once
+
+#include "app/record/recording.h"
+#include "render/picture.h"
+
+namespace tumble {
+
+/// The force [N] whose arrow is longest: nearly the largest of the run, impacts that are rare left
+/// out.
+double largestContactForce(const Recording& recording);
+
+/// One arrow per contact point, on the body that is pushed up; length proportional to the force,
+/// `fmax` [N] drawn `length` [m] long.
+void addContactForces(const Sample& sample, double fmax, double length, Picture& picture);
+
+/// Contact normals, `length` [m] long.
+void addNormals(const Sample& sample, double length, Picture& picture);
+
+/// Velocities of the centres of mass, the fastest of the run drawn `length` [m] long.
+void addVelocities(const Scene& scene, const Recording& recording, const Sample& sample,
+                   double length, Picture& picture);
+
+/// Uniform and point forces, blowing onto the bodies, the largest drawn `length` [m] long.
+void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture);
+
+/// A bar for each pair of bodies that touch in the tallest group of touching bodies: the sum of the
+/// pair's contact forces in newtons, as long as it is large, level with the contact.
+/// The picture's camera decides where on the page; aspect = width / height.
+void addForceLadder(const Scene& scene, const Sample& sample, double aspect, Picture& picture);
+
+}  // namespace tumble

@@ -1,0 +1,86 @@
+#include "app/present/bodies.h"
+
+#include <algorithm>
+
+#include "app/claim/free_body.h"
+
+namespace tumble {
+
+Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
+                    const Vec3& near, double extent) {
+  Instance instance;
+  instance.position = x;
+  instance.orientation = q;
+  instance.colour = colour;
+  if (const Sphere* sphere = std::get_if<Sphere>(&body.shape)) {
+    instance.form = Form::Sphere;
+    instance.scale.setConstant(sphere->r);
+  } else if (const Box* box = std::get_if<Box>(&body.shape)) {
+    instance.form = Form::Box;
+    instance.scale = box->half;
+  } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&body.shape)) {
+    instance.form = Form::Cylinder;
+    instance.scale = {cylinder->r, 0.5 * cylinder->h, cylinder->r};
+  } else if (const HalfSpace* plane = std::get_if<HalfSpace>(&body.shape)) {
+    // A slab whose upper face lies in the plane, below the foot of `near`.
+    const double thickness = 0.01 * extent;
+    const Vec3 foot = near - (plane->n.dot(near) - plane->d) * plane->n;
+    instance.form = Form::Box;
+    instance.scale = {0.5 * extent, 0.5 * thickness, 0.5 * extent};
+    instance.position = foot - 0.5 * thickness * plane->n;
+    instance.orientation = Quat::FromTwoVectors(Vec3::UnitY(), plane->n);
+  }
+  return instance;
+}
+
+bool isFloor(const BodyDef& body) {
+  const HalfSpace* plane = std::get_if<HalfSpace>(&body.shape);
+  return plane && plane->n.y() > 0.9999;
+}
+
+int movingCount(const Scene& scene) {
+  return static_cast<int>(
+      std::count_if(scene.world.bodies.begin(), scene.world.bodies.end(), moves));
+}
+
+double typicalHeight(const Scene& scene) {
+  std::vector<double> heights;
+  for (const BodyDef& body : scene.world.bodies)
+    if (moves(body)) heights.push_back(2.0 * reach(body.shape, body.orientation, Vec3::UnitY()));
+  if (heights.empty()) return 1.0;
+  std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
+  return heights[heights.size() / 2];
+}
+
+namespace {
+
+void addCorners(const Aabb& box, std::vector<Eigen::Vector3d>& points) {
+  for (int corner = 0; corner < 8; ++corner)
+    points.emplace_back(corner & 1 ? box.hi.x() : box.lo.x(), corner & 2 ? box.hi.y() : box.lo.y(),
+                        corner & 4 ? box.hi.z() : box.lo.z());
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording) {
+  std::vector<Eigen::Vector3d> points;
+  const std::vector<BodyDef>& bodies = scene.world.bodies;
+  for (const Sample& sample : recording.samples)
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (moves(bodies[i]))
+        addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
+
+  Aabb motion{Vec3::Zero(), Vec3::Zero()};
+  if (!points.empty()) motion = {points[0], points[0]};
+  for (const Eigen::Vector3d& p : points) motion = {motion.lo.cwiseMin(p), motion.hi.cwiseMax(p)};
+  const double size = (motion.hi - motion.lo).norm();
+  for (const BodyDef& body : bodies) {
+    if (moves(body) || std::holds_alternative<HalfSpace>(body.shape)) continue;
+    if (points.empty() || 2.0 * boundingRadius(body.shape) <= size)
+      addCorners(boundingBox(body.shape, {body.position, body.orientation}), points);
+  }
+  if (points.empty()) addCorners({Vec3::Constant(-1.0), Vec3::Constant(1.0)}, points);
+  return points;
+}
+
+}  // namespace tumble

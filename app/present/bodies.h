@@ -1,0 +1,28 @@
+// Bodies as instances, and how large things are.
+#pragma once
+
+#include <vector>
+
+#include "app/record/recording.h"
+#include "render/picture.h"
+
+namespace tumble {
+
+/// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide.
+Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
+                    const Vec3& near, double extent);
+
+/// A half-space that looks up (n·Y > 0.9999) and so is drawn as the floor of the page.
+bool isFloor(const BodyDef& body);
+
+/// How many bodies move.
+int movingCount(const Scene& scene);
+
+/// Median height [m] of the moving bodies at the start, along Y; 1 without any.
+double typicalHeight(const Scene& scene);
+
+/// Corners of the boxes around every moving body in every sample, and around fixed bodies no larger
+/// than the motion. World frame [m].
+std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording);
+
+}  // namespace tumble

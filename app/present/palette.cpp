@@ -1,0 +1,71 @@
+#include "app/present/palette.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/claim/free_body.h"
+
+namespace tumble {
+
+namespace {
+
+// Six that stay apart for every kind of colour vision.
+constexpr std::array kBodies = {hex(0x3A6FA8), hex(0xE8BE57), hex(0xB5485D),
+                                hex(0xB4BBC4), hex(0x3F9C8C), hex(0x4B3F78)};
+constexpr std::array kTime = {hex(0x2E6299), hex(0x6A93BF), hex(0xC2BDC6), hex(0xDDB27A),
+                              hex(0xDB8A24)};
+constexpr std::array kCividis = {hex(0x00224E), hex(0x123570), hex(0x3B496C),
+                                 hex(0x575D6D), hex(0x707173), hex(0x8A8678),
+                                 hex(0xA59C74), hex(0xC3B369), hex(0xE1CC55)};
+
+}  // namespace
+
+std::span<const Colour> timeStops() {
+  return kTime;
+}
+
+std::span<const Colour> cividisStops() {
+  return kCividis;
+}
+
+Colour ramp(std::span<const Colour> stops, double u) {
+  const double place = std::clamp(u, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
+  const std::size_t k = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+  const float share = static_cast<float>(place - static_cast<double>(k));
+  Colour mixed;
+  for (std::size_t i = 0; i < 3; ++i)
+    mixed[i] = stops[k][i] + share * (stops[k + 1][i] - stops[k][i]);
+  return mixed;
+}
+
+Colour shade(const Colour& colour, float factor) {
+  return {colour[0] * factor, colour[1] * factor, colour[2] * factor};
+}
+
+std::vector<Colour> bodyColours(const Scene& scene) {
+  std::vector<Colour> colours;
+  std::vector<std::string> kinds;
+  for (std::size_t i = 0; i < scene.world.bodies.size(); ++i) {
+    const BodyDef& body = scene.world.bodies[i];
+    if (i < scene.colours.size() && scene.colours[i]) {
+      const Rgb& rgb = *scene.colours[i];
+      colours.push_back(
+          {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
+      continue;
+    }
+    if (!moves(body)) {
+      colours.push_back(colour::kFixed);
+      continue;
+    }
+    // A body without a material is a kind of its own.
+    const std::string kind = body.material.empty() ? "body " + body.name : body.material;
+    const auto found = std::find(kinds.begin(), kinds.end(), kind);
+    const std::size_t index = static_cast<std::size_t>(found - kinds.begin());
+    if (found == kinds.end()) kinds.push_back(kind);
+    colours.push_back(kBodies[index % kBodies.size()]);
+  }
+  return colours;
+}
+
+}  // namespace tumble
