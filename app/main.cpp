@@ -2,9 +2,11 @@
 #include "app/command/command.h"
 
 namespace tumble::command {
+int check(int argc, char** argv);
 int describe(int argc, char** argv);
 int doctor(int argc, char** argv);
 int list(int argc, char** argv);
+int render(int argc, char** argv);
 int simulate(int argc, char** argv);
 }  // namespace tumble::command
 
@@ -15,6 +17,8 @@ int main(int argc, char** argv) {
       {"describe", "what a scene contains, which method and features it uses, its claim",
        command::describe},
       {"simulate", "numbers only: trajectory, events, contacts, summary", command::simulate},
+      {"render", "numbered images; or a still, a strobe, a sheet, a film", command::render},
+      {"check", "hold scenes to their closed forms", command::check},
       {"doctor", "what this machine offers for drawing, and what is missing", command::doctor},
   };
   return dispatch(table, argc, argv);

@@ -7,6 +7,7 @@
 
 #include "app/command/command.h"
 #include "app/command/data.h"
+#include "app/command/verdict.h"
 
 namespace tumble {
 
@@ -56,7 +57,9 @@ Scene load(const SceneOptions& options) {
       throw UsageError(
           fmt::format("--set {}: expected KEY=VALUE, for example world.gravity=[0,-1.62,0]", text));
   }
-  return readScene(scenePath(options.scene), options.overrides);
+  Scene scene = readScene(scenePath(options.scene), options.overrides);
+  requireKnownChecks(scene);
+  return scene;
 }
 
 namespace {

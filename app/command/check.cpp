@@ -1,0 +1,59 @@
+// tumble check: scenes against their closed forms.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "app/command/command.h"
+#include "app/command/data.h"
+#include "app/command/options.h"
+#include "app/command/run.h"
+#include "app/command/verdict.h"
+
+namespace tumble::command {
+
+namespace {
+
+void printTable(const Verdict& verdict) {
+  fmt::print("  {:<46}{:>16}{:>16}{:>11}{:>11}\n", "", "measured", "exact", "error", "allowed");
+  for (const ClaimRow& row : verdict.rows)
+    fmt::print("  {:<46}{:>16.10g}{:>16.10g}{:>11.2g}{:>11.2g}  {}\n", row.label, row.measured,
+               row.exact, row.error, row.allowed, row.holds() ? "ok" : "FAILED");
+}
+
+// Whether the scene's claims hold; a run that stopped on the way throws none, but fails as
+// kPhysics.
+int checkScene(const Scene& scene) {
+  fmt::print("{}: {}\n", scene.name, scene.claim.empty() ? scene.title : scene.claim);
+  if (scene.checks.empty()) {
+    fmt::print("  no checks\n");
+    return kOk;
+  }
+  const Recording recording = recordWithProgress(scene);
+  if (const int stopped = exitOf(recording)) return stopped;
+  const Verdict verdict = judge(scene, recording);
+  printTable(verdict);
+  return verdict.failed > 0 ? kFailed : kOk;
+}
+
+}  // namespace
+
+int check(int argc, char** argv) {
+  std::vector<std::string> names, overrides;
+  CommandLine app("check", "Holds scenes to the closed forms that they claim.",
+                  {"                # every demo", "path-of-brick my-scene.toml",
+                   "stacked-boxes --set world.gravity=[0,-1.62,0]"});
+  app.add_option("SCENE", names, "demos or TOML files [every demo]");
+  addOverrides(app, overrides);
+  if (!app.read(argc, argv)) return kOk;
+
+  if (names.empty()) names = demoNames();
+  int worst = kOk;
+  for (const std::string& name : names) {
+    worst = std::max(worst, checkScene(load({name, overrides})));
+    std::fflush(stdout);
+  }
+  fmt::print("{}\n", worst == kOk ? "all claims hold" : "some claims do NOT hold");
+  return worst;
+}
+
+}  // namespace tumble::command

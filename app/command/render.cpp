@@ -1,0 +1,84 @@
+// tumble render: images of one scene.
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "app/command/command.h"
+#include "app/command/options.h"
+#include "app/command/run.h"
+#include "app/command/shoot.h"
+#include "app/record/file.h"
+
+namespace tumble::command {
+
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string folder, frames, size, video;
+  double rate = 0.0;
+  std::optional<double> still;
+  bool strobe = false, sheet = false;
+};
+
+bool readOptions(int argc, char** argv, Options& options) {
+  CommandLine app("render", "Draws a scene.",
+                  {"path-of-brick                  # out/path-of-brick/image-000000.png …",
+                   "path-of-brick --strobe --sheet # strobe.png and sheet.png instead",
+                   "path-of-brick --still 1.2 --size 1920x1080",
+                   "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
+                   "path-of-brick --video brick.mp4",
+                   "stacked-boxes --still 0 --set world.gravity=[0,-1.62,0] -o out/moon"});
+  addSceneOptions(app, options.scene);
+  app.add_option("-o,--output", options.folder, "folder for the images [out/<scene>]");
+  app.add_option("--frames", options.frames, "images A to B-1 of the sequence")->type_name("A:B");
+  app.add_option("--size", options.size, "pixels [the scene's own]")->type_name("WxH");
+  addRate(app, options.rate);
+  app.add_option("--still", options.still, "one image, at this time")->type_name("SECONDS");
+  app.add_flag("--strobe", options.strobe, "one image of the whole motion");
+  app.add_flag("--sheet", options.sheet, "twelve stills on one page");
+  app.add_option("--video", options.video, "a film, by ffmpeg")->type_name("FILE");
+  return app.read(argc, argv);
+}
+
+// The range of --frames, or everything.
+std::pair<int, int> rangeOf(const Options& options, int count) {
+  if (options.frames.empty()) return {0, count};
+  const std::pair<int, int> range = parseFrames(options.frames);
+  if (range.first >= count)
+    throw UsageError(
+        fmt::format("--frames {}: the sequence has images 0 to {}", options.frames, count - 1));
+  return range;
+}
+
+}  // namespace
+
+int render(int argc, char** argv) {
+  Options options;
+  if (!readOptions(argc, argv, options)) return kOk;
+  Scene scene = load(options.scene);
+  if (!options.size.empty())
+    std::tie(scene.image.width, scene.image.height) = parseSize(options.size);
+  if (options.rate > 0.0) scene.image.rate = options.rate;
+  if (options.folder.empty()) options.folder = "out/" + scene.name;
+
+  Studio studio;
+  Shoot shoot(scene, options.folder, studio);
+  const std::pair<int, int> range = rangeOf(options, shoot.count());
+  const bool single = options.still || options.strobe || options.sheet || !options.video.empty();
+  std::vector<std::string> written;
+  if (options.still) written.push_back(shoot.still(*options.still));
+  if (options.strobe) written.push_back(shoot.strobe());
+  if (options.sheet) written.push_back(shoot.sheet());
+  if (!options.video.empty()) {
+    const std::filesystem::path parent = std::filesystem::path(options.video).parent_path();
+    if (!parent.empty()) makeFolder(parent.string());
+    shoot.video(options.video, range);
+    written.push_back(options.video);
+  }
+  if (!single) written.push_back(shoot.sequence(range));
+  for (const std::string& path : written) fmt::print("{}\n", path);
+  return shoot.recorded() ? exitOf(shoot.recording()) : kOk;
+}
+
+}  // namespace tumble::command

@@ -1,0 +1,103 @@
+#include "app/command/shoot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/command/progress.h"
+#include "app/command/run.h"
+#include "app/command/stamp.h"
+#include "app/command/video.h"
+#include "app/record/file.h"
+#include "render/png_writer.h"
+#include "render/sheet.h"
+
+namespace tumble {
+
+Shoot::Shoot(const Scene& scene, std::string folder, Studio& studio)
+    : scene_(scene), folder_(std::move(folder)), studio_(studio) {
+  makeFolder(folder_);
+}
+
+int Shoot::count() const {
+  return static_cast<int>(std::floor(scene_.world.duration * scene_.image.rate + 1e-9)) + 1;
+}
+
+const Recording& Shoot::recording() {
+  if (!recording_) recording_ = recordWithProgress(scene_);
+  return *recording_;
+}
+
+const Presenter& Shoot::presenter() {
+  if (!presenter_) presenter_.emplace(scene_, recording());
+  return *presenter_;
+}
+
+bool Shoot::finished(const std::string& path, const std::string& what) const {
+  return readStamp(path) == stampOf(scene_, what);
+}
+
+std::string Shoot::still(double t) {
+  const std::string path = folder_ + "/still.png", what = fmt::format("still at {:.17g} s", t);
+  if (!finished(path, what))
+    writePng(path, studio_.draw(presenter().still(t), scene_.image), stampOf(scene_, what));
+  return path;
+}
+
+std::string Shoot::strobe() {
+  const std::string path = folder_ + "/strobe.png", what = "strobe";
+  if (!finished(path, what))
+    writePng(path, studio_.draw(presenter().strobe(), scene_.image), stampOf(scene_, what));
+  return path;
+}
+
+std::string Shoot::sheet() {
+  constexpr int kPanels = 12, kColumns = 4;
+  const std::string path = folder_ + "/sheet.png", what = "sheet";
+  if (finished(path, what)) return path;
+  ImageFormat format = scene_.image;
+  format.width = 480;
+  format.height = std::max(16, format.width * scene_.image.height / scene_.image.width);
+  std::vector<Panel> panels;
+  for (int n = 0; n < kPanels; ++n) {
+    const double t = recording().samples.back().t * n / (kPanels - 1);
+    Picture picture = presenter().still(t);
+    picture.title.clear();
+    picture.subtitle.clear();
+    panels.push_back({studio_.draw(picture, format), fmt::format("t = {:.2f} s", t), ""});
+  }
+  writePng(path, drawSheet(panels, kColumns, scene_.title, scene_.subtitle, studio_.fonts()),
+           stampOf(scene_, what));
+  return path;
+}
+
+std::string Shoot::sequence(std::pair<int, int> range) {
+  const auto name = [this](int k) { return fmt::format("{}/image-{:06}.png", folder_, k); };
+  const auto what = [](int k) { return fmt::format("image {}", k); };
+  PngWriter writer;
+  Progress progress("drawing");
+  const int last = std::min(range.second, count());
+  for (int k = range.first; k < last; ++k) {
+    progress.show(static_cast<double>(k - range.first) / (last - range.first));
+    if (finished(name(k), what(k))) continue;
+    if (k >= presenter().count()) break;
+    writer.write(name(k), studio_.draw(presenter().image(k), scene_.image),
+                 stampOf(scene_, what(k)));
+  }
+  writer.finish();
+  return folder_ + "/image-*.png";
+}
+
+void Shoot::video(const std::string& path, std::pair<int, int> range) {
+  Video video(path, scene_.image.width, scene_.image.height, scene_.image.rate);
+  const int last = std::min(range.second, presenter().count());
+  Progress progress("filming");
+  for (int k = range.first; k < last; ++k) {
+    video.add(studio_.draw(presenter().image(k), scene_.image));
+    progress.show(static_cast<double>(k - range.first) / (last - range.first));
+  }
+  video.finish();
+}
+
+}  // namespace tumble

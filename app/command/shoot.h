@@ -1,0 +1,46 @@
+// One scene, drawn into the files of one folder.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/command/studio.h"
+#include "app/present/present.h"
+
+namespace tumble {
+
+/// Simulates when the first image is needed. An image that is there already, whole and made from
+/// the same scene, is kept.
+class Shoot {
+ public:
+  /// Scene and studio must outlive it.
+  /// @throws FileError if the folder cannot be made.
+  Shoot(const Scene& scene, std::string folder, Studio& studio);
+
+  /// Each writes its file or files and returns the path.
+  std::string still(double t);  ///< still.png, the sample nearest to t [s]
+  std::string strobe();         ///< strobe.png
+  std::string sheet();          ///< sheet.png: the motion in twelve stills
+  /// image-000000.png …: images [first, last) of the sequence, one per sample.
+  std::string sequence(std::pair<int, int> range);
+  /// The images of the range as a film.
+  void video(const std::string& path, std::pair<int, int> range);
+
+  /// Images of the whole sequence: floor(duration·rate + 1e-9) + 1.
+  int count() const;
+  const Recording& recording();
+  bool recorded() const { return recording_.has_value(); }
+
+ private:
+  const Presenter& presenter();
+  bool finished(const std::string& path, const std::string& what) const;
+
+  const Scene& scene_;
+  std::string folder_;
+  Studio& studio_;
+  std::optional<Recording> recording_;
+  std::optional<Presenter> presenter_;
+};
+
+}  // namespace tumble

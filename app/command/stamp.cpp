@@ -1,0 +1,78 @@
+#include "app/command/stamp.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "app/record/file.h"
+
+namespace tumble {
+
+namespace {
+
+// FNV-1a, 64 bits: tells apart versions of one file; no secret depends on it.
+std::uint64_t digest(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+/// Chunks of a PNG from front to back (PNG specification, §5).
+class Chunks {
+ public:
+  explicit Chunks(std::string_view file) : rest_(file) {
+    constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+    const bool png = rest_.starts_with(kSignature);
+    rest_.remove_prefix(png ? kSignature.size() : rest_.size());
+  }
+
+  /// Type and data of the next one; nothing at the end, or where the file breaks off.
+  std::optional<std::pair<std::string_view, std::string_view>> next() {
+    if (rest_.size() < 12) return {};
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(rest_[i]);
+    if (rest_.size() - 12 < length) return {};
+    const std::pair chunk(rest_.substr(4, 4), rest_.substr(8, length));
+    rest_.remove_prefix(length + 12);
+    return chunk;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+}  // namespace
+
+Stamp stampOf(const Scene& scene, const std::string& what) {
+  std::error_code missing;
+  const bool file = std::filesystem::is_regular_file(scene.file, missing);
+  return {{"Software", "tumble " TUMBLE_VERSION},
+          {"Scene", scene.line},
+          {"Source", fmt::format("{:016x}", file ? digest(readFile(scene.file)) : 0)},
+          {"Image", fmt::format("{} {}x{} {} {:.17g} Hz", what, scene.image.width,
+                                scene.image.height, scene.image.antialias, scene.image.rate)}};
+}
+
+Stamp readStamp(const std::string& path) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return {};
+  const std::string file = readFile(path);
+  Stamp stamp;
+  Chunks chunks(file);
+  while (const auto chunk = chunks.next()) {
+    const auto& [type, data] = *chunk;
+    if (type == "IEND") return stamp;
+    // A tEXt chunk has one zero between key and value; iTXt has four more bytes there.
+    const std::size_t key = data.find('\0');
+    const std::size_t gap = type == "tEXt" ? 1 : 5;
+    if ((type == "tEXt" || type == "iTXt") && key != std::string_view::npos &&
+        key + gap <= data.size())
+      stamp[std::string(data.substr(0, key))] = data.substr(key + gap);
+  }
+  return {};
+}
+
+}  // namespace tumble

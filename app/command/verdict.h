@@ -1,0 +1,24 @@
+// A scene held to its claims.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/claim/claim.h"
+
+namespace tumble {
+
+struct Verdict {
+  std::vector<ClaimRow> rows;
+  int failed = 0;           ///< rows that do not hold
+  std::string worst;        ///< label of the row nearest to, or furthest beyond, what is allowed
+  double worstShare = 0.0;  ///< its error / allowed
+};
+
+/// All rows of all checks that the scene names.
+Verdict judge(const Scene& scene, const Recording& recording);
+
+/// @throws SceneError if the scene names a check that the table does not have.
+void requireKnownChecks(const Scene& scene);
+
+}  // namespace tumble
