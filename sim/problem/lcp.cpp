@@ -14,6 +14,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPivot = 1e-12;  ///< Schur pivots below this, of a diagonal of 1, count as zero
 constexpr double kNoise = 32.0 * kEps;  ///< of a sum, relative to the sum of the sizes of its terms
+constexpr double kFoot = 1e-7;          ///< compliance that makes f unique: see solveLcp
 constexpr int kRounds = 20;             ///< times that what rounding spoiled is driven again
 
 /// Where an index stands, and so which condition it keeps while others are driven.
@@ -38,7 +39,7 @@ struct Event {
 
 class Dantzig {
  public:
-  Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi);
+  Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi, double foot);
 
   LcpReport solve();
   VecX result() const { return scale_.cwiseProduct(f_); }
@@ -46,18 +47,23 @@ class Dantzig {
  private:
   void drive(int d);
   bool settled(int d);
+  bool depends(int d);
   void findDirection(int d, double sign);
   Event nextEvent(int d, double sign) const;
   void advance(const Event& event, int d, double sign);
   void join(int i);
   void leave(int i, Place to);
+  void stayOut(int i);
   void refine();
+  bool clip();
+  double noiseOf(int i) const;
   bool violated(int i) const;
   LcpReport report() const;
 
   MatX A_;
   VecX scale_, b_, lo_, hi_, f_, a_;
-  VecX df_, da_, column_;  // direction: df over free_, da over all
+  VecX df_, da_, column_;  // direction: df over free_, da over all; scratch
+  double foot_;            // compliance of each index, relative to its own diagonal
   double rateNoise_ = 0.0;
   std::vector<Place> place_;
   std::vector<bool> skip_;      // does not enter during this drive: too dependent on the free ones
@@ -75,8 +81,8 @@ double scaleOf(double diagonal) {
   return std::ldexp(1.0, -(exponent / 2));
 }
 
-Dantzig::Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi)
-    : n_(static_cast<int>(b.size())), cap_(50 * n_ + 200) {
+Dantzig::Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi, double foot)
+    : foot_(foot), n_(static_cast<int>(b.size())), cap_(50 * n_ + 200) {
   scale_.resize(n_);
   for (int i = 0; i < n_; ++i) scale_[i] = scaleOf(A(i, i));
   A_ = scale_.asDiagonal() * A * scale_.asDiagonal();
@@ -95,12 +101,13 @@ Dantzig::Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi)
 LcpReport Dantzig::solve() {
   for (int d = 0; d < n_; ++d) drive(d);
   for (int round = 0; round < kRounds; ++round) {
-    refine();
+    do refine();
+    while (!clip());
     bool clean = true;
     for (int d = 0; d < n_; ++d) {
       if (!violated(d) || hopeless_[d]) continue;
       clean = false;
-      drive(d);
+      if (place_[d] != Place::Free) drive(d);
     }
     if (clean) break;
   }
@@ -116,6 +123,7 @@ void Dantzig::drive(int d) {
     ++pivots_;
     const double sign = a_[d] < 0.0 ? 1.0 : -1.0;
     findDirection(d, sign);
+    if (sign * da_[d] <= kPivot && depends(d)) continue;
     const Event event = nextEvent(d, sign);
     if (event.index < 0) {
       hopeless_[d] = true;
@@ -139,12 +147,25 @@ bool Dantzig::settled(int d) {
   return place_[d] != Place::Outside;
 }
 
+/// Whether a_d, which the free ones determine, is 0 as far as rounding lets us see: then d stays
+/// where it is. True also if the look at it freed others, so that the direction has changed.
+bool Dantzig::depends(int d) {
+  refine();
+  double noise = noiseOf(d);
+  for (int k = 0; k < factor_.size(); ++k) noise += std::abs(df_[k]) * noiseOf(free_[k]);
+  if (std::abs(a_[d]) > noise) return false;
+  a_[d] = 0.0;
+  stayOut(d);
+  return true;
+}
+
 /// df and da per unit of motion of f_d along `sign` that keeps a = 0 for the free ones.
 void Dantzig::findDirection(int d, double sign) {
   const int m = factor_.size();
   for (int k = 0; k < m; ++k) df_[k] = -sign * A_(free_[k], d);
   factor_.solveInPlace(df_);
   da_ = sign * A_.col(d);
+  da_[d] += sign * foot_ * A_(d, d);
   for (int k = 0; k < m; ++k) da_ += df_[k] * A_.col(free_[k]);
   rateNoise_ = kNoise * (1.0 + df_.head(m).lpNorm<1>());
 }
@@ -199,12 +220,17 @@ void Dantzig::advance(const Event& event, int d, double sign) {
 void Dantzig::join(int i) {
   const int m = factor_.size();
   for (int k = 0; k < m; ++k) column_[k] = A_(free_[k], i);
-  if (factor_.append(column_, A_(i, i), kPivot) > kPivot) {
+  if (factor_.append(column_, (1.0 + foot_) * A_(i, i), kPivot) > kPivot) {
     free_.push_back(i);
     place_[i] = Place::Free;
     return;
   }
   skip_[i] = true;
+  stayOut(i);
+}
+
+/// The place of an index with a = 0 that is not in the factor.
+void Dantzig::stayOut(int i) {
   place_[i] = f_[i] <= lo_[i] ? Place::Lower : f_[i] >= hi_[i] ? Place::Upper : Place::Held;
 }
 
@@ -217,26 +243,42 @@ void Dantzig::leave(int i, Place to) {
   if (to == Place::Lower) f_[i] = lo_[i];
 }
 
-/// Solves a = 0 for the free ones anew from A and b, and frees those that leave their bounds from
-/// it.
+/// Solves a = 0 for the free ones anew from A and b.
 void Dantzig::refine() {
   for (int pass = 0; pass < 3; ++pass) {
     a_ = b_ + A_ * f_;
-    for (int k = 0; k < factor_.size(); ++k) df_[k] = -a_[free_[k]];
-    factor_.solveInPlace(df_);
-    for (int k = 0; k < factor_.size(); ++k) f_[free_[k]] += df_[k];
-  }
-  const std::vector<int> solved = free_;
-  for (int i : solved) {
-    if (f_[i] >= lo_[i] && f_[i] <= hi_[i]) continue;
-    f_[i] = std::min(std::max(f_[i], lo_[i]), hi_[i]);
-    leave(i, Place::Outside);
+    for (int k = 0; k < factor_.size(); ++k) column_[k] = -a_[free_[k]];
+    factor_.solveInPlace(column_);
+    for (int k = 0; k < factor_.size(); ++k) f_[free_[k]] += column_[k];
   }
   a_ = b_ + A_ * f_;
 }
 
+/// Brings free ones that stand outside their bounds back to them; where that is more than rounding
+/// they stay there. Returns whether none had to.
+bool Dantzig::clip() {
+  bool within = true;
+  const std::vector<int> moved = free_;
+  for (int i : moved) {
+    const double beyond = std::max(lo_[i] - f_[i], f_[i] - hi_[i]);
+    if (beyond <= 0.0) continue;
+    const Place bound = f_[i] < lo_[i] ? Place::Lower : Place::Upper;
+    f_[i] = bound == Place::Lower ? lo_[i] : hi_[i];
+    if (beyond * A_(i, i) <= noiseOf(i)) continue;
+    leave(i, bound);
+    within = false;
+  }
+  a_ = b_ + A_ * f_;
+  return within;
+}
+
+/// What rounding may leave in a_i.
+double Dantzig::noiseOf(int i) const {
+  return kNoise * (std::abs(b_[i]) + A_.col(i).cwiseAbs().dot(f_.cwiseAbs()));
+}
+
 bool Dantzig::violated(int i) const {
-  if (lo_[i] >= hi_[i] || place_[i] == Place::Free) return false;
+  if (lo_[i] >= hi_[i]) return false;
   const double noise = 2.0 * kNoise * (std::abs(b_[i]) + A_.col(i).cwiseAbs().dot(f_.cwiseAbs()));
   return (a_[i] < -noise && f_[i] < hi_[i]) || (a_[i] > noise && f_[i] > lo_[i]);
 }
@@ -260,9 +302,15 @@ LcpReport Dantzig::report() const {
 }  // namespace
 
 LcpReport solveLcp(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi, VecX& f) {
-  Dantzig dantzig(A, b, lo, hi);
-  const LcpReport report = dantzig.solve();
-  f = dantzig.result();
+  LcpReport report;
+  for (double foot : {kFoot, 0.0}) {
+    const int pivots = report.pivots;
+    Dantzig dantzig(A, b, lo, hi, foot);
+    report = dantzig.solve();
+    report.pivots += pivots;
+    f = dantzig.result();
+    if (report.status == SolveStatus::Solved) break;
+  }
   return report;
 }
 
