@@ -3,12 +3,15 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/problem/anderson.h"
 #include "sim/problem/cone.h"
 #include "sim/problem/friction_block.h"
 #include "sim/problem/solvers.h"
 
 namespace tumble {
 namespace {
+
+constexpr int kAsk = 64;  ///< sweeps from one look at the residual to the next
 
 /// A row with what its λ does to the two bodies: the columns of M⁻¹ Jᵀ.
 struct SweepRow {
@@ -30,16 +33,16 @@ class Sweeper {
   SolveReport solve(const Problem& problem, const SolveSettings& settings, Solution& solution);
 
  private:
+  void begin(const Problem& problem, Solution& solution);
   void prepare(const Problem& problem);
   double sweep(const Problem& problem, bool forwards, Solution& solution);
   double relax(const Problem& problem, const SweepCone& cone, Solution& solution);
-  void accelerate(Solution& solution);
+  void accelerate(const Problem& problem, Solution& solution);
 
   std::vector<SweepRow> rows_;
   std::vector<SweepCone> cones_;
-  std::vector<double> lambdaBefore_, lambdaStep_;  // conjugate direction
-  std::vector<Vec6> vBefore_, vStep_;
-  double sizeBefore_ = 0.0;
+  VecX before_, after_, best_, weight_;
+  Anderson mixer_;
 };
 
 void Sweeper::prepare(const Problem& problem) {
@@ -52,6 +55,7 @@ void Sweeper::prepare(const Problem& problem) {
     row.pushA << problem.invM[from.a] * from.linear, problem.Iinv[from.a] * from.angularA;
     row.pushB << -problem.invM[from.b] * from.linear, problem.Iinv[from.b] * from.angularB;
   }
+  weight_.setOnes(rows_.size());
   cones_.resize(problem.cones.size());
   for (std::size_t c = 0; c < cones_.size(); ++c) {
     const Cone& from = problem.cones[c];
@@ -64,6 +68,7 @@ void Sweeper::prepare(const Problem& problem) {
         cone.W(i, j) = left.Ja.dot(right.pushA) + left.Jb.dot(right.pushB);
       }
       cone.mobility = std::max(cone.mobility, cone.W(i, i));
+      if (cone.W(i, i) > 0.0) weight_[cone.row + i] = cone.W(i, i);
     }
   }
 }
@@ -115,66 +120,55 @@ double Sweeper::sweep(const Problem& problem, bool forwards, Solution& solution)
   return largest;
 }
 
-/// Fletcher–Reeves on λ, with the change of the last sweep as the gradient; v follows linearly.
-void Sweeper::accelerate(Solution& solution) {
-  double size = 0.0;
-  for (std::size_t i = 0; i < lambdaBefore_.size(); ++i) {
-    const double change = solution.lambda[i] - lambdaBefore_[i];
-    size += change * change;
-  }
-  const bool restart = !(size < sizeBefore_);
-  const double beta = restart ? 0.0 : size / sizeBefore_;
-  sizeBefore_ = size;
-  for (std::size_t i = 0; i < lambdaBefore_.size(); ++i) {
-    const double change = solution.lambda[i] - lambdaBefore_[i];
-    const double step = beta * lambdaStep_[i];
-    solution.lambda[i] += step;
-    lambdaStep_[i] = step + change;
-    lambdaBefore_[i] = solution.lambda[i];
-  }
-  for (std::size_t i = 0; i < vBefore_.size(); ++i) {
-    const Vec6 change = solution.v[i] - vBefore_[i];
-    const Vec6 step = beta * vStep_[i];
-    solution.v[i] += step;
-    vStep_[i] = step + change;
-    vBefore_[i] = solution.v[i];
-  }
+/// Puts a mixture of this sweep and earlier ones in its place.
+void Sweeper::accelerate(const Problem& problem, Solution& solution) {
+  const Eigen::Index n = before_.size();
+  after_ = VecX::Map(solution.lambda.data(), n);
+  mixer_.next(before_, after_);
+  VecX::Map(solution.lambda.data(), n) = before_;
+  velocitiesFromLambda(problem, solution.lambda, solution.v);
+}
+
+/// Starts from λ = solution.lambda, or 0 if it is not of the right length.
+void Sweeper::begin(const Problem& problem, Solution& solution) {
+  if (solution.lambda.size() != problem.rows.size())
+    solution.lambda.assign(problem.rows.size(), 0.0);
+  solution.v.resize(problem.vStar.size());
+  velocitiesFromLambda(problem, solution.lambda, solution.v);
 }
 
 SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings,
                            Solution& solution) {
   // A start that is good enough is the answer.
-  if (solution.lambda.size() != problem.rows.size())
-    solution.lambda.assign(problem.rows.size(), 0.0);
-  solution.v.resize(problem.vStar.size());
-  velocitiesFromLambda(problem, solution.lambda, solution.v);
+  begin(problem, solution);
   SolveReport report{.residual = naturalResidual(problem, solution)};
   if (report.residual <= settings.tolerance) return report;
 
   prepare(problem);
-  lambdaBefore_ = solution.lambda;
-  lambdaStep_.assign(solution.lambda.size(), 0.0);
-  vBefore_ = solution.v;
-  vStep_.assign(solution.v.size(), Vec6::Zero());
-  sizeBefore_ = 0.0;
-
-  const double scale = velocityScale(problem);
-  double target = settings.tolerance * scale;
-  int tries = 0;
+  before_ = best_ = VecX::Map(solution.lambda.data(), solution.lambda.size());
+  mixer_.reset(weight_);
+  double bestChange = std::numeric_limits<double>::infinity();
+  double target = settings.tolerance * velocityScale(problem);
   while (report.iterations < settings.maxIterations) {
-    // Forwards and back is one symmetric sweep.
-    const double change = std::max(sweep(problem, true, solution), sweep(problem, false, solution));
+    // There and back is a symmetric iteration.
+    const double there = sweep(problem, true, solution);
+    const double change = std::max(there, sweep(problem, false, solution));
     report.iterations += 2;
-    if (change <= target) {
-      // The sweeps move hardly any more: ask the residual itself.
+    if (change < bestChange) {
+      bestChange = change;
+      best_ = VecX::Map(solution.lambda.data(), best_.size());
+    }
+    // When the sweeps move hardly any more, and now and then before, the residual itself is asked.
+    if (change <= target || report.iterations % kAsk == 0) {
       velocitiesFromLambda(problem, solution.lambda, solution.v);
       report.residual = naturalResidual(problem, solution);
-      if (report.residual <= settings.tolerance) return report;
-      if (++tries > 8) break;
-      target *= 0.25;
+      if (report.residual <= settings.tolerance || atRounding(problem, solution, report.residual))
+        return report;
+      if (change <= target) target *= 0.25;
     }
-    accelerate(solution);
+    accelerate(problem, solution);
   }
+  VecX::Map(solution.lambda.data(), best_.size()) = best_;
   velocitiesFromLambda(problem, solution.lambda, solution.v);
   report.residual = naturalResidual(problem, solution);
   if (!(report.residual <= 10.0 * settings.tolerance)) report.status = SolveStatus::NotConverged;

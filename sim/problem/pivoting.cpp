@@ -12,6 +12,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kPasses = 100;
 constexpr int kPolishSweeps = 2000;
+constexpr double kStill = 1e-14;  ///< change of λ from pass to pass, relative, that ends the passes
 
 /// Bounds of every row, given the normal λ of the pass before. Returns whether they depend on it.
 bool setBounds(const Problem& problem, const VecX& lambda, VecX& lo, VecX& hi) {
@@ -31,36 +32,45 @@ bool setBounds(const Problem& problem, const VecX& lambda, VecX& lo, VecX& hi) {
   return friction;
 }
 
+/// λ and v of the whole problem from the λ of an LCP, and how good they are.
+SolveReport look(const Problem& problem, const VecX& lambda, const LcpReport& lcp,
+                 Solution& solution) {
+  solution.lambda.assign(lambda.data(), lambda.data() + lambda.size());
+  velocitiesFromLambda(problem, solution.lambda, solution.v);
+  return {lcp.status, naturalResidual(problem, solution), lcp.pivots};
+}
+
 }  // namespace
 
 SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
                           Solution& solution) {
   const Delassus system = delassus(problem);
-  const int n = static_cast<int>(problem.rows.size());
-  VecX lambda = VecX::Zero(n), lo = VecX::Zero(n), hi = VecX::Zero(n);
-  solution.v.resize(problem.vStar.size());
-  SolveReport report;
+  const Eigen::Index n = system.b.size();
+  VecX lambda = VecX::Zero(n), before = lambda, lo = lambda, hi = lambda;
   Solution best;
-  double bestResidual = kInfinity;
+  SolveReport bestReport{.residual = kInfinity};
+  int pivots = 0;
+  solution.v.resize(problem.vStar.size());
   for (int pass = 0; pass < kPasses; ++pass) {
     const bool friction = setBounds(problem, lambda, lo, hi);
     const LcpReport lcp = solveLcp(system.A, system.b, lo, hi, lambda);
-    report.iterations += lcp.pivots;
-    report.status = lcp.status;
-    solution.lambda.assign(lambda.data(), lambda.data() + n);
-    velocitiesFromLambda(problem, solution.lambda, solution.v);
-    report.residual = naturalResidual(problem, solution);
-    if (report.residual < bestResidual) {
-      bestResidual = report.residual;
+    SolveReport report = look(problem, lambda, lcp, solution);
+    report.iterations = pivots += lcp.pivots;
+    if (!friction || lcp.status == SolveStatus::Infeasible) return report;
+    if (report.residual <= settings.tolerance) return report;
+    if (atRounding(problem, solution, report.residual)) return report;
+    if (report.residual < bestReport.residual) {
+      bestReport = report;
       best = solution;
     }
-    if (!friction || report.residual <= settings.tolerance) return report;
-    if (lcp.status == SolveStatus::Infeasible) break;
+    if ((lambda - before).lpNorm<Eigen::Infinity>() <= kStill * lambda.lpNorm<Eigen::Infinity>())
+      break;
+    before = lambda;
   }
+
   // What the pyramid leaves to the cone is done by sweeps.
   solution = best;
-  const int pivots = report.iterations;
-  report = solvePgs(problem, {settings.tolerance, kPolishSweeps}, solution);
+  SolveReport report = solvePgs(problem, {settings.tolerance, kPolishSweeps}, solution);
   report.iterations += pivots;
   return report;
 }

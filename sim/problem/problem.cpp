@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/problem/cone.h"
 
@@ -64,6 +65,33 @@ double naturalResidual(const Problem& problem, const Solution& solution) {
     worst = std::max(worst, coneResidual(cone, &solution.lambda[cone.row], u, rho));
   }
   return worst / velocityScale(problem);
+}
+
+double roundingFloor(const Problem& problem, const Solution& solution) {
+  // The sums of rowVelocities and velocitiesFromLambda with every term made positive.
+  std::vector<Vec6> v(problem.vStar.size(), Vec6::Zero());
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+    const Row& row = problem.rows[i];
+    const double size = std::abs(solution.lambda[i]);
+    v[row.a].head<3>() += size * row.linear.cwiseAbs();
+    v[row.b].head<3>() += size * row.linear.cwiseAbs();
+    v[row.a].tail<3>() += size * row.angularA.cwiseAbs();
+    v[row.b].tail<3>() += size * row.angularB.cwiseAbs();
+  }
+  for (std::size_t body = 0; body < v.size(); ++body) {
+    const Vec3 angular = problem.Iinv[body].cwiseAbs() * v[body].tail<3>();
+    v[body].head<3>() *= problem.invM[body];
+    v[body].tail<3>() = angular;
+    v[body] += problem.vStar[body].cwiseAbs();
+  }
+  double largest = 0.0;
+  for (const Row& row : problem.rows) {
+    const double sum = row.linear.cwiseAbs().dot(v[row.a].head<3>() + v[row.b].head<3>()) +
+                       row.angularA.cwiseAbs().dot(v[row.a].tail<3>()) +
+                       row.angularB.cwiseAbs().dot(v[row.b].tail<3>()) + std::abs(row.bias);
+    largest = std::max(largest, sum);
+  }
+  return std::numeric_limits<double>::epsilon() * largest / velocityScale(problem);
 }
 
 }  // namespace tumble

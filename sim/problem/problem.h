@@ -51,6 +51,7 @@ struct Solution {
   std::vector<Vec6> v;         ///< per body
 };
 
+/// Solved: the residual is within tolerance, or as small as rounding lets it be (roundingFloor).
 enum class SolveStatus { Solved, NotConverged, Infeasible };
 
 struct SolveReport {
@@ -89,6 +90,15 @@ double velocityScale(const Problem& problem);
 /// Natural-map residual of (λ, v) as in SolveReport: per cone |λ − Π_K(λ − ρ û)|/ρ with
 /// ρ = 1/(largest diagonal entry of J M⁻¹ Jᵀ in the cone), û = u + mu |u_t| n for friction.
 double naturalResidual(const Problem& problem, const Solution& solution);
+
+/// What rounding alone may leave of naturalResidual: machine epsilon times the sum of the sizes of
+/// all terms of a row of J (vStar + M⁻¹ Jᵀ λ) + bias, the largest of them, over velocityScale.
+double roundingFloor(const Problem& problem, const Solution& solution);
+
+/// Whether a residual of this solution is as small as rounding lets it be.
+inline bool atRounding(const Problem& problem, const Solution& solution, double residual) {
+  return residual <= 2.0 * roundingFloor(problem, solution);
+}
 
 /// Connected components of bodies through rows; immovable bodies do not connect.
 /// Each island is a list of cone indices in ascending order; islands in order of their first cone.

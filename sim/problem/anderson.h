@@ -1,0 +1,32 @@
+// Chapter 6, problem: Anderson's acceleration of a fixed-point iteration.
+#pragma once
+
+#include <vector>
+
+#include "sim/math/vec.h"
+
+namespace tumble {
+
+/// Speeds up  x ← g(x):  mixes the last few g(x) so that the residual r = g(x) − x, taken as linear
+/// in between, is smallest. Anderson 1965; Walker & Ni, SIAM J. Numer. Anal. 49, 2011, §2.
+/// Safeguard: it forgets the past whenever the residual grew.
+class Anderson {
+ public:
+  static constexpr int kDepth = 16;
+
+  /// @param weight  of each entry in the norm of r, > 0
+  void reset(const VecX& weight);
+
+  /// Given x and g(x), puts the next x into `x`.
+  void next(VecX& x, const VecX& g);
+
+ private:
+  VecX weight_, r_, rBefore_, gBefore_;
+  std::vector<VecX> dr_, dg_;  // differences, in a ring
+  Eigen::Matrix<double, kDepth, kDepth> gram_;
+  int used_ = 0, slot_ = 0;
+  double sizeBefore_ = 0.0;
+  bool started_ = false;
+};
+
+}  // namespace tumble

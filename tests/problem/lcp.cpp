@@ -1,0 +1,209 @@
+// The boxed LCP: exact fractions, conditions of the solution, singular and impossible problems.
+#include "sim/problem/lcp.h"
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <limits>
+#include <vector>
+
+#include "tests/catch.h"
+#include "tests/problem/problems.h"
+
+using namespace tumble;
+using tumble::test::Draw;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Lcp {
+  MatX A;
+  VecX b, lo, hi;
+};
+
+/// A = G Gᵀ of rank ≤ `rank` with small integer entries, so that it holds exactly in doubles;
+/// b = A x − s with a solution (x, s), or any b when A has full rank. Rows double at random.
+Lcp randomLcp(Draw& draw, int n, int rank) {
+  MatX G(n, rank);
+  for (int i = 0; i < n; ++i) {
+    const bool twin = i > 0 && draw(0.0, 1.0) < 0.2;
+    const int other = i > 0 ? draw.below(i) : 0;
+    for (int k = 0; k < rank; ++k) G(i, k) = draw.below(9) - 4;
+    if (twin) G.row(i) = G.row(other);
+  }
+  Lcp lcp{G * G.transpose(), VecX(n), VecX::Zero(n), VecX::Constant(n, kInfinity)};
+  VecX x(n), slack(n);
+  for (int i = 0; i < n; ++i) {
+    const double kind = draw(0.0, 1.0);
+    const double size = draw.below(6);
+    x[i] = size;
+    slack[i] = 0.0;
+    if (kind < 0.2) {
+      lcp.lo[i] = -kInfinity;
+    } else if (kind < 0.4) {
+      lcp.lo[i] = -3.0;
+      lcp.hi[i] = 3.0;
+      x[i] = size - 3.0;
+      if (size == 0.0) slack[i] = draw.below(5);
+      if (x[i] > 2.0 || x[i] == 2.0) x[i] = 3.0, slack[i] = -draw.below(5);
+    } else if (kind < 0.7) {
+      x[i] = 0.0;
+      slack[i] = draw.below(5);
+    }
+  }
+  lcp.b = slack - lcp.A * x;
+  return lcp;
+}
+
+/// Worst violation of bounds and conditions, over the largest |b|.
+double violation(const Lcp& lcp, const VecX& f) {
+  const VecX a = lcp.A * f + lcp.b;
+  double worst = 0.0;
+  for (int i = 0; i < f.size(); ++i) {
+    REQUIRE(std::isfinite(f[i]));
+    worst = std::max({worst, lcp.lo[i] - f[i], f[i] - lcp.hi[i]});
+    if (f[i] < lcp.hi[i]) worst = std::max(worst, -a[i]);
+    if (f[i] > lcp.lo[i]) worst = std::max(worst, a[i]);
+  }
+  return worst / std::max(1.0, lcp.b.lpNorm<Eigen::Infinity>());
+}
+
+using Fraction = boost::multiprecision::cpp_rational;
+
+/// Solves M x = r exactly by elimination; false if M is singular.
+bool solveExactly(std::vector<std::vector<Fraction>> M, std::vector<Fraction>& r) {
+  const std::size_t n = r.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    while (pivot < n && M[pivot][k] == 0) ++pivot;
+    if (pivot == n) return false;
+    std::swap(M[k], M[pivot]);
+    std::swap(r[k], r[pivot]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == k || M[i][k] == 0) continue;
+      const Fraction factor = M[i][k] / M[k][k];
+      for (std::size_t j = k; j < n; ++j) M[i][j] -= factor * M[k][j];
+      r[i] -= factor * r[k];
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) r[k] /= M[k][k];
+  return true;
+}
+
+/// a of the exact solution if the places given (0 lower, 1 upper, 2 free) make one; else empty.
+/// Lower of an equality row means f = 0: it leaves a = 0 to the rows that it doubles.
+std::vector<Fraction> tryPlaces(const Lcp& lcp, const std::vector<int>& place) {
+  const int n = static_cast<int>(place.size());
+  std::vector<Fraction> f(n);
+  std::vector<int> free;
+  for (int i = 0; i < n; ++i) {
+    if (place[i] == 2) free.push_back(i);
+    if (place[i] == 1 && !std::isfinite(lcp.hi[i])) return {};
+    if (place[i] == 1) f[i] = Fraction(lcp.hi[i]);
+    if (place[i] == 0 && std::isfinite(lcp.lo[i])) f[i] = Fraction(lcp.lo[i]);
+  }
+  const auto rowSum = [&](int i) {
+    Fraction sum(lcp.b[i]);
+    for (int j = 0; j < n; ++j) sum += Fraction(lcp.A(i, j)) * f[j];
+    return sum;
+  };
+  std::vector<std::vector<Fraction>> M;
+  std::vector<Fraction> r;
+  for (int i : free) {
+    r.push_back(-rowSum(i));
+    M.emplace_back();
+    for (int j : free) M.back().push_back(Fraction(lcp.A(i, j)));
+  }
+  if (!solveExactly(M, r)) return {};
+  for (std::size_t k = 0; k < free.size(); ++k) f[free[k]] = r[k];
+  std::vector<Fraction> a;
+  for (int i = 0; i < n; ++i) {
+    a.push_back(rowSum(i));
+    if (place[i] == 0 && a[i] < 0) return {};
+    if (place[i] == 0 && a[i] != 0 && !std::isfinite(lcp.lo[i])) return {};
+    if (place[i] == 1 && a[i] > 0) return {};
+    if (std::isfinite(lcp.lo[i]) && f[i] < Fraction(lcp.lo[i])) return {};
+    if (std::isfinite(lcp.hi[i]) && f[i] > Fraction(lcp.hi[i])) return {};
+  }
+  return a;
+}
+
+/// a of the LCP as fractions, by trying all 3ⁿ places; a is unique though f need not be.
+std::vector<Fraction> solveExactly(const Lcp& lcp) {
+  const int n = static_cast<int>(lcp.b.size());
+  std::vector<int> place(n, 0);
+  while (true) {
+    const std::vector<Fraction> a = tryPlaces(lcp, place);
+    if (!a.empty()) return a;
+    int k = 0;
+    while (k < n && ++place[k] == 3) place[k++] = 0;
+    if (k == n) return {};
+  }
+}
+
+}  // namespace
+
+// Oracle: the conditions themselves. Measured 6e-15, allowed 1e-12.
+TEST_CASE("every consistent LCP, of any rank and with doubled rows, is solved") {
+  Draw draw(1);
+  for (int trial = 0; trial < 10000; ++trial) {
+    const int n = 1 + draw.below(40);
+    const Lcp lcp = randomLcp(draw, n, 1 + draw.below(n));
+    VecX f;
+    const LcpReport report = solveLcp(lcp.A, lcp.b, lcp.lo, lcp.hi, f);
+    CAPTURE(trial, n, report.pivots, report.residual);
+    REQUIRE(report.status == SolveStatus::Solved);
+    REQUIRE(violation(lcp, f) < 1e-12);
+    REQUIRE(report.residual < 1e-12);
+  }
+}
+
+// Oracle: exact fractions over all sets of free indices. Measured 2e-15, allowed 1e-12.
+TEST_CASE("the accelerations of small singular LCPs are those of exact arithmetic") {
+  Draw draw(2);
+  for (int trial = 0; trial < 150; ++trial) {
+    const int n = 1 + draw.below(6);
+    const Lcp lcp = randomLcp(draw, n, 1 + draw.below(n));
+    const std::vector<Fraction> exact = solveExactly(lcp);
+    REQUIRE(!exact.empty());
+    VecX f;
+    solveLcp(lcp.A, lcp.b, lcp.lo, lcp.hi, f);
+    const VecX a = lcp.A * f + lcp.b;
+    const double scale = std::max(1.0, lcp.b.lpNorm<Eigen::Infinity>());
+    CAPTURE(trial, n);
+    for (int i = 0; i < n; ++i)
+      REQUIRE(std::abs(a[i] - exact[i].convert_to<double>()) < 1e-12 * scale);
+  }
+}
+
+// Oracle: there is no solution. A row nobody can move, and two rows that ask for different things.
+TEST_CASE("an LCP without a solution is reported, and its f stays finite") {
+  const VecX nothing = VecX::Zero(2), endless = VecX::Constant(2, kInfinity);
+  VecX f;
+  const MatX still = (MatX(2, 2) << 1, 0, 0, 0).finished();
+  CHECK(solveLcp(still, VecX::Constant(2, -1.0), nothing, endless, f).status ==
+        SolveStatus::Infeasible);
+  CHECK(f.allFinite());
+  CHECK(f[0] == Approx(1.0));
+  const MatX twins = MatX::Ones(2, 2);
+  const VecX wishes = (VecX(2) << 0.0, 1.0).finished();
+  CHECK(solveLcp(twins, wishes, -endless, endless, f).status == SolveStatus::Infeasible);
+  CHECK(f.allFinite());
+  CHECK(solveLcp(twins, VecX::Ones(2), -endless, endless, f).status == SolveStatus::Solved);
+}
+
+// Oracle: the cap of 50 n + 200; Dantzig needs about n pivots when nothing is degenerate, and three
+// times that on the problem below. Measured 275 for n = 100.
+TEST_CASE("pivots grow about as fast as the number of rows") {
+  Draw draw(5);
+  const int n = 100;
+  MatX G(n, n / 2);
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n / 2; ++k) G(i, k) = draw(-1.0, 1.0);
+  VecX x(n / 2);
+  for (int k = 0; k < n / 2; ++k) x[k] = draw(-1.0, 1.0);
+  VecX f;
+  const LcpReport report =
+      solveLcp(G * G.transpose(), G * x, VecX::Zero(n), VecX::Constant(n, kInfinity), f);
+  CHECK(report.status == SolveStatus::Solved);
+  CHECK(report.pivots < 6 * n);
+}
