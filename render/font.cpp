@@ -109,72 +109,84 @@ bool Fonts::has(Face face, char32_t letter) const {
                               static_cast<int>(letter)) != 0;
 }
 
+/// A glyph at its place in a line; the box is its ink on the image [px].
+struct Fonts::Placed {
+  Glyph glyph;
+  float scale, shift;  // pixels per font unit; of the pen beyond a whole pixel
+  int x;               // whole pixel of the pen
+  int x0, y0, x1, y1;
+};
+
+std::vector<Fonts::Placed> Fonts::layOut(std::string_view text, Face face, double size,
+                                         double& pen) const {
+  std::vector<Placed> line;
+  Glyph before{nullptr, 0};
+  pen = 0.0;
+  for (const char32_t letter : decodeUtf8(text)) {
+    const Glyph glyph = find(face, letter);
+    const stbtt_fontinfo* info = &glyph.font->info;
+    const float scale = stbtt_ScaleForMappingEmToPixels(info, static_cast<float>(size));
+    // Kerning is known only between glyphs of one font.
+    if (before.font == glyph.font)
+      pen += scale * stbtt_GetGlyphKernAdvance(info, before.index, glyph.index);
+    const double at = std::floor(pen * kShifts + 0.5) / kShifts;
+    Placed placed{glyph,
+                  scale,
+                  static_cast<float>(at - std::floor(at)),
+                  static_cast<int>(std::floor(at)),
+                  0,
+                  0,
+                  0,
+                  0};
+    stbtt_GetGlyphBitmapBoxSubpixel(info, glyph.index, scale, scale, placed.shift, 0.0f, &placed.x0,
+                                    &placed.y0, &placed.x1, &placed.y1);
+    line.push_back(placed);
+    int advance = 0, bearing = 0;
+    stbtt_GetGlyphHMetrics(info, glyph.index, &advance, &bearing);
+    pen += scale * advance;
+    before = glyph;
+  }
+  return line;
+}
+
+/// Adds a glyph's ink; where glyphs meet, the darker one stays.
+void Fonts::rasterise(const Placed& placed, TextImage& image) {
+  const int width = placed.x1 - placed.x0, height = placed.y1 - placed.y0;
+  if (width <= 0 || height <= 0) return;
+  std::vector<unsigned char> box(static_cast<std::size_t>(width) * height, 0);
+  stbtt_MakeGlyphBitmapSubpixel(&placed.glyph.font->info, box.data(), width, height, width,
+                                placed.scale, placed.scale, placed.shift, 0.0f, placed.glyph.index);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t row = static_cast<std::size_t>(placed.y0 + y - image.top);
+      std::uint8_t& to = image.ink[row * image.width + (placed.x + placed.x0 + x - image.left)];
+      to = std::max(to, box[static_cast<std::size_t>(y) * width + x]);
+    }
+  }
+}
+
 const TextImage& Fonts::set(std::string_view text, Face face, double size, double halo) {
   const auto key = std::make_tuple(std::string(text), face, size, halo);
   if (const auto found = cache_.find(key); found != cache_.end()) return found->second;
   if (cache_.size() >= kKept) cache_.clear();
 
-  // Pen positions first: advances and kerning, the latter only between glyphs of one font.
-  struct Placed {
-    Glyph glyph;
-    float scale, shift;
-    int x, x0, y0, x1, y1;
-  };
-  std::vector<Placed> line;
+  // The box that holds all ink, with room for the halo around it.
   TextImage image;
+  const std::vector<Placed> line = layOut(text, face, size, image.advance);
   int right = 0, bottom = 0;
-  Glyph before{nullptr, 0};
-  for (const char32_t letter : decodeUtf8(text)) {
-    const Glyph glyph = find(face, letter);
-    const float scale =
-        stbtt_ScaleForMappingEmToPixels(&glyph.font->info, static_cast<float>(size));
-    if (before.font == glyph.font)
-      image.advance +=
-          scale * stbtt_GetGlyphKernAdvance(&glyph.font->info, before.index, glyph.index);
-    const double pen = std::floor(image.advance * kShifts + 0.5) / kShifts;
-    Placed placed{glyph,
-                  scale,
-                  static_cast<float>(pen - std::floor(pen)),
-                  static_cast<int>(std::floor(pen)),
-                  0,
-                  0,
-                  0,
-                  0};
-    stbtt_GetGlyphBitmapBoxSubpixel(&glyph.font->info, glyph.index, scale, scale, placed.shift,
-                                    0.0f, &placed.x0, &placed.y0, &placed.x1, &placed.y1);
+  for (const Placed& placed : line) {
     image.left = std::min(image.left, placed.x + placed.x0);
     image.top = std::min(image.top, placed.y0);
     right = std::max(right, placed.x + placed.x1);
     bottom = std::max(bottom, placed.y1);
-    line.push_back(placed);
-    int advance = 0, bearing = 0;
-    stbtt_GetGlyphHMetrics(&glyph.font->info, glyph.index, &advance, &bearing);
-    image.advance += scale * advance;
-    before = glyph;
   }
-
-  // Then the ink, with room for the halo around it; where glyphs meet, the darker one stays.
   const int margin = static_cast<int>(std::ceil(halo)) + 1;
   image.left -= margin, image.top -= margin;
   image.width = right + margin - image.left;
   image.height = bottom + margin - image.top;
+
   image.ink.assign(static_cast<std::size_t>(image.width) * image.height, 0);
-  std::vector<unsigned char> box;
-  for (const Placed& placed : line) {
-    const int width = placed.x1 - placed.x0, height = placed.y1 - placed.y0;
-    if (width <= 0 || height <= 0) continue;
-    box.assign(static_cast<std::size_t>(width) * height, 0);
-    stbtt_MakeGlyphBitmapSubpixel(&placed.glyph.font->info, box.data(), width, height, width,
-                                  placed.scale, placed.scale, placed.shift, 0.0f,
-                                  placed.glyph.index);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const std::size_t row = static_cast<std::size_t>(placed.y0 + y - image.top);
-        std::uint8_t& to = image.ink[row * image.width + (placed.x + placed.x0 + x - image.left)];
-        to = std::max(to, box[static_cast<std::size_t>(y) * width + x]);
-      }
-    }
-  }
+  for (const Placed& placed : line) rasterise(placed, image);
   image.halo = dilate(image.ink, image.width, image.height, halo);
   return cache_.emplace(key, std::move(image)).first->second;
 }

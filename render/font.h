@@ -43,7 +43,11 @@ class Fonts {
     const Font* font;
     int index;
   };
+  struct Placed;
   Glyph find(Face face, char32_t letter) const;
+  /// Advances and kerning; `pen` ends behind the last glyph [px].
+  std::vector<Placed> layOut(std::string_view text, Face face, double size, double& pen) const;
+  static void rasterise(const Placed& placed, TextImage& image);
 
   std::vector<std::unique_ptr<Font>> fonts_;  // by face, then the fallback
   std::map<std::tuple<std::string, Face, double, double>, TextImage> cache_;

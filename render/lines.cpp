@@ -96,10 +96,16 @@ void Lines::load(const std::vector<Polyline>& lines, const Stage& stage) {
     const auto halfWidth = static_cast<float>(0.5 * line.width * stage.scale);
     for (const std::vector<Vector3d>& piece : projectLine(line.points, stage.projection)) {
       const std::vector<Vector3d> p = simplified(piece);
-      for (std::size_t i = 0; i + 1 < p.size(); ++i) {
-        // Ends have no seam: a zero normal.
-        const Vector2d s = i > 0 ? seam(p[i - 1], p[i], p[i + 1]) : Vector2d::Zero();
-        const Vector2d e = i + 2 < p.size() ? seam(p[i], p[i + 1], p[i + 2]) : Vector2d::Zero();
+      // A curve that ends where it starts is joined there too; other ends have no seam: a zero
+      // normal.
+      const std::size_t last = p.size() - 1;
+      const bool closed = last > 2 && (flat(p[0]) - flat(p[last])).norm() < 1e-6;
+      for (std::size_t i = 0; i < last; ++i) {
+        const bool seamAtStart = i > 0 || closed, seamAtEnd = i + 1 < last || closed;
+        const Vector2d s =
+            seamAtStart ? seam(p[i > 0 ? i - 1 : last - 1], p[i], p[i + 1]) : Vector2d::Zero();
+        const Vector2d e =
+            seamAtEnd ? seam(p[i], p[i + 1], p[i + 1 < last ? i + 2 : 1]) : Vector2d::Zero();
         const auto up = [&](const Vector3d& q) { return static_cast<float>(stage.height - q.y()); };
         stretches_.push_back({{float(p[i].x()), up(p[i]), float(clipDepth(p[i].z()))},
                               {float(p[i + 1].x()), up(p[i + 1]), float(clipDepth(p[i + 1].z()))},

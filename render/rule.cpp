@@ -11,23 +11,21 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Bounds of all bodies along a horizontal axis (0: x, 2: z) [m].
-struct Span {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+/// Where a rule may lie: parallel to one horizontal axis, on the onlooker's side of all bodies.
+struct Rail {
+  int axis, other;   ///< 0: x, 2: z
+  double low, high;  ///< [m] along the axis
+  double start,
+      outward;  ///< [m] where the bodies end across it, and the sign that leads away from them
+  double step;  ///< [m] between ticks
 };
 
-Span spanOf(const Picture& picture, int axis) {
-  Span span;
-  for (const Instance& body : picture.instances) {
-    const double reach = std::min(reachOf(body), picture.radius);
-    span.low = std::min(span.low, body.position[axis] - reach);
-    span.high = std::max(span.high, body.position[axis] + reach);
-  }
-  // Nothing beyond the part of the floor that shows.
-  span.low = std::max(span.low, picture.centre[axis] - 1.2 * picture.radius);
-  span.high = std::min(span.high, picture.centre[axis] + 1.2 * picture.radius);
-  return span;
-}
+struct Tick {
+  double value;
+  Vector2d place, inward;  ///< on the image, and the unit direction back to the bodies
+};
+using Ticks = std::vector<Tick>;
+using Boxes = std::vector<Eigen::AlignedBox2d>;
 
 /// 1, 2 or 5 times a power of ten that cuts `length` into four to ten parts.
 double stepFor(double length) {
@@ -36,27 +34,64 @@ double stepFor(double length) {
   return (leading < 2.0 ? 0.2 : leading < 4.0 ? 0.5 : 1.0) * power;
 }
 
-/// The rule at one distance in front of the bodies: its ticks that land well inside the image.
-struct Tick {
-  double value;
-  Vector2d place, inward;  ///< on the image, and the unit direction away from the onlooker
-};
-using Ticks = std::vector<Tick>;
+/// Bounds of all bodies along an axis, within the part of the floor that shows.
+std::pair<double, double> boundsOf(const Picture& picture, int axis) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Instance& body : picture.instances) {
+    const double reach = std::min(reachOf(body), picture.radius);
+    low = std::min(low, body.position[axis] - reach);
+    high = std::max(high, body.position[axis] + reach);
+  }
+  return {std::max(low, picture.centre[axis] - 1.2 * picture.radius),
+          std::min(high, picture.centre[axis] + 1.2 * picture.radius)};
+}
 
-/// Where else on the image something is written.
-using Boxes = std::vector<Eigen::AlignedBox2d>;
+/// Along the axis that lies most across the image; nothing if no body stands on the floor that
+/// shows.
+std::optional<Rail> railOf(const Picture& picture, const Projection& projection) {
+  const int axis = std::abs(projection.right().x()) >= std::abs(projection.right().z()) ? 0 : 2;
+  const int other = 2 - axis;
+  const auto [low, high] = boundsOf(picture, axis);
+  const auto [back, front] = boundsOf(picture, other);
+  if (!(high > low) || !(front > back)) return std::nullopt;
+  const double outward = projection.forward()[other] < 0.0 ? 1.0 : -1.0;
+  return Rail{axis, other, low, high, outward > 0.0 ? front : back, outward, stepFor(high - low)};
+}
 
+/// Whole steps within the motion that land well inside the image, at a gap [m] from the bodies.
+Ticks ticksAt(const Rail& rail, double gap, const Picture& picture, const Projection& projection,
+              const Canvas& canvas) {
+  const auto project = [&](double value, double away) {
+    Vector3d point;
+    point[rail.axis] = value;
+    point[1] = picture.floor.height;
+    point[rail.other] = rail.start + rail.outward * away;
+    return projection.project(point);
+  };
+  Ticks ticks;
+  for (double k = std::ceil(rail.low / rail.step - 1e-9);
+       k * rail.step <= rail.high + 1e-9 * rail.step; k += 1.0) {
+    const auto place = project(k * rail.step, gap),
+               inward = project(k * rail.step, gap - 0.01 * picture.radius);
+    if (!place || !inward) continue;
+    const Vector2d p = place->head<2>();
+    if (p.x() > 24.0 && p.x() < canvas.width() - 24.0 && p.y() < canvas.height() - 24.0)
+      ticks.push_back({k * rail.step, p, (inward->head<2>() - p).normalized()});
+  }
+  return ticks;
+}
+
+/// Where else on the image something is written: marks, colour bar, titles.
 Boxes writtenBoxes(const Picture& picture, const Projection& projection, const Canvas& canvas) {
   Boxes boxes;
+  const Vector2d corner(canvas.width(), canvas.height());
   for (const Mark& mark : picture.marks)
     if (const auto place = projection.project(mark.position))
       boxes.emplace_back(
           place->head<2>() - Vector2d(52.0, 8.0),
           place->head<2>() + Vector2d(52.0, 40.0 + 18.0 * static_cast<double>(mark.lines.size())));
-  if (picture.bar)
-    boxes.emplace_back(Vector2d(canvas.width() - 340.0, canvas.height() - 64.0),
-                       Vector2d(canvas.width(), canvas.height()));
-  boxes.emplace_back(Vector2d(0.0, 0.0), Vector2d(canvas.width(), 90.0));
+  if (picture.bar) boxes.emplace_back(corner - Vector2d(340.0, 64.0), corner);
+  boxes.emplace_back(Vector2d(0.0, 0.0), Vector2d(corner.x(), 90.0));
   return boxes;
 }
 
@@ -88,45 +123,20 @@ void drawTicks(const Ticks& ticks, double step, Canvas& canvas) {
 }  // namespace
 
 void drawRule(const Picture& picture, const Projection& projection, Canvas& canvas) {
-  if (picture.instances.empty()) return;
-  // Along the horizontal axis that lies most across, on the side towards the onlooker.
-  const int axis = std::abs(projection.right().x()) >= std::abs(projection.right().z()) ? 0 : 2;
-  const int other = 2 - axis;
-  const Span along = spanOf(picture, axis), side = spanOf(picture, other);
-  if (!(along.high > along.low)) return;
-  const double outward = projection.forward()[other] < 0.0 ? 1.0 : -1.0;
-  const double start = outward > 0.0 ? side.high : side.low;
-  const double step = stepFor(along.high - along.low);
-  const auto project = [&](double value, double beside) {
-    Vector3d point;
-    point[axis] = value, point[1] = picture.floor.height, point[other] = beside;
-    return projection.project(point);
-  };
-  const auto ticksAt = [&](double beside) {
-    Ticks ticks;
-    for (double k = std::ceil(along.low / step - 1e-9); k * step <= along.high + 1e-9 * step;
-         k += 1.0) {
-      const auto place = project(k * step, beside);
-      const auto inward = project(k * step, beside - 0.01 * outward * picture.radius);
-      if (!place || !inward) continue;
-      const Vector2d p = place->head<2>();
-      if (p.x() > 24.0 && p.x() < canvas.width() - 24.0 && p.y() < canvas.height() - 24.0)
-        ticks.push_back({k * step, p, (inward->head<2>() - p).normalized()});
-    }
-    return ticks;
-  };
-
+  const std::optional<Rail> rail = railOf(picture, projection);
+  if (!rail) return;
   // As near to the bodies as other writing allows; where it never does, just in front of them.
   const Boxes boxes = writtenBoxes(picture, projection, canvas);
-  Ticks chosen = ticksAt(start + 0.12 * outward * picture.radius);
-  for (double gap = 0.12; gap < 1.0; gap += 0.04) {
-    const Ticks ticks = ticksAt(start + gap * outward * picture.radius);
+  const double nearest = 0.12 * picture.radius;
+  Ticks chosen = ticksAt(*rail, nearest, picture, projection, canvas);
+  for (double gap = nearest; gap < picture.radius; gap += 0.04 * picture.radius) {
+    const Ticks ticks = ticksAt(*rail, gap, picture, projection, canvas);
     if (ticks.size() < 2 || ticks.size() < chosen.size()) break;
     if (collides(ticks, boxes)) continue;
     chosen = ticks;
     break;
   }
-  if (chosen.size() >= 2) drawTicks(chosen, step, canvas);
+  if (chosen.size() >= 2) drawTicks(chosen, rail->step, canvas);
 }
 
 }  // namespace tumble

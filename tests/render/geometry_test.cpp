@@ -97,17 +97,18 @@ TEST_CASE("the grid line at x = 1 m lies on its projected pixels") {
   picture.camera = {{0.0, 3.0, 8.0}, {0.0, 0.0, 0.0}, 24.0};
   picture.radius = 3.0;
   picture.floor.fineGrid = 0.0;
-  for (const double shift : {0.0, 1000.0}) {  // far from the origin as well
+  for (const double shift : {0.0, 0.3, 1000.3}) {  // far from the origin as well
     Picture moved = picture;
     for (Vector3d* point : {&moved.camera.eye, &moved.camera.target, &moved.centre})
       point->x() += shift;
     const Image image = studio().draw(moved, kFull);
     const Projection projection(moved.camera, 1280, 720);
+    const double line = std::floor(shift) + 1.0;
     for (const double z : {0.25, 0.5, -0.4}) {
-      const Vector3d exact = *projection.project({shift + 1.0, 0.0, z});
+      const Vector3d exact = *projection.project({line, 0.0, z});
       const int row = static_cast<int>(exact.y()), middle = static_cast<int>(exact.x());
       // Shift from the middle of the row to the point's own height, along the projected line.
-      const Vector3d next = *projection.project({shift + 1.0, 0.0, z + 0.01});
+      const Vector3d next = *projection.project({line, 0.0, z + 0.01});
       const double column =
           exact.x() + (row + 0.5 - exact.y()) * (next.x() - exact.x()) / (next.y() - exact.y());
       double sum = 0.0, weight = 0.0;
@@ -144,6 +145,55 @@ TEST_CASE("a line is as wide as it says and lies where it should") {
     CHECK(place / width == Approx(360.0 - 0.25 * 180.0).margin(0.1));
   }
   CHECK(brightness(after, 640 - 364, 315) == brightness(before, 640 - 364, 315));  // beyond its end
+}
+
+// Oracle: length times width. Stretches meet at seams without a gap and without being drawn twice.
+// Measured 0.1 % off, allowed 1 %; the hidden half is 45 % as dark.
+TEST_CASE("a curve of many points has the ink of its length") {
+  for (const bool hidden : {false, true}) {
+    Picture without = bare(1.0);
+    Instance screen;
+    screen.position = {0.0, 1.0, 0.6};
+    screen.scale = {3.0, 1.9, 0.1};
+    screen.colour = {0.9f, 0.9f, 0.9f};
+    if (hidden) without.instances = {screen};
+    Picture with = without;
+    Polyline circle;
+    for (int i = 0; i <= 720; ++i) {
+      const double angle = 2.0 * 3.14159265358979 * i / 720.0;
+      circle.points.push_back({std::cos(angle), 1.0 + std::sin(angle), 0.0});
+    }
+    circle.colour = {0.0f, 0.0f, 0.0f};
+    circle.width = 4.0f;
+    with.lines = {circle};
+    const Image before = studio().draw(without, kFull), after = studio().draw(with, kFull);
+    double ink = 0.0, darkest = 1.0;
+    for (int y = 100; y < 620; ++y) {
+      for (int x = 400; x < 880; ++x) {
+        const double left = brightness(after, x, y) / brightness(before, x, y);
+        ink += 1.0 - left;
+        darkest = std::min(darkest, left);
+      }
+    }
+    const double share = hidden ? 0.45 : 1.0;
+    CHECK(ink == Approx(share * 2.0 * 3.14159265358979 * 180.0 * 4.0).epsilon(0.01));
+    CHECK(darkest > 1.0 - share - 0.01);
+  }
+}
+
+TEST_CASE("a line on the face of a body is not hidden by it") {
+  Picture picture = bare(1.0);
+  Instance box;
+  box.position = {0.0, 1.0, 0.0};
+  box.scale = {0.5, 0.5, 0.5};
+  picture.instances = {box};
+  Polyline line;
+  line.points = {{-0.4, 1.1, 0.5}, {0.4, 1.1, 0.5}};
+  line.colour = {0.0f, 0.0f, 0.0f};
+  line.width = 4.0f;
+  picture.lines = {line};
+  const Image image = studio().draw(picture, kFull);
+  for (int x = 580; x < 700; ++x) CHECK(brightness(image, x, 360 - 19) < 1.0);
 }
 
 // Oracle: by hand. A line through an opaque box is drawn at 45 % where the box hides it.
