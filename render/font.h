@@ -28,7 +28,8 @@ class Fonts {
   explicit Fonts(const std::string& folder);
   ~Fonts();
 
-  /// Text set on a baseline at a whole pixel, with kerning. Kept for the next call.
+  /// Text set on a baseline at a whole pixel, with kerning. The reference is valid until the next
+  /// call.
   /// @param text  UTF-8; a byte sequence that is none is shown as U+FFFD
   /// @param size  [px] of the em
   /// @param halo  [px] by which the halo is wider than the ink
