@@ -16,8 +16,8 @@ using Quat = Eigen::Quaterniond;
 
 /// Where a body frame stands in the world: p = R(q) p_B + x.
 struct Pose {
-  Vec3 x = Vec3::Zero();          ///< [m] origin of the body frame, world
-  Quat q = Quat::Identity();      ///< [1] unit, takes body to world
+  Vec3 x = Vec3::Zero();      ///< [m] origin of the body frame, world
+  Quat q = Quat::Identity();  ///< [1] unit, takes body to world
 };
 
 /// World point [m] of the body point `p_B` [m].
