@@ -73,7 +73,7 @@ void signAgrees(std::uint64_t seed, int count) {
   REQUIRE(near > count / 4);
 }
 
-// Oracle: exact rational arithmetic. Half of the pairs are within 1e-6 m of touching, many nearly
+// Oracle: exact integer arithmetic. Half of the pairs are within 1e-6 m of touching, many nearly
 // aligned. Only gaps below 2e-15 m, rounding of coordinates near 1 m, are left out.
 TEST_CASE("the sign of the gap between two boxes is that of the exact separating-axis test") {
   signAgrees(11, 2000);
@@ -83,8 +83,9 @@ TEST_CASE("the sign of the gap is exact for a million pairs", "[long]") {
   signAgrees(12, 1000000);
 }
 
-// Oracle: exact rational arithmetic. Nearly parallel edges included: tilts from 1e-16 to 0.1
+// Oracle: exact integer arithmetic. Nearly parallel edges included: tilts from 1e-16 to 0.1
 // degrees.
+// Measured 9.2e-16 m, allowed 1e-14 m.
 TEST_CASE("the depth of overlapping boxes is the least over the 15 directions") {
   Random random(13);
   double worst = 0.0;
@@ -104,7 +105,6 @@ TEST_CASE("the depth of overlapping boxes is the least over the 15 directions") 
   CAPTURE(worst, overlapping);
   REQUIRE(overlapping > 1000);
   REQUIRE(worst < 1e-14);
-  WARN(worst);
 }
 
 // Independent lower and upper bounds of the distance: alternating projection gives points of both
@@ -130,6 +130,7 @@ DistanceBounds distance(const Boxes& s) {
   return {n.dot(s.poseA.x - s.poseB.x) - reach(s.a, s.poseA, n) - reach(s.b, s.poseB, n), upper};
 }
 
+// Oracle: bounds of the distance by another algorithm. Measured at least 0.596 of it.
 TEST_CASE("a gap is a lower bound of the distance and at least 1/sqrt(3) of it") {
   Random random(14);
   int apart = 0;
@@ -144,7 +145,6 @@ TEST_CASE("a gap is a lower bound of the distance and at least 1/sqrt(3) of it")
     shortest = std::min(shortest, gap / bounds.lower);
   }
   CAPTURE(apart, shortest);
-  WARN(shortest);
   REQUIRE(apart > 500);
   REQUIRE(shortest > 0.577);
 }
@@ -162,7 +162,7 @@ TEST_CASE("the gap is continuous in the poses, also where edges turn parallel") 
     const double size = before.a.half.norm() + before.b.half.norm();
     steepest = std::max(steepest, (std::abs(after.gap() - before.gap()) - 1e-14) / (angle * size));
   }
-  WARN(steepest);
+  CAPTURE(steepest);
   REQUIRE(steepest < 4.0);
 }
 
