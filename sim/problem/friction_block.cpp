@@ -49,14 +49,15 @@ bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, Vec3& lambda) {
     const Vec2 rate = -mu * (tangential * across) + drift * (mu * coupling.dot(across) / c[0]);
     const double along = d.dot(slip), h = across.dot(slip), slope = across.dot(rate) - along;
 
-    // Newton's turn, or straight to the slip direction where Newton points away from it.
+    // Newton's turn; halfway to the slip where Newton leads elsewhere.
     const double turn = -h / slope;
     if (slope < 0.0 && std::abs(turn) < 1.0) {
       d = turned(d, turn);
     } else {
-      const double size = slip.norm();
-      if (!(size > 0.0)) return false;
-      d = slip / size;
+      const Vec2 halfway = d + slip / slip.norm();
+      const double size = halfway.norm();
+      if (!(size > 1e-3)) return false;
+      d = halfway / size;
       continue;
     }
     if (std::abs(turn) > kTurn && step + 1 < kNewtonSteps) continue;
@@ -68,21 +69,28 @@ bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, Vec3& lambda) {
   return false;
 }
 
+/// The same from a first guess that points, of whatever length, against the slip.
+bool slideFrom(const Mat3& W, const Vec3& c, double mu, const Vec2& against, Vec3& lambda) {
+  const double size = std::sqrt(against[0] * against[0] + against[1] * against[1]);
+  return size > 0.0 && slide(W, c, mu, -against / size, lambda);
+}
+
 }  // namespace
 
 Vec3 solveFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start) {
   if (c[0] >= 0.0) return Vec3::Zero();
-  Vec3 lambda;
-  if (solveThree(W, -c, lambda)) {
-    const double held = std::sqrt(lambda[1] * lambda[1] + lambda[2] * lambda[2]);
-    if (held <= mu * lambda[0]) return lambda;
-  }
   if (mu <= 0.0) return {-c[0] / W(0, 0), 0.0, 0.0};
+  Vec3 stick = Vec3::Zero(), lambda;
+  if (solveThree(W, -c, stick)) {
+    const double held = std::sqrt(stick[1] * stick[1] + stick[2] * stick[2]);
+    if (held <= mu * stick[0]) return stick;
+  }
 
-  const double pull = std::sqrt(start[1] * start[1] + start[2] * start[2]);
-  const double drift = std::sqrt(c[1] * c[1] + c[2] * c[2]);
-  if (pull > 0.0 && slide(W, c, mu, Vec2(-start[1], -start[2]) / pull, lambda)) return lambda;
-  if (drift > 0.0 && slide(W, c, mu, Vec2(c[1], c[2]) / drift, lambda)) return lambda;
+  // Slip as before, against the force that would hold it, or as without friction.
+  const Vec2 frictionless(W(0, 1) * c[0] / W(0, 0) - c[1], W(0, 2) * c[0] / W(0, 0) - c[2]);
+  if (slideFrom(W, c, mu, start.tail<2>(), lambda)) return lambda;
+  if (slideFrom(W, c, mu, stick.tail<2>(), lambda)) return lambda;
+  if (slideFrom(W, c, mu, frictionless, lambda)) return lambda;
 
   const double rho = 1.0 / W.trace();
   lambda = start;

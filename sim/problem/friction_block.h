@@ -8,8 +8,8 @@ namespace tumble {
 /// Finds λ of one frictional contact with  u = W λ + c:
 ///   λ = 0 and u_n ≥ 0;  or u = 0 and |λt| ≤ mu λn (sticks);
 ///   or u_n = 0 and λt = −mu λn d, u_t = |u_t| d (slides along the unit vector d).
-/// Sliding is one equation for d, solved by Newton's method on the circle from the slip it starts
-/// with; where that fails the projection λ ← Π_K(λ − ρ û) is iterated instead.
+/// Sliding is one equation for d, solved by Newton's method on the circle from three guesses in
+/// turn; where they all fail the projection λ ← Π_K(λ − ρ û) is iterated instead.
 /// @param W  3×3, symmetric positive definite, rows n, t1, t2 [1/kg]
 /// @param c  u without λ [m/s]
 /// @param start  λ to start from

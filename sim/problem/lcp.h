@@ -17,9 +17,11 @@ struct LcpReport {
 ///   a ≥ 0 where f = lo,   a ≤ 0 where f = hi,   a = 0 between.
 /// Dantzig pivoting: indices are taken in one by one; each is driven until its own condition holds,
 /// and the others move so that theirs keep holding. Cottle & Dantzig 1968; Baraff, Fast Contact
-/// Force Computation for Nonpenetrating Rigid Bodies, 1994, §4. Departures: bounds on both sides;
-/// an index that depends on the free ones (A of deficient rank) stays out of the factor; what
-/// rounding spoils is driven again.
+/// Force Computation for Nonpenetrating Rigid Bodies, 1994, §4. Departures: bounds on both sides,
+/// and what rounding spoils is driven again. A of deficient rank leaves f open: here each index
+/// stands on a foot of the same small compliance, and of all answers the even one is found. The
+/// feet are then taken away by a proximal point iteration, so that a = A f + b holds to rounding.
+/// Only where that fails are indices that depend on the free ones kept out of the factor instead.
 /// @param A   symmetric positive semidefinite, of any rank
 /// @param lo  may be −∞; lo = −∞, hi = +∞ makes an equality a = 0
 /// @param f   result; always finite and within its bounds

@@ -12,7 +12,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kPasses = 100;
 constexpr int kPolishSweeps = 2000;
-constexpr double kStill = 1e-14;  ///< change of λ from pass to pass, relative, that ends the passes
+constexpr int kPatience = 3;  ///< passes without gain after which the pyramid has told all it knows
+constexpr double kGain = 0.9;  ///< a gain: the residual falls below this part of the best before
 
 /// Bounds of every row, given the normal λ of the pass before. Returns whether they depend on it.
 bool setBounds(const Problem& problem, const VecX& lambda, VecX& lo, VecX& hi) {
@@ -45,13 +46,12 @@ SolveReport look(const Problem& problem, const VecX& lambda, const LcpReport& lc
 SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
                           Solution& solution) {
   const Delassus system = delassus(problem);
-  const Eigen::Index n = system.b.size();
-  VecX lambda = VecX::Zero(n), before = lambda, lo = lambda, hi = lambda;
+  VecX lambda = VecX::Zero(system.b.size()), lo = lambda, hi = lambda;
   Solution best;
-  SolveReport bestReport{.residual = kInfinity};
-  int pivots = 0;
+  double bestResidual = kInfinity;
+  int pivots = 0, sinceBest = 0;
   solution.v.resize(problem.vStar.size());
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kPasses && sinceBest < kPatience; ++pass) {
     const bool friction = setBounds(problem, lambda, lo, hi);
     const LcpReport lcp = solveLcp(system.A, system.b, lo, hi, lambda);
     SolveReport report = look(problem, lambda, lcp, solution);
@@ -59,13 +59,12 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
     if (!friction || lcp.status == SolveStatus::Infeasible) return report;
     if (report.residual <= settings.tolerance) return report;
     if (atRounding(problem, solution, report.residual)) return report;
-    if (report.residual < bestReport.residual) {
-      bestReport = report;
+    ++sinceBest;
+    if (report.residual < kGain * bestResidual) sinceBest = 0;
+    if (report.residual < bestResidual) {
+      bestResidual = report.residual;
       best = solution;
     }
-    if ((lambda - before).lpNorm<Eigen::Infinity>() <= kStill * lambda.lpNorm<Eigen::Infinity>())
-      break;
-    before = lambda;
   }
 
   // What the pyramid leaves to the cone is done by sweeps.
