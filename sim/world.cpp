@@ -1,8 +1,8 @@
 #include "sim/world.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
@@ -13,6 +13,13 @@ namespace {
 
 std::string bodyPath(std::size_t i, const char* field = "") {
   return "bodies[" + std::to_string(i) + "]" + field;
+}
+
+/// Six digits, the same in every locale.
+std::string shortNumber(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+  return {text, end.ptr};
 }
 
 void need(bool holds, const std::string& where, const std::string& what) {
@@ -77,10 +84,8 @@ void checkPairs(const Model& model, std::span<const RigidBody> bodies) {
                ") could meet, and there is no contact rule for these two shapes");
       const double gap =
           separation(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose());
-      char depth[32];
-      std::snprintf(depth, sizeof depth, "%.6g", -gap);
       need(gap >= -touch, bodyPath(a, ".position"),
-           "\"" + nameA + "\" overlaps \"" + nameB + "\" by " + depth +
+           "\"" + nameA + "\" overlaps \"" + nameB + "\" by " + shortNumber(-gap) +
                " m at the start; move them apart");
     }
   }

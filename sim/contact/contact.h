@@ -41,7 +41,9 @@ struct Contact {
   double restitution = 0.0, friction = 0.0;
   bool lasting = false;               ///< rests: takes part in the contact forces
   bool sliding = false;               ///< its friction is kinetic
-  Vec3 slipDirection = Vec3::Zero();  ///< of the slip when sliding began
+  bool creeping = false;              ///< slides so slowly that a step could turn its slip round
+  bool mayStick = false;              ///< its slip can come to an end along slipDirection
+  Vec3 slipDirection = Vec3::Zero();  ///< of the slip at the start of this stretch of motion
   Vec3 force = Vec3::Zero();          ///< [N] on a, friction included
 };
 

@@ -1,5 +1,8 @@
 #include "sim/contact/rest.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/contact/rows.h"
 
 namespace tumble {
@@ -7,8 +10,8 @@ namespace tumble {
 Vec3 slidingDirection(std::span<const RigidBody> bodies, const Contact& contact) {
   const Vec3 slip = slipVelocity(bodies[contact.a], bodies[contact.b], contact.point);
   const double along = slip.dot(contact.slipDirection), size = slip.norm();
-  if (size <= 0.0 || std::abs(along) < 0.5 * size) {  // too small or turned aside: keep the plane
-    Vec3 t1, t2;
+  if (contact.creeping || size <= 0.0 || std::abs(along) < 0.5 * size) {
+    Vec3 t1, t2;  // the direction of the start, in the tangent plane of now
     tangents(contact.point.n, contact.slipDirection, t1, t2);
     return t1;
   }
@@ -18,49 +21,99 @@ Vec3 slidingDirection(std::span<const RigidBody> bodies, const Contact& contact)
 void RestForces::addRows(std::span<const RigidBody> bodies, const Contact& contact) {
   const RigidBody &a = bodies[contact.a], &b = bodies[contact.b];
   const ContactPoint& c = contact.point;
-  const double normalBias = normalAccelerationBias(a, b, c) +
-                            2.0 / tau_ * approachVelocity(a, b, c) + c.separation / (tau_ * tau_);
-  const auto addRow = [&](const Vec3& d, double bias) {
-    problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, d, bias));
-  };
-  Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())};
-  addRow(c.n, normalBias);
-  if (contact.friction > 0.0 && contact.sliding) {
-    const Vec3 t = slidingDirection(bodies, contact);
-    addRow(t, slipAccelerationBias(a, b, c, t));
-    cone.kind = ConeKind::Slide;
-    cone.mu = contact.friction;
-  } else if (contact.friction > 0.0) {
-    const Vec3 slip = slipVelocity(a, b, c);
-    Vec3 t1, t2;
-    tangents(c.n, problem_.vStar[contact.a].head<3>() - problem_.vStar[contact.b].head<3>(), t1,
-             t2);
-    addRow(t1, slipAccelerationBias(a, b, c, t1) + slip.dot(t1) / tau_);
-    addRow(t2, slipAccelerationBias(a, b, c, t2) + slip.dot(t2) / tau_);
-    cone.kind = ConeKind::Friction;
-    cone.mu = contact.friction;
+  const double bias = normalAccelerationBias(a, b, c) + 2.0 / tau_ * approachVelocity(a, b, c) +
+                      c.separation / (tau_ * tau_);
+  problem_.cones.push_back(
+      {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size()), .mu = 0.0});
+  problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, c.n, bias));
+  if (contact.friction <= 0.0) return;
+  if (!contact.sliding) return addFrictionRows(bodies, contact, tau_);
+
+  const Vec3 t = slidingDirection(bodies, contact);
+  problem_.cones.back().kind = ConeKind::Slide;
+  problem_.cones.back().mu = contact.friction;
+  problem_.rows.push_back(
+      pointRow(bodies, contact.a, contact.b, c.p, t, slipAccelerationBias(a, b, c, t)));
+}
+
+void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact,
+                                 double slipTime) {
+  const RigidBody &a = bodies[contact.a], &b = bodies[contact.b];
+  const ContactPoint& c = contact.point;
+  const Vec3 slip = slipVelocity(a, b, c);
+  const Vec3 pull = problem_.vStar[contact.a].head<3>() - problem_.vStar[contact.b].head<3>();
+  Vec3 t1, t2;
+  tangents(c.n, pull, t1, t2);
+  for (const Vec3& t : {t1, t2}) {
+    const double bias = slipAccelerationBias(a, b, c, t) + slip.dot(t) / slipTime;
+    problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, t, bias));
   }
-  problem_.cones.push_back(cone);
+  problem_.cones.back().kind = ConeKind::Friction;
+  problem_.cones.back().mu = contact.friction;
+}
+
+SolveReport RestForces::solve(std::span<const Contact> contacts) {
+  // With friction, sweeps that start from the last solution (the stage before) are soon there;
+  // pivoting is exact without it, and has the last word where the sweeps do not settle.
+  constexpr int kSweeps = 300;
+  const bool friction = std::any_of(contacts.begin(), contacts.end(),
+                                    [](const Contact& c) { return c.friction > 0.0; });
+  if (friction) {
+    const SolveReport swept =
+        solveByIslands(*findSolver("pgs"), problem_, {.maxIterations = kSweeps}, solution_);
+    if (swept.status == SolveStatus::Solved) return swept;
+    solution_.lambda.clear();
+  }
+  return solveByIslands(*findSolver("pivoting"), problem_, {.maxIterations = kSweeps}, solution_);
+}
+
+Vec3 RestForces::force(std::size_t contact) const {
+  const bool last = contact + 1 == problem_.cones.size();
+  const std::size_t end = last ? problem_.rows.size() : problem_.cones[contact + 1].row;
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t r = problem_.cones[contact].row; r < end; ++r)
+    sum += solution_.lambda[r] * problem_.rows[r].linear;
+  return sum;
 }
 
 SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts) {
   if (contacts.empty()) return {};
   beginAccelerationProblem(bodies, problem_);
   for (const Contact& contact : contacts) addRows(bodies, contact);
-  const SolveReport report = solveByIslands(*findSolver("pivoting"), problem_, {}, solution_);
-
+  const SolveReport report = solve(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& contact = contacts[i];
-    const std::size_t first = problem_.cones[i].row;
-    const std::size_t end =
-        i + 1 < contacts.size() ? problem_.cones[i + 1].row : problem_.rows.size();
-    contact.force.setZero();
-    for (std::size_t r = first; r < end; ++r)
-      contact.force += solution_.lambda[r] * problem_.rows[r].linear;
+    contact.force = force(i);
     applyForce(bodies[contact.a], contact.point.p, contact.force);
     applyForce(bodies[contact.b], contact.point.p, -contact.force);
   }
   return report;
+}
+
+void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts,
+                             double h) {
+  const auto creeps = [](const Contact& c) { return c.creeping; };
+  if (std::none_of(contacts.begin(), contacts.end(), creeps)) return;
+  beginAccelerationProblem(bodies, problem_);
+  for (Contact contact : contacts) {
+    const bool slides = contact.sliding && !contact.creeping;
+    contact.sliding = true;
+    addRows(bodies, contact);
+    if (slides || contact.friction <= 0.0) continue;
+    problem_.rows.pop_back();
+    addFrictionRows(bodies, contact, h);
+  }
+  solve(contacts);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    Contact& c = contacts[i];
+    if (!c.creeping) continue;
+    const Vec3 f = force(i), tangential = f - f.dot(c.point.n) * c.point.n;
+    const Vec3 slip = slipVelocity(bodies[c.a], bodies[c.b], c.point);
+    const bool saturated = tangential.norm() >= c.friction * f.dot(c.point.n) * (1.0 - 1e-9);
+    // A slip that will end within the step keeps its line, so that the instant of its end is found.
+    c.mayStick = !saturated || tangential.dot(slip) >= 0.0;
+    if (!c.mayStick) c.slipDirection = -tangential.normalized();
+  }
 }
 
 }  // namespace tumble

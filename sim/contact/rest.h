@@ -27,8 +27,17 @@ class RestForces {
   /// pose.
   SolveReport apply(std::span<RigidBody> bodies, std::span<Contact> contacts);
 
+  /// Chooses the slip direction of creeping contacts for the next h seconds. The direction of a
+  /// slow slip obeys a stiff equation (rate mu f_n/(m |slip|)), which an explicit integrator turns
+  /// into chatter. So it is taken as at the end of the step: from Coulomb's cone with  a_t + slip/h
+  /// in place of a_t. Bodies must carry their outer forces.
+  void settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts, double h);
+
  private:
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
+  void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact, double slipTime);
+  SolveReport solve(std::span<const Contact> contacts);
+  Vec3 force(std::size_t contact) const;
 
   double tau_;
   Problem problem_;

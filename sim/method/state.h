@@ -42,9 +42,10 @@ struct State {
   std::map<ContactKey, Vec3> warm;
 
   // What only `course` remembers: pairs that the next stretch of motion may bring together, and the
-  // impacts of each pair since the last whole step.
+  // events since the last whole step.
   std::vector<std::pair<int, int>> near;
   std::map<std::pair<int, int>, int> recentImpacts;
+  int recentSticks = 0;  ///< stretches that ended before the step did, since the last whole step
 };
 
 }  // namespace tumble

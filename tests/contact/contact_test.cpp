@@ -1,10 +1,10 @@
 // Contacts: how they are told apart, how their normals turn, how the course's impulse acts.
 #include "sim/contact/contact.h"
 
-#include "tests/catch.h"
 #include "sim/body/mass_properties.h"
 #include "sim/contact/impulse.h"
 #include "sim/math/rotation.h"
+#include "tests/catch.h"
 
 using namespace tumble;
 
@@ -43,6 +43,7 @@ Contact contactOf(NormalTie tie, const RigidBody& a, const RigidBody& b) {
   p.rb = roundB ? 0.2 : 0.0;
   p.pb = b.x + Vec3(0.1, 0.3, -0.2);
   p.pa = p.pb + (p.separation + p.ra + p.rb) * p.n;
+  p.p = 0.5 * ((p.pa - p.ra * p.n) + (p.pb + p.rb * p.n));
   // Edges lie across the normal.
   p.ea = Vec3(1.0, 0.1, 0.4).cross(p.n).normalized();
   p.eb = Vec3(-0.3, 0.2, 1.0).cross(p.n).normalized();

@@ -27,7 +27,7 @@ std::vector<Event> impacts(const World& world) {
 TEST_CASE("a dropped ball hits the floor at the times of the geometric series") {
   for (double e : {0.3, 0.8, 1.0}) {
     CAPTURE(e);
-    WorldDef def = courseWorld(4.0);
+    WorldDef def = courseWorld(6.0);
     def.bodies = {ground(), ball("ball", 0.1, {0.0, 2.1, 0.0}, e)};
     World world(def);
     run(world);

@@ -13,6 +13,9 @@ namespace {
 /// Time constant of the pull that keeps lasting contacts at zero, in steps.
 constexpr double kPullSteps = 4.0;
 
+/// Share of the slack by which a pair that has used it up may sink on.
+constexpr double kSink = 1e-3;
+
 double pullTime(const Model& model) {
   return kPullSteps * model.def.course.step;
 }
@@ -20,13 +23,6 @@ double pullTime(const Model& model) {
 std::unique_ptr<Stepper> makeStepper(const Model& model) {
   const int size = model.count() * kStateSize + CourseSystem::kLedgerSize;
   return findIntegrator(model.def.course.integrator)->make(size);
-}
-
-/// Upper estimate [m/s²] of what outer forces do to any body, for the reach of the broad phase.
-double accelerationScale(std::span<const RigidBody> bodies, const Vec3& gravity) {
-  double a = gravity.norm();
-  for (const RigidBody& body : bodies) a = std::max(a, body.invM * body.force.norm());
-  return a;
 }
 
 bool allFinite(std::span<const double> y) {
@@ -83,6 +79,7 @@ Course::Course(const Model& model, State& state, Report& report)
       report_(report),
       tolerance_(ContactTolerance::forSize(model.size)),
       stepper_(makeStepper(model)),
+      rest_(pullTime(model)),
       trial_(state.bodies) {}
 
 void Course::settle() {
@@ -98,8 +95,7 @@ void Course::findTouching() {
   const double h = gridTime(model_, state_.gridIndex, model_.def.course.step) - state_.t;
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
   std::vector<Aabb> boxes;
-  sweptBoxes(model_, state_.bodies, h, accelerationScale(state_.bodies, model_.def.gravity),
-             tolerance_.touch, boxes);
+  sweptBoxes(model_, state_.bodies, h, accelerationScale(), tolerance_.touch, boxes);
   state_.near = nearPairs(model_, state_, boxes);
   touching_.clear();
   for (const auto& pair : state_.near)
@@ -107,6 +103,12 @@ void Course::findTouching() {
   for (const Contact& c : touching_)
     report_.certificate.max_penetration =
         std::max(report_.certificate.max_penetration, -c.point.separation);
+}
+
+double Course::accelerationScale() const {
+  double a = model_.def.gravity.norm();
+  for (const RigidBody& body : state_.bodies) a = std::max(a, body.invM * body.force.norm());
+  return a;
 }
 
 bool Course::wasLasting(int a, int b) const {
@@ -125,20 +127,22 @@ void Course::move() {
   y_.resize(system.size());
   system.pack(state_.bodies, y0_);
 
-  // A pair may come as close as touching, or as deep as rounding has already brought it.
+  // A pair may come as close as touching, to a slack, or stay as deep as rounding has brought it.
+  // The slack must not be granted anew at each event, or every bounce would start a little deeper.
   floor_.clear();
   allowanceNow_ = std::numeric_limits<double>::infinity();
   for (const auto& [b, a] : state_.near) {
     const double now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
                                   state_.bodies[b].pose());
     const double slack = wasLasting(a, b) ? tolerance_.drift : tolerance_.root;
-    floor_.push_back(std::min(0.0, now) - slack);
+    floor_.push_back(std::min(-slack, now - kSink * slack));
     allowanceNow_ = std::min(allowanceNow_, now - floor_.back());
   }
   for (const Contact& c : state_.lasting)
-    if (c.sliding)
+    if (c.mayStick)
       allowanceNow_ = std::min(
-          allowanceNow_, slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm());
+          allowanceNow_,
+          slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).dot(c.slipDirection));
 
   // Try the whole stretch; if something collides, or a slip ends, back up to that instant.
   double h = span;
@@ -146,6 +150,7 @@ void Course::move() {
     h = backUp(system, span);
     allowance(system, h);
   }
+  if (h < span) ++state_.recentSticks;
   commit(system, h, h < span ? state_.t + h : grid);
 }
 
@@ -162,7 +167,7 @@ double Course::allowance(CourseSystem& system, double h) {
     least = std::min(least, gap - floor_[k]);
   }
   for (Contact c : state_.lasting) {
-    if (!c.sliding) continue;
+    if (!c.mayStick) continue;
     follow(trial_[c.a], trial_[c.b], c);
     least = std::min(least, slipVelocity(trial_[c.a], trial_[c.b], c.point).dot(c.slipDirection));
   }
@@ -210,6 +215,7 @@ void Course::commit(CourseSystem& system, double h, double t1) {
   if (t1 == gridTime(model_, state_.gridIndex, model_.def.course.step)) {
     ++state_.gridIndex;
     state_.recentImpacts.clear();
+    state_.recentSticks = 0;
   }
 }
 

@@ -35,6 +35,8 @@ class Course {
   void chooseLasting();
   void recordChanges(const std::vector<Contact>& before);
   bool wasLasting(int a, int b) const;
+  /// Upper estimate [m/s²] of what outer forces do to any body.
+  double accelerationScale() const;
 
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.
   double allowance(CourseSystem& system, double h);
@@ -47,6 +49,7 @@ class Course {
   Report& report_;
   ContactTolerance tolerance_;
   std::unique_ptr<Stepper> stepper_;
+  RestForces rest_;
   std::vector<Contact> touching_;
   std::vector<double> y0_, y_;
   std::vector<RigidBody> trial_;

@@ -13,9 +13,16 @@ namespace {
 constexpr double kHeight = 1e-10;  // [m]
 constexpr double kTime = 1e-6;     // [s]
 // Pairs that hop where nothing presses them together: rest below this speed after so many hits.
-constexpr double kCrawl = 1e-6;        // [m/s]
-constexpr int kHitsBeforeCrawl = 30;   // within one step
-constexpr int kHitsBeforeRest = 2000;  // within one step, at any speed
+constexpr double kCrawl = 1e-4;        // [m/s]
+constexpr int kHitsBeforeCrawl = 100;  // within one step
+constexpr int kHitsBeforeRest = 1000;  // within one step, at any speed
+// Approach of so many times the resting speed calls for an impulse.
+constexpr double kNoise = 10.0;
+
+// Slip below this many times what friction changes in a step has its direction chosen implicitly.
+constexpr double kCreep = 4.0;
+// Ends of slips that are located within one step; later ones wait for the next step.
+constexpr int kSticksInStep = 20;
 
 /// Relative normal acceleration [m/s²] of a contact under outer forces alone.
 double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
@@ -31,8 +38,8 @@ double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoi
 
 bool Course::collides() const {
   return std::any_of(touching_.begin(), touching_.end(), [&](const Contact& c) {
-    const double band = wasLasting(c.a, c.b) ? tolerance_.keep : tolerance_.rest;
-    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < -band;
+    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) <
+           -kNoise * tolerance_.rest;
   });
 }
 
@@ -40,6 +47,7 @@ double Course::restitutionNow(const Contact& c) const {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
   if (rebound <= 0.0) return c.restitution;
+  if (wasLasting(c.a, c.b) && rebound < tolerance_.keep) return 0.0;
   const double press = -freeAcceleration(a, b, c.point);
   if (press > 0.0 && rebound * rebound < 2.0 * press * kHeight &&
       2.0 * rebound < press * (1.0 - c.restitution) * kTime)
@@ -87,6 +95,8 @@ void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> i
       if (state_.bodies[first.a].fixed()) state_.externalImpulse -= impulse[i];
     }
     if (event.j <= 0.0) continue;
+    if (wasLasting(event.a, event.b) && event.vrel > -tolerance_.keep)
+      continue;  // it only leans on
     event.p /= event.j;
     report_.events.push_back(event);
     ++state_.recentImpacts[{event.a, event.b}];
@@ -94,6 +104,7 @@ void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> i
 }
 
 void Course::chooseLasting() {
+  const double scale = accelerationScale();
   std::vector<Contact> lasting;
   for (Contact c : touching_) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
@@ -104,8 +115,11 @@ void Course::chooseLasting() {
     const Vec3 slip = slipVelocity(a, b, c.point);
     c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
     if (c.sliding) c.slipDirection = slip.normalized();
+    c.mayStick = c.sliding && state_.recentSticks < kSticksInStep;
+    c.creeping = c.sliding && slip.norm() < kCreep * c.friction * scale * model_.def.course.step;
     lasting.push_back(c);
   }
+  rest_.settleCreep(state_.bodies, lasting, model_.def.course.step);
   std::swap(state_.lasting, lasting);
   recordChanges(lasting);
 }
