@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <csignal>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -56,9 +57,12 @@ int complain(int code, const char* what) {
 }  // namespace
 
 int dispatch(std::span<const Command> table, int argc, char** argv) {
+  // A limit on the size of files is a write that fails, not a reason to die.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     const int code = runNamed(table, argc, argv);
-    if (std::fflush(stdout) != 0) throw FileError("cannot write to standard output");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw FileError("cannot write to standard output");
     return code;
   } catch (const UsageError& error) {
     return complain(kUsage, error.what());
