@@ -71,7 +71,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   if (const std::optional<Shape> shape = readShape(section)) {
     def.shape = *shape;
     if (std::get_if<HalfSpace>(&def.shape)) checkPlane(section, def);
-    if (!def.fixed && !def.mass && !def.density)
+    if (section.good() && !def.fixed && !def.mass && !def.density)
       section.complain("mass",
                        "missing; a moving body needs a mass, or a density of its own or its "
                        "material's");
