@@ -5,9 +5,11 @@ namespace tumble::command {
 int check(int argc, char** argv);
 int describe(int argc, char** argv);
 int doctor(int argc, char** argv);
+int golden(int argc, char** argv);
 int list(int argc, char** argv);
 int render(int argc, char** argv);
 int simulate(int argc, char** argv);
+int view(int argc, char** argv);
 }  // namespace tumble::command
 
 int main(int argc, char** argv) {
@@ -19,6 +21,8 @@ int main(int argc, char** argv) {
       {"simulate", "numbers only: trajectory, events, contacts, summary", command::simulate},
       {"render", "numbered images; or a still, a strobe, a sheet, a film", command::render},
       {"check", "hold scenes to their closed forms", command::check},
+      {"golden", "hold small images and numbers against the approved ones", command::golden},
+      {"view", "the window: play, step, scrub, turn", command::view},
       {"doctor", "what this machine offers for drawing, and what is missing", command::doctor},
   };
   return dispatch(table, argc, argv);

@@ -1,0 +1,20 @@
+// What goldens are kept of, and how they are drawn.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "app/golden/golden.h"
+#include "render/renderer.h"
+
+namespace tumble {
+
+/// The subject that is not a demo: the window with its user interface.
+inline constexpr std::string_view kWindowSubject = "viewer";
+
+/// Draws a demo's start, instants and strobe, 480×270, and writes down its motion at 21 instants;
+/// or the window. Images that show nothing new are left out.
+/// @throws SceneError, NoContext
+Golden drawGolden(const std::string& subject, Renderer& renderer);
+
+}  // namespace tumble

@@ -1,0 +1,66 @@
+// Runs the program as a user would and looks at what it says and leaves behind.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+/// A folder that is gone when the test ends.
+struct Scratch {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("tumble-program-" + std::to_string(::getpid()));
+  Scratch() {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
+  ~Scratch() { std::filesystem::remove_all(path); }
+
+  /// Writes a file here and returns its path.
+  std::string file(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name) << text;
+    return (path / name).string();
+  }
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+struct Outcome {
+  int code = -1;  ///< exit code, or 128 + number of the signal that ended it
+  std::string out, err;
+
+  /// Lines on the error stream.
+  long lines() const { return std::count(err.begin(), err.end(), '\n'); }
+  bool says(const std::string& text) const { return err.find(text) != std::string::npos; }
+};
+
+inline std::string textOf(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Runs `before; tumble arguments` in a shell inside the scratch folder.
+/// @param before shell commands such as "ulimit -f 8; export TUMBLE_GL=x"
+inline Outcome tumbleRun(const Scratch& scratch, const std::string& arguments,
+                         const std::string& before = ":") {
+  const std::filesystem::path out = scratch.path / ".out", err = scratch.path / ".err";
+  const std::string command = "cd '" + scratch.path.string() + "' && (" + before + "; exec '" +
+                              TUMBLE_PROGRAM + "' " + arguments + ") >.out 2>.err";
+  const int status = std::system(command.c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), textOf(out),
+                  textOf(err)};
+  std::filesystem::remove(out);
+  std::filesystem::remove(err);
+  return outcome;
+}
+
+/// Regular files below a folder.
+inline long filesBelow(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return 0;
+  const std::filesystem::recursive_directory_iterator all(folder);
+  return std::count_if(begin(all), end(all),
+                       [](const auto& entry) { return entry.is_regular_file(); });
+}

@@ -1,0 +1,21 @@
+// The window, on a virtual display.
+#include "tests/catch.h"
+#include "tests/program/program.h"
+
+TEST_CASE("the window opens on a virtual display, draws and closes") {
+  if (std::system("command -v xvfb-run xauth >/dev/null") != 0) {
+    WARN("xvfb is not installed: not tested");
+    return;
+  }
+  const Scratch scratch;
+  scratch.file(
+      "scene.toml",
+      "[world]\nduration = 0.2\n[[body]]\nname = \"a\"\nshape = { sphere = 0.1 }\nmass = 1.0\n");
+  const std::string server = "xvfb-run --auto-servernum --server-args='-screen 0 1280x800x24' ";
+  const std::string command = "cd '" + scratch.path.string() + "' && " + server + TUMBLE_PROGRAM +
+                              " view scene.toml --images 3 >log 2>&1";
+  const int status = std::system(command.c_str());
+  CAPTURE(textOf(scratch.path / "log"));
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
