@@ -9,7 +9,7 @@ namespace tumble {
 
 namespace {
 
-constexpr int kDeepest = 16;  // parts of a key
+constexpr std::size_t kLongestKey = 500;  // letters; bounds the depth of what is made, too
 
 // The end of each way to cut a head off the path at a dot, longest head first.
 std::vector<std::size_t> headsOf(std::string_view path) {
@@ -21,6 +21,10 @@ std::vector<std::size_t> headsOf(std::string_view path) {
 
 std::string_view behind(std::string_view path, std::size_t head) {
   return head < path.size() ? path.substr(head + 1) : std::string_view();
+}
+
+std::string_view firstPart(std::string_view path) {
+  return path.substr(0, path.find('.'));
 }
 
 const std::string* nameOf(const Node& node) {
@@ -39,12 +43,12 @@ Node* findElement(Array& array, std::string_view& path) {
       return &node;
     }
   }
-  const std::size_t head = headsOf(path).back();
+  const std::string_view first = firstPart(path);
+  const char* const last = first.data() + first.size();
   std::size_t index = array.size();
-  const std::from_chars_result end = std::from_chars(path.data(), path.data() + head, index);
-  if (end.ec != std::errc() || end.ptr != path.data() + head || index >= array.size())
-    return nullptr;
-  path = behind(path, head);
+  const std::from_chars_result end = std::from_chars(first.data(), last, index);
+  if (end.ec != std::errc() || end.ptr != last || index >= array.size()) return nullptr;
+  path = behind(path, first.size());
   return &array[index];
 }
 
@@ -90,33 +94,31 @@ void apply(const Override& override, int source, Node& root, Findings& findings)
   std::string_view path = override.key;
   const auto refuse = [&](const std::string& what) { findings.complain(spot, override.key, what); };
 
+  if (path.size() > kLongestKey) return refuse("no key of a scene is so long");
+
   // Walk down as far as the tree goes, making tables for known keys that are not written yet.
   Node* node = &root;
   const Node* materials = nullptr;
-  for (int depth = 0; !path.empty(); ++depth) {
-    if (depth == kDeepest) return refuse("a key of more than 16 parts");
+  while (!path.empty()) {
     if (Array* array = node->as<Array>()) {
-      const std::string_view rest = path;
+      const std::string_view first = firstPart(path);
       node = findElement(*array, path);
-      if (!node)
-        return refuse("there is no " + quoted(rest.substr(0, headsOf(rest).back())) +
-                      hint(rest, namesIn(*array)));
+      if (!node) return refuse("there is no " + quoted(first) + hint(first, namesIn(*array)));
       continue;
     }
     if (node->as<Moment>()) node->value = Table{};
     Table* table = node->as<Table>();
     if (!table) return refuse("leads below " + describe(*node) + ", which has no keys");
     Entry* entry = findEntry(*table, path);
-    const std::size_t head = headsOf(path).back();
+    const std::string_view first = firstPart(path);
     if (!entry && node == materials)
-      return refuse("there is no material " + quoted(path.substr(0, head)) +
-                    hint(path.substr(0, head), keysOf(*table)));
+      return refuse("there is no material " + quoted(first) + hint(first, keysOf(*table)));
     if (!entry) {
-      entry = &table->at(path.substr(0, head), spot);
-      path = behind(path, head);
+      entry = &table->at(first, spot);
+      path = behind(path, first.size());
     }
     if (path.empty()) entry->spot = spot;
-    if (depth == 0 && entry->key == "materials") materials = &entry->node;
+    if (node == &root && entry->key == "materials") materials = &entry->node;
     node = &entry->node;
   }
 

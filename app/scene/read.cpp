@@ -55,7 +55,7 @@ Scene readTree(const Node& tree, Findings& findings) {
 
 // A sweep's parameter has to be a key that the scene understands: try its first value.
 void trySweep(const Sweep& sweep, Node tree, std::vector<std::string> sources) {
-  sources.push_back("--set " + sweep.parameter + "=" + sweep.values[0]);
+  sources.push_back(sources[0] + ": [sweep] " + sweep.parameter + "=" + sweep.values[0]);
   Findings findings(sources);
   apply({sweep.parameter, sweep.values[0]}, static_cast<int>(sources.size()) - 1, tree, findings);
   readTree(tree, findings);

@@ -130,7 +130,8 @@ void readSweep(Section& root, std::optional<Sweep>& sweep) {
   Section section(*node, "sweep", root.findings());
   Sweep read;
   section.read("parameter", read.parameter);
-  if (!section.find("parameter")) section.complain("parameter", "missing");
+  if (read.parameter.empty())
+    section.complain("parameter", "expected a key, for example \"materials.rubber.restitution\"");
   const Node* values = section.find("values");
   const Array* list = values ? values->as<Array>() : nullptr;
   if (!list || list->empty() || list->size() > kMostValues)

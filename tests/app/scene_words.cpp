@@ -1,0 +1,37 @@
+// The nearest name to a word that was mistyped, and foreign text in messages.
+#include "app/scene/findings.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+TEST_CASE("one slip of any kind is forgiven, a swap of neighbours too") {
+  const std::vector<std::string> names = {"mass", "material", "friction", "colour"};
+  CHECK(nearestName("mas", names) == "mass");
+  CHECK(nearestName("masss", names) == "mass");
+  CHECK(nearestName("mess", names) == "mass");
+  CHECK(nearestName("msas", names) == "mass");
+  CHECK(nearestName("color", names) == "colour");
+  CHECK(nearestName("frcition", names) == "friction");
+}
+
+TEST_CASE("a word far from all names gets no advice, a beginning of one does") {
+  const std::vector<std::string> names = {"stiffness", "damping", "rest"};
+  CHECK(nearestName("qqqq", names).empty());
+  CHECK(nearestName("", names).empty());
+  CHECK(nearestName("sti", names) == "stiffness");
+  CHECK(nearestName(std::string(100'000, 'x'), names).empty());
+  CHECK(hint("qqqq", names) == "; valid: stiffness, damping, rest");
+  CHECK(hint("dampin", names) == ", did you mean 'damping'? Valid: stiffness, damping, rest");
+}
+
+TEST_CASE("the first of two equally near names is taken") {
+  CHECK(nearestName("ba", {"bar", "bat"}) == "bar");
+}
+
+TEST_CASE("foreign text in a message is printable, whole in its letters and short") {
+  CHECK(quoted("plain") == "'plain'");
+  CHECK(quoted("a\x1b[31mb\n") == "'a?[31mb?'");
+  CHECK(quoted(std::string(100, 'x')) == "'" + std::string(60, 'x') + "…'");
+  CHECK(quoted(std::string(59, 'x') + "é" + std::string(9, 'y')) ==
+        "'" + std::string(59, 'x') + "…'");
+}
