@@ -71,26 +71,26 @@ struct Writer {
   }
 };
 
-auto lowerBound(auto& entries, std::string_view key) {
-  return std::lower_bound(entries.begin(), entries.end(), key,
-                          [](const Entry& entry, std::string_view k) { return entry.key < k; });
+bool isBefore(const Entry& entry, std::string_view key) {
+  return entry.key.compare(key) < 0;
 }
 
 }  // namespace
 
-Entry* Table::find(std::string_view key) {
-  const auto it = lowerBound(entries, key);
+const Entry* Table::find(std::string_view key) const {
+  const auto it = std::lower_bound(entries.begin(), entries.end(), key, isBefore);
   return it != entries.end() && it->key == key ? &*it : nullptr;
 }
 
-const Entry* Table::find(std::string_view key) const {
-  const auto it = lowerBound(entries, key);
+Entry* Table::find(std::string_view key) {
+  const auto it = std::lower_bound(entries.begin(), entries.end(), key, isBefore);
   return it != entries.end() && it->key == key ? &*it : nullptr;
 }
 
 Entry& Table::at(std::string_view key, Spot spot) {
-  if (Entry* entry = find(key)) return *entry;
-  return *entries.insert(lowerBound(entries, key), Entry{std::string(key), spot, {spot, {}}});
+  const auto it = std::lower_bound(entries.begin(), entries.end(), key, isBefore);
+  if (it != entries.end() && it->key == key) return *it;
+  return *entries.insert(it, Entry{std::string(key), spot, {spot, {}}});
 }
 
 bool Node::number(double& out) const {
