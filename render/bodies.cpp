@@ -18,6 +18,29 @@ constexpr double kSmallBallRadius = 10.0, kBallRadius = 45.0;
 constexpr float kSunkOpacity = 0.35f;
 constexpr float kFarSideOpacity = 0.35f;
 
+/// Bodies that differ by less than this look the same [px].
+constexpr double kSamePlace = 0.2;
+
+/// Whether two bodies of one form stand in one place, but for `slack` [m] at their surfaces.
+bool coincide(const Instance& a, const Instance& b, double slack) {
+  if (a.form != b.form || (a.position - b.position).squaredNorm() > slack * slack ||
+      a.scale != b.scale)
+    return false;
+  const double angle = a.orientation.angularDistance(b.orientation);
+  return angle * reachOf(a) <= slack;
+}
+
+/// Whether a ghost or a glass body is hidden by a later one in its place, as of something that
+/// rests: drawn all the same, they would add up.
+bool superseded(const std::vector<Instance>& bodies, std::size_t index, const Stage& stage) {
+  const Instance& body = bodies[index];
+  if (body.finish == Finish::Solid) return false;
+  const double depth = (body.position - stage.projection.eye()).norm();
+  const double slack = kSamePlace * stage.projection.pixelAtUnitDepth() * depth;
+  return std::any_of(bodies.begin() + static_cast<std::ptrdiff_t>(index) + 1, bodies.end(),
+                     [&](const Instance& later) { return coincide(body, later, slack); });
+}
+
 }  // namespace
 
 Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
@@ -73,6 +96,7 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
   std::vector<Key> order;
   for (std::size_t i = 0; i < picture.instances.size(); ++i) {
     const Instance& instance = picture.instances[i];
+    if (superseded(picture.instances, i, stage)) continue;
     const Group group = groupOf(instance, stage);
     const double distance = (instance.position - stage.projection.eye()).norm();
     order.push_back({group, shapeOf(instance, stage), group == kGlass ? -distance : 0.0, i});

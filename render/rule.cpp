@@ -131,7 +131,7 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
   Ticks chosen = ticksAt(*rail, nearest, picture, projection, canvas);
   for (double gap = nearest; gap < picture.radius; gap += 0.04 * picture.radius) {
     const Ticks ticks = ticksAt(*rail, gap, picture, projection, canvas);
-    if (ticks.size() < 2 || ticks.size() < chosen.size()) break;
+    if (ticks.size() < 2 || 5 * ticks.size() < 3 * chosen.size()) break;  // too much of it is lost
     if (collides(ticks, boxes)) continue;
     chosen = ticks;
     break;

@@ -195,6 +195,25 @@ TEST_CASE("two ghosts in line are no denser than the nearer one") {
   CHECK(brightnessAt(both, one, {0.0, 0.5, 0.8}) == brightnessAt(alone, one, {0.0, 0.5, 0.8}));
 }
 
+// Oracle: symmetry. A body at rest is in one place at all times: its ghosts must not add up.
+TEST_CASE("ghosts in one place are drawn once, and not over the body that stands there") {
+  Picture one = stage(), many = one;
+  for (const double x : {-0.5, 0.5}) {
+    const Finish last = x < 0.0 ? Finish::Glass : Finish::Solid;
+    for (int i = 0; i < 4; ++i) {
+      many.instances.push_back(
+          box({x, 0.5, 1e-12 * i}, last == Finish::Solid ? Finish::Ghost : last));
+      many.instances.back().colour = {0.2f * static_cast<float>(i), 0.5f, 0.5f};
+    }
+    many.instances.push_back(box({x, 0.5, 0.0}, last));
+    one.instances.push_back(many.instances.back());
+  }
+  CHECK(studio().draw(one, kFull) == studio().draw(many, kFull));
+  // Half a pixel further there is something to see.
+  many.instances.push_back(box({-0.5, 0.505, 0.0}, Finish::Glass));
+  CHECK_FALSE(studio().draw(one, kFull) == studio().draw(many, kFull));
+}
+
 // Oracle: closed form of the lowest point of each form, turned by an angle a about Z.
 TEST_CASE("the lowest point of a turned body is known") {
   const double a = 0.4, s = std::sin(a), c = std::cos(a);
