@@ -40,6 +40,14 @@ TEST_CASE("the floor does not join what stands on it") {
   CHECK(islands(both) == expected);
 }
 
+TEST_CASE("a contact belongs to the body that moves, whichever side of it the floor is on") {
+  Problem both = beside(tower({1.0}, 0.0), tower({3.0}, 0.0));
+  addContact(both, 0, 2, Vec3::Zero(), Vec3::Zero(), 0.0);
+  addContact(both, 0, 0, Vec3::Zero(), Vec3::Zero(), 0.0);
+  const std::vector<std::vector<int>> expected = {{0, 2, 4, 6}, {1, 3, 5, 7, 8}, {9}};
+  CHECK(islands(both) == expected);
+}
+
 TEST_CASE("a row between two towers makes one island of them") {
   Problem both = beside(tower({1.0, 2.0}, 0.0), tower({3.0}, 0.0));
   addContact(both, 3, 1, Vec3::Zero(), Vec3::Zero(), 0.0);
