@@ -22,7 +22,7 @@ struct Axis {
   double gap;  ///< [m] width of the slab between the boxes across this direction; < 0: overlap
 };
 
-/// The direction of widest gap (Gottschalk, Lin, Manocha, OBBTree, 1996, §5):
+/// The direction of widest gap (Gottschalk, Lin, Manocha, OBBTree, 1996):
 ///   gap(n) = |n·d| − Σ halfB |n·eⱼ| − Σ halfA |n·cᵢ|,   n ∈ {eⱼ, cᵢ, eⱼ × cᵢ / s},  s = |eⱼ × cᵢ|
 /// A face of a must win over one of b, and a pair of edges over both, by more than `bias` [m].
 /// Departure: where s gets smaller than gap/size, an edge axis counts only in part, so that the

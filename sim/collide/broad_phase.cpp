@@ -1,5 +1,4 @@
-// Chapter 5, collide: persistent sweep and prune (Baraff, Rigid Body Simulation II, §6.2, "bounding
-// boxes").
+// Chapter 5, collide: persistent sweep and prune (slide SD40: O(n), not O(n log n)).
 #include "sim/collide/broad_phase.h"
 
 #include <algorithm>

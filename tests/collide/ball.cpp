@@ -126,6 +126,43 @@ TEST_CASE("the gap of a ball and a box does not jump where the nearest feature c
   }
 }
 
+// The 26 regions around a box, told by the signs of the ball's place along each axis.
+TEST_CASE("each vertex, edge and face of a box has a name of its own, the same all over it") {
+  std::set<std::uint32_t> names;
+  for (int region = 0; region < 27; ++region) {
+    const Vec3 side(region % 3 - 1, region / 3 % 3 - 1, region / 9 - 1);
+    if (side.isZero()) continue;
+    const Vec3 x = side.cwiseProduct(kBox.half + Vec3::Constant(0.1));
+    const ContactPoint here = onlyPoint(Sphere{0.5}, x, kBox);
+    names.insert(here.feature);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 aside = x + 0.05 * Vec3::Unit(k);
+      REQUIRE(onlyPoint(Sphere{0.5}, aside, kBox).feature == here.feature);
+    }
+  }
+  REQUIRE(names.size() == 26);
+}
+
+TEST_CASE("a box against a ball is the mirror image of the ball against the box") {
+  for (const Vec3& x : {Vec3(1.5, 0.5, -1.0), Vec3(1.3, -2.4, -1.0), Vec3(-1.2, 2.2, 3.1)}) {
+    const Pose ball{x, Quat::Identity()};
+    const ContactPoint one = points(Sphere{0.5}, ball, kBox, Pose{}, 0.1).at(0);
+    const ContactPoint other = points(kBox, Pose{}, Sphere{0.5}, ball, 0.1).at(0);
+    REQUIRE(other.n == -one.n);
+    REQUIRE(other.p == one.p);
+    REQUIRE(other.pa == one.pb);
+    REQUIRE(other.pb == one.pa);
+    REQUIRE(other.rb == one.ra);
+    REQUIRE(other.ra == 0.0);
+    REQUIRE(other.ea == one.eb);
+    REQUIRE(other.separation == one.separation);
+    REQUIRE(other.feature == ((one.feature & 255u) << 8 | one.feature >> 8));
+    if (one.tie == NormalTie::FaceOfB) REQUIRE(other.tie == NormalTie::FaceOfA);
+    if (one.tie == NormalTie::EdgeOfB) REQUIRE(other.tie == NormalTie::EdgeOfA);
+    if (one.tie == NormalTie::Points) REQUIRE(other.tie == NormalTie::Points);
+  }
+}
+
 TEST_CASE("a half-space heeds its own plane, not its pose") {
   const HalfSpace floor{Vec3(0.0, 0.6, 0.8), 2.0};
   const Pose anywhere = Random(33).pose(10.0);
