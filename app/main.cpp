@@ -9,6 +9,7 @@ int golden(int argc, char** argv);
 int list(int argc, char** argv);
 int render(int argc, char** argv);
 int simulate(int argc, char** argv);
+int sweep(int argc, char** argv);
 int view(int argc, char** argv);
 }  // namespace tumble::command
 
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
        command::describe},
       {"simulate", "numbers only: trajectory, events, contacts, summary", command::simulate},
       {"render", "numbered images; or a still, a strobe, a sheet, a film", command::render},
+      {"sweep", "one run for each value of the scene's [sweep]: images, a sheet, a table",
+       command::sweep},
       {"check", "hold scenes to their closed forms", command::check},
       {"golden", "hold small images and numbers against the approved ones", command::golden},
       {"view", "the window: play, step, scrub, turn", command::view},

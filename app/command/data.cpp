@@ -24,7 +24,7 @@ fs::path inSourceTree(std::string_view kind) {
 
 std::string dataFolder(std::string_view kind) {
   std::vector<fs::path> tried;
-  if (const char* data = std::getenv("TUMBLE_DATA")) {
+  if (const char* data = std::getenv("TUMBLE_DATA"); data && *data) {
     tried = {fs::path(data) / kind};
   } else {
     std::error_code ignored;

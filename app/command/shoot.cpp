@@ -63,8 +63,7 @@ std::string Shoot::sheet() {
   for (int n = 0; n < kPanels; ++n) {
     const double t = recording().samples.back().t * n / (kPanels - 1);
     Picture picture = presenter().still(t);
-    picture.title.clear();
-    picture.subtitle.clear();
+    stripForPanel(picture);
     panels.push_back({studio_.draw(picture, format), fmt::format("t = {:.2f} s", t), ""});
   }
   writePng(path, drawSheet(panels, kColumns, scene_.title, scene_.subtitle, studio_.fonts()),

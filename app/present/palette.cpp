@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <map>
 
 #include "app/claim/free_body.h"
 
@@ -18,6 +18,44 @@ constexpr std::array kTime = {hex(0x2E6299), hex(0x6A93BF), hex(0xC2BDC6), hex(0
 constexpr std::array kCividis = {hex(0x00224E), hex(0x123570), hex(0x3B496C),
                                  hex(0x575D6D), hex(0x707173), hex(0x8A8678),
                                  hex(0xA59C74), hex(0xC3B369), hex(0xE1CC55)};
+
+// "ball" for "ball.3"; empty for a name without a number behind a dot.
+std::string arrayOf(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || dot + 1 == name.size()) return {};
+  const bool number = name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return number ? name.substr(0, dot) : std::string();
+}
+
+double massIfMoving(const BodyDef& body) {
+  return moves(body) ? massOf(body).mass : 0.0;
+}
+
+// Where each body of an array stands in [0, 1] by the first quantity that varies within it.
+std::map<std::string, double> placesInArrays(const std::vector<BodyDef>& bodies) {
+  std::map<std::string, std::vector<const BodyDef*>> arrays;
+  for (const BodyDef& body : bodies)
+    if (const std::string array = arrayOf(body.name); !array.empty())
+      arrays[array].push_back(&body);
+
+  std::map<std::string, double> places;
+  for (const auto& [name, copies] : arrays) {
+    for (double (*quantity)(const BodyDef&) :
+         {+[](const BodyDef& body) { return body.restitution; },
+          +[](const BodyDef& body) { return body.friction; }, &massIfMoving}) {
+      double low = quantity(*copies.front()), high = low;
+      for (const BodyDef* copy : copies) {
+        low = std::min(low, quantity(*copy));
+        high = std::max(high, quantity(*copy));
+      }
+      if (high - low <= 1e-9 * high) continue;
+      for (const BodyDef* copy : copies)
+        places[copy->name] = (quantity(*copy) - low) / (high - low);
+      break;
+    }
+  }
+  return places;
+}
 
 }  // namespace
 
@@ -46,6 +84,7 @@ Colour shade(const Colour& colour, float factor) {
 std::vector<Colour> bodyColours(const Scene& scene) {
   std::vector<Colour> colours;
   std::vector<std::string> kinds;
+  const std::map<std::string, double> places = placesInArrays(scene.world.bodies);
   for (std::size_t i = 0; i < scene.world.bodies.size(); ++i) {
     const BodyDef& body = scene.world.bodies[i];
     if (i < scene.colours.size() && scene.colours[i]) {
@@ -56,6 +95,10 @@ std::vector<Colour> bodyColours(const Scene& scene) {
     }
     if (!moves(body)) {
       colours.push_back(colour::kFixed);
+      continue;
+    }
+    if (const auto place = places.find(body.name); place != places.end()) {
+      colours.push_back(ramp(kCividis, place->second));
       continue;
     }
     // A body without a material is a kind of its own.

@@ -8,8 +8,10 @@
 #include "app/claim/free_body.h"
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
+#include "app/present/labels.h"
 #include "app/present/marks.h"
 #include "app/present/palette.h"
+#include "app/present/paths.h"
 
 namespace tumble {
 
@@ -21,37 +23,39 @@ double aspectOf(const Scene& scene) {
 
 // Room for the title above, and for what stands beside the bodies.
 Margins marginsOf(const Scene& scene) {
-  const bool named =
-      scene.show.labels || std::any_of(scene.labels.begin(), scene.labels.end(),
-                                       [](const std::string& s) { return !s.empty(); });
+  bool named = false;
+  for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
+    named = named || !labelOf(scene, i).empty();
   Margins margins{.left = 0.06, .right = named ? 0.10 : 0.06, .top = 0.14, .bottom = 0.14};
   if (scene.show.contact_forces)
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
   return margins;
 }
 
-Camera cameraOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
-  const CameraView& view = scene.camera;
-  Camera camera =
-      frame(points, view.azimuth, view.elevation, view.fov, aspectOf(scene), marginsOf(scene));
-  if (view.eye) camera.eye = *view.eye;
-  if (view.target) camera.target = *view.target;
-  return camera;
-}
-
 }  // namespace
 
-Presenter::Presenter(const Scene& scene, const Recording& recording)
-    : scene_(scene), recording_(recording), colours_(bodyColours(scene)) {
-  const std::vector<Eigen::Vector3d> points = motionPoints(scene, recording);
-  camera_ = cameraOf(scene, points);
+Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
+  const CameraView& view = scene.camera;
+  Framing framing;
+  framing.camera =
+      frame(points, view.azimuth, view.elevation, view.fov, aspectOf(scene), marginsOf(scene));
+  if (view.eye) framing.camera.eye = *view.eye;
+  if (view.target) framing.camera.target = *view.target;
   Eigen::Vector3d low = points.front(), high = points.front();
   for (const Eigen::Vector3d& point : points) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  centre_ = 0.5 * (low + high);
-  radius_ = 0.5 * (high - low).norm();
+  framing.centre = 0.5 * (low + high);
+  framing.radius = 0.5 * (high - low).norm();
+  return framing;
+}
+
+Presenter::Presenter(const Scene& scene, const Recording& recording)
+    : Presenter(scene, recording, framingOf(scene, motionPoints(scene, recording))) {}
+
+Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
+    : scene_(scene), recording_(recording), colours_(bodyColours(scene)), framing_(framing) {
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
     const Check* check = findCheck(name);
@@ -68,9 +72,9 @@ Picture Presenter::image(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
   Picture picture = blank();
   addBodies(sample, picture);
-  addPaths(static_cast<std::size_t>(k), picture);
+  if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
   addTheory(picture);
-  addLabels(sample, picture);
+  addLabels(scene_, sample, picture);
   addAnnotations(sample, picture);
   picture.subtitle +=
       fmt::format("{}t = {:.2f} s", picture.subtitle.empty() ? "" : "   ", sample.t);
@@ -89,9 +93,9 @@ Picture Presenter::strobe() const {
   Picture picture = blank();
   addGhosts(picture);
   addBodies(last, picture);
-  addPaths(recording_.samples.size() - 1, picture);
+  if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
   addTheory(picture);
-  addLabels(last, picture);
+  addLabels(scene_, last, picture);
   addAnnotations(last, picture);
   picture.subtitle += fmt::format("{}Strobe every {:g} s over {:g} s.",
                                   picture.subtitle.empty() ? "" : "  ", scene_.show.strobe, last.t);
@@ -101,9 +105,9 @@ Picture Presenter::strobe() const {
 // Page, floor and camera, without anything on them.
 Picture Presenter::blank() const {
   Picture picture;
-  picture.camera = camera_;
-  picture.centre = centre_;
-  picture.radius = radius_;
+  picture.camera = framing_.camera;
+  picture.centre = framing_.centre;
+  picture.radius = framing_.radius;
   picture.title = scene_.title;
   picture.subtitle = scene_.subtitle;
   picture.floor.visible = false;
@@ -112,7 +116,7 @@ Picture Presenter::blank() const {
     picture.floor.visible = true;
     picture.floor.height = std::get<HalfSpace>(body.shape).d;
   }
-  picture.floor.grid = radius_ < 0.8 ? 0.1 : radius_ < 15.0 ? 1.0 : 10.0;
+  picture.floor.grid = framing_.radius < 0.8 ? 0.1 : framing_.radius < 15.0 ? 1.0 : 10.0;
   picture.floor.fineGrid = 0.2 * picture.floor.grid;
   return picture;
 }
@@ -123,8 +127,8 @@ void Presenter::addBodies(const Sample& sample, Picture& picture) const {
     const BodyDef& body = scene_.world.bodies[i];
     if (isFloor(body)) continue;
     const Colour colour = byTime && moves(body) ? timeStops().back() : colours_[i];
-    Instance instance =
-        instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, centre_, 3.0 * radius_);
+    Instance instance = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
+                                   framing_.centre, 3.0 * framing_.radius);
     if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
     picture.instances.push_back(instance);
   }
@@ -142,8 +146,8 @@ void Presenter::addGhosts(Picture& picture) const {
       const BodyDef& body = scene_.world.bodies[i];
       if (!moves(body)) continue;
       const Colour colour = single ? ramp(timeStops(), u) : colours_[i];
-      Instance ghost =
-          instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, centre_, radius_);
+      Instance ghost = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
+                                  framing_.centre, framing_.radius);
       ghost.finish = Finish::Ghost;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);
@@ -158,33 +162,6 @@ void Presenter::addGhosts(Picture& picture) const {
   picture.bar = bar;
 }
 
-// Through the samples, and through the centre of mass at each hit between them.
-void Presenter::addPaths(std::size_t last, Picture& picture) const {
-  if (!scene_.show.path) return;
-  const bool single = movingCount(scene_) == 1;
-  for (std::size_t i = 0; i < scene_.world.bodies.size(); ++i) {
-    if (!moves(scene_.world.bodies[i])) continue;
-    Polyline line;
-    line.colour = single ? colour::kInk : shade(colours_[i], 0.8f);
-    auto event = recording_.report.events.begin();
-    for (std::size_t k = 0; k <= last; ++k) {
-      const Sample& sample = recording_.samples[k];
-      for (; event != recording_.report.events.end() && event->t <= sample.t; ++event) {
-        if (k == 0 || (event->a != static_cast<int>(i) && event->b != static_cast<int>(i)))
-          continue;
-        const Sample& before = recording_.samples[k - 1];
-        const double s = event->t - before.t;
-        line.points.push_back(before.bodies[i].x + s * before.bodies[i].v +
-                              0.5 * s * s * scene_.world.gravity);
-        break;
-      }
-      while (event != recording_.report.events.end() && event->t <= sample.t) ++event;
-      line.points.push_back(sample.bodies[i].x);
-    }
-    if (line.points.size() > 1) picture.lines.push_back(std::move(line));
-  }
-}
-
 void Presenter::addTheory(Picture& picture) const {
   for (const Curve& curve : theory_) {
     Polyline line;
@@ -192,20 +169,6 @@ void Presenter::addTheory(Picture& picture) const {
     line.colour = colour::kForce;
     line.stroke = Stroke::Dotted;
     picture.lines.push_back(std::move(line));
-  }
-}
-
-void Presenter::addLabels(const Sample& sample, Picture& picture) const {
-  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-    const BodyDef& body = scene_.world.bodies[i];
-    std::string text = i < scene_.labels.size() ? scene_.labels[i] : "";
-    if (text.empty() && scene_.show.labels && moves(body)) text = body.name;
-    if (text.empty()) continue;
-    Label label;
-    label.anchor = sample.bodies[i].x + Vec3(boundingRadius(body.shape), 0.0, 0.0);
-    label.offset = {8.0, 5.0};
-    label.text = text;
-    picture.labels.push_back(label);
   }
 }
 
@@ -221,6 +184,15 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
   if (show.forces) addForces(scene_, sample, height, picture);
   if (show.impacts) addImpacts(recording_, sample.t, aspectOf(scene_), picture);
+}
+
+void stripForPanel(Picture& picture) {
+  picture.title.clear();
+  picture.subtitle.clear();
+  picture.marks.clear();
+  picture.labels.clear();
+  picture.bar.reset();
+  picture.floor.rule = false;
 }
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 // Recording + Scene → Picture: what is drawn of a run, and from where.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "app/claim/claim.h"
@@ -10,12 +11,24 @@
 
 namespace tumble {
 
+/// What is to be seen, and from where.
+struct Framing {
+  Camera camera;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  double radius = 1.0;                               ///< [m] of all motion about the centre
+};
+
+/// The scene's own camera, or one that the points of the motion fill.
+Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points);
+
 /// Draws one recording; all its pictures share camera, colours and the scale of the arrows.
 /// The scene and the recording must outlive it.
 class Presenter {
  public:
   /// @param recording with at least one sample
   Presenter(const Scene& scene, const Recording& recording);
+  /// The same, framed like others beside it.
+  Presenter(const Scene& scene, const Recording& recording, const Framing& framing);
 
   int count() const;  ///< images of the sequence: one for each sample
 
@@ -30,18 +43,18 @@ class Presenter {
   Picture blank() const;
   void addBodies(const Sample& sample, Picture& picture) const;
   void addGhosts(Picture& picture) const;
-  void addPaths(std::size_t last, Picture& picture) const;
   void addTheory(Picture& picture) const;
-  void addLabels(const Sample& sample, Picture& picture) const;
   void addAnnotations(const Sample& sample, Picture& picture) const;
 
   const Scene& scene_;
   const Recording& recording_;
   std::vector<Colour> colours_;
   std::vector<Curve> theory_;
-  Camera camera_;
-  Eigen::Vector3d centre_;
-  double radius_ = 1.0;
+  Framing framing_;
 };
+
+/// Takes off what is too small to read, or said by the page, when a picture becomes a panel of a
+/// sheet.
+void stripForPanel(Picture& picture);
 
 }  // namespace tumble

@@ -1,0 +1,37 @@
+// tumble sweep: one run for each value of the scene's [sweep].
+#include <fmt/format.h>
+
+#include "app/command/command.h"
+#include "app/command/options.h"
+#include "app/command/run.h"
+#include "app/command/sweeping.h"
+#include "app/record/file.h"
+
+namespace tumble::command {
+
+int sweep(int argc, char** argv) {
+  SceneOptions options;
+  std::string folder, shard;
+  CommandLine app("sweep", "Runs a scene once for each value of its [sweep].",
+                  {"path-of-brick             # out/path-of-brick/sweep.csv, sweep.png, sweep-0/ …",
+                   "restitution-sweep --shard 2/8  # every eighth value from the third, no sheet",
+                   "path-of-brick --set sweep.values=[0.2,0.9]"});
+  addSceneOptions(app, options);
+  app.add_option("-o,--output", folder, "folder for the files [out/<scene>]");
+  app.add_option("--shard", shard, "every N-th value from the I-th")->type_name("I/N");
+  if (!app.read(argc, argv)) return kOk;
+
+  const std::pair<int, int> part = shard.empty() ? std::pair(0, 1) : parseShard(shard);
+  const Scene scene = load(options);
+  if (!scene.sweep)
+    throw UsageError(fmt::format("{} has no [sweep] with parameter and values", scene.file));
+  if (folder.empty()) folder = "out/" + scene.name;
+  makeFolder(folder);
+
+  Studio studio;
+  const SweepResult result = runSweep(options, scene, folder, part, studio);
+  for (const std::string& path : result.files) fmt::print("{}\n", path);
+  return result.code;
+}
+
+}  // namespace tumble::command

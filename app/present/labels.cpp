@@ -1,0 +1,50 @@
+#include "app/present/labels.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/claim/free_body.h"
+
+namespace tumble {
+
+namespace {
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+std::string labelOf(const Scene& scene, int index) {
+  const std::size_t i = static_cast<std::size_t>(index);
+  const BodyDef& body = scene.world.bodies[i];
+  std::string text = i < scene.labels.size() ? scene.labels[i] : "";
+  if (text.empty() && scene.show.labels && moves(body)) text = body.name;
+  if (text.find('{') == std::string::npos) return text;
+
+  replaceAll(text, "{name}", body.name);
+  replaceAll(text, "{restitution}", fmt::format("{:.3g}", body.restitution));
+  replaceAll(text, "{friction}", fmt::format("{:.3g}", body.friction));
+  if (body.density) replaceAll(text, "{density}", fmt::format("{:.4g}", *body.density));
+  if (moves(body)) replaceAll(text, "{mass}", fmt::format("{:.4g}", massOf(body).mass));
+  return text;
+}
+
+void addLabels(const Scene& scene, const Sample& sample, Picture& picture) {
+  for (int i = 0; i < static_cast<int>(sample.bodies.size()); ++i) {
+    const std::string text = labelOf(scene, i);
+    if (text.empty()) continue;
+    const BodySample& body = sample.bodies[static_cast<std::size_t>(i)];
+    const Shape& shape = scene.world.bodies[static_cast<std::size_t>(i)].shape;
+    Label label;
+    label.anchor = body.x + Vec3(reach(shape, body.q, Vec3::UnitX()), 0.0, 0.0);
+    label.offset = {8.0, 5.0};
+    label.text = text;
+    picture.labels.push_back(label);
+  }
+}
+
+}  // namespace tumble
