@@ -5,6 +5,7 @@ namespace tumble::command {
 int check(int argc, char** argv);
 int describe(int argc, char** argv);
 int doctor(int argc, char** argv);
+int gallery(int argc, char** argv);
 int golden(int argc, char** argv);
 int list(int argc, char** argv);
 int render(int argc, char** argv);
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
       {"render", "numbered images; or a still, a strobe, a sheet, a film", command::render},
       {"sweep", "one run for each value of the scene's [sweep]: images, a sheet, a table",
        command::sweep},
+      {"gallery", "the key pictures of every demo and a page to leaf through", command::gallery},
       {"check", "hold scenes to their closed forms", command::check},
       {"golden", "hold small images and numbers against the approved ones", command::golden},
       {"view", "the window: play, step, scrub, turn", command::view},

@@ -7,8 +7,8 @@
 #include <new>
 #include <string>
 
-#include "app/command/nearest.h"
 #include "app/record/file.h"
+#include "app/scene/findings.h"
 #include "app/scene/scene.h"
 #include "render/context/context.h"
 
@@ -46,7 +46,7 @@ int runNamed(std::span<const Command> table, int argc, char** argv) {
     names.emplace_back(row.name);
   }
   throw UsageError(fmt::format("unknown command '{}'{}; `tumble --help` lists the commands", name,
-                               didYouMean(name, names)));
+                               hint(name, names)));
 }
 
 int complain(int code, const char* what) {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/command/nearest.h"
 #include "app/record/file.h"
+#include "app/scene/findings.h"
 #include "app/scene/scene.h"
 
 namespace tumble {
@@ -55,9 +55,9 @@ std::string scenePath(const std::string& scene) {
     return dataFolder("demos") + "/" + scene + ".toml";
   std::error_code ignored;
   if (fs::exists(scene, ignored)) return scene;
-  throw SceneError({{{scene},
-                     "neither a demo nor a file" + didYouMean(scene, names) +
-                         " (`tumble list` names the demos)"}});
+  throw SceneError(
+      {{{scene},
+        "neither a demo nor a file" + hint(scene, names) + " (`tumble list` names the demos)"}});
 }
 
 }  // namespace tumble

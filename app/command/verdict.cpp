@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "app/command/nearest.h"
+#include "app/scene/findings.h"
 
 namespace tumble {
 
@@ -30,7 +30,7 @@ void requireKnownChecks(const Scene& scene) {
     if (findCheck(name)) continue;
     const auto place = scene.places.find("checks");
     diagnostics.push_back({place != scene.places.end() ? place->second : Place{scene.file},
-                           "checks: unknown check '" + name + "'" + didYouMean(name, known)});
+                           "checks: unknown check '" + name + "'" + hint(name, known)});
   }
   if (!diagnostics.empty()) throw SceneError(std::move(diagnostics));
 }

@@ -175,7 +175,7 @@ void Presenter::addTheory(Picture& picture) const {
 void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   const ShowFlags& show = scene_.show;
   const double height = typicalHeight(scene_);
-  const double length = 0.44 * height;
+  const double length = 0.88 * height;
   if (show.contact_forces) {
     addContactForces(sample, largestContactForce(recording_), length, picture);
     addForceLadder(scene_, sample, aspectOf(scene_), picture);

@@ -1,0 +1,84 @@
+// tumble gallery: the key pictures of every demo, and a page to leaf through.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/command/command.h"
+#include "app/command/data.h"
+#include "app/command/gallery_page.h"
+#include "app/command/options.h"
+#include "app/command/run.h"
+#include "app/command/shoot.h"
+#include "app/command/sweeping.h"
+#include "app/record/file.h"
+
+namespace tumble::command {
+
+namespace {
+
+// Of the whole motion, where the still is taken: on the way, with some of it still to come.
+constexpr double kStillShare = 0.35;
+
+struct Options {
+  std::string folder = "out";
+  bool all = false;
+  std::vector<std::string> overrides;
+};
+
+// Draws one demo into folder/<name>; the worst exit code of its parts.
+int exhibit(const Options& options, const std::string& name, Studio& studio,
+            std::vector<Exhibit>& exhibits) {
+  fmt::print("{}\n", name);
+  std::fflush(stdout);
+  const SceneOptions named{name, options.overrides};
+  Exhibit& shown = exhibits.emplace_back();
+  shown.scene = load(named);
+  const Scene& scene = shown.scene;
+  const std::string folder = options.folder + "/" + name;
+  Shoot shoot(scene, folder, studio);
+  shoot.strobe();
+  shoot.still(kStillShare * scene.world.duration);
+  shoot.sheet();
+  shown.plates = {{name + "/strobe.png", "the whole motion"},
+                  {name + "/still.png", "one instant"},
+                  {name + "/sheet.png", "twelve instants"}};
+  if (options.all) {
+    shoot.sequence({0, shoot.count()});
+    shoot.video(folder + "/film.mp4", {0, shoot.count()});
+    shown.film = name + "/film.mp4";
+  }
+  shown.verdict = judge(scene, shoot.recording());
+  int code = std::max(exitOf(shoot.recording()), shown.verdict.failed > 0 ? +kFailed : +kOk);
+  if (scene.sweep) {
+    code = std::max(code, runSweep(named, scene, folder, {0, 1}, studio).code);
+    shown.plates.push_back({name + "/sweep.png", "for each " + scene.sweep->parameter});
+  }
+  return code;
+}
+
+}  // namespace
+
+int gallery(int argc, char** argv) {
+  Options options;
+  CommandLine app("gallery", "Draws every demo and a page to leaf through them.",
+                  {"             # out/index.html with still, strobe, sheet and sweep of each demo",
+                   "--all        # every sequence and film too; needs ffmpeg",
+                   "-o out/moon --set world.gravity=[0,-1.62,0]"});
+  app.add_option("-o,--output", options.folder, "folder for pages and pictures [out]");
+  app.add_flag("--all", options.all, "every sequence and film too");
+  addOverrides(app, options.overrides);
+  if (!app.read(argc, argv)) return kOk;
+
+  makeFolder(options.folder);
+  Studio studio;
+  std::vector<Exhibit> exhibits;
+  exhibits.reserve(demoNames().size());  // scenes must stay where they are
+  int code = kOk;
+  for (const std::string& name : demoNames())
+    code = std::max(code, exhibit(options, name, studio, exhibits));
+  writeFile(options.folder + "/index.html", galleryPage(exhibits));
+  fmt::print("{}/index.html\n", options.folder);
+  return code;
+}
+
+}  // namespace tumble::command

@@ -1,0 +1,28 @@
+// The page to leaf through: every demo with its pictures and its claims.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/command/verdict.h"
+
+namespace tumble {
+
+/// A picture of the page; files are named relative to it.
+struct Plate {
+  std::string file, caption;
+};
+
+/// One demo on the page.
+struct Exhibit {
+  Scene scene;
+  std::vector<Plate> plates;
+  std::string film;  ///< or ""
+  Verdict verdict;
+};
+
+/// One HTML file without anything from elsewhere; the pictures lie beside it. A click opens a
+/// picture, the arrow keys leaf through all of them.
+std::string galleryPage(const std::vector<Exhibit>& exhibits);
+
+}  // namespace tumble

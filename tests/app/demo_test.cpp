@@ -1,0 +1,153 @@
+// Every demo keeps its claims, as it is and with its parameters changed: nothing in the program may
+// know a demo. A demo that is added to assets/demos is tested here without a line being written.
+#include <algorithm>
+#include <set>
+
+#include "app/claim/free_body.h"
+#include "app/command/data.h"
+#include "app/command/verdict.h"
+#include "app/scene/scene.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+Scene demo(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return readScene(dataFolder("demos") + "/" + name + ".toml", overrides);
+}
+
+void requireClaims(const Scene& scene) {
+  const Recording recording = record(scene, scene.image.rate);
+  REQUIRE_FALSE(recording.report.stopped);
+  const Verdict verdict = judge(scene, recording);
+  REQUIRE_FALSE(verdict.rows.empty());
+  for (const ClaimRow& row : verdict.rows) {
+    INFO(scene.name << ": " << row.label << ": measured " << row.measured << ", exact " << row.exact
+                    << ", error " << row.error << ", allowed " << row.allowed);
+    CHECK(row.holds());
+  }
+}
+
+std::set<std::string> materialsOf(const Scene& scene) {
+  std::set<std::string> names;
+  for (const BodyDef& body : scene.world.bodies)
+    if (!body.material.empty()) names.insert(body.material);
+  return names;
+}
+
+// "body.brick" for a body of its own, "array.ball.body" for the copies ball.0, ball.1, ….
+std::string tableOf(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  const bool copy = dot != std::string::npos &&
+                    name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return copy ? "array." + name.substr(0, dot) + ".body" : "body." + name;
+}
+
+std::string shapeText(const Shape& shape, double factor) {
+  char text[160] = "";
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape))
+    std::snprintf(text, sizeof text, "{ sphere = %.17g }", factor * sphere->r);
+  if (const Box* box = std::get_if<Box>(&shape))
+    std::snprintf(text, sizeof text, "{ box = [%.17g, %.17g, %.17g] }",
+                  2.0 * factor * box->half.x(), 2.0 * factor * box->half.y(),
+                  2.0 * factor * box->half.z());
+  if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
+    std::snprintf(text, sizeof text, "{ cylinder = [%.17g, %.17g] }", factor * cylinder->r,
+                  factor * cylinder->h);
+  return text;
+}
+
+// --set for every moving body's size.
+std::vector<std::string> resized(const Scene& scene, double factor) {
+  std::set<std::string> seen;
+  std::vector<std::string> overrides;
+  for (const BodyDef& body : scene.world.bodies) {
+    if (!moves(body) || !seen.insert(tableOf(body.name)).second) continue;
+    overrides.push_back(tableOf(body.name) + ".shape=" + shapeText(body.shape, factor));
+  }
+  return overrides;
+}
+
+// The whole start turned about the vertical.
+void turn(WorldDef& world, double degrees) {
+  const Quat q(Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, Vec3::UnitY()));
+  world.gravity = q * world.gravity;
+  for (BodyDef& body : world.bodies) {
+    if (HalfSpace* plane = std::get_if<HalfSpace>(&body.shape)) {
+      plane->n = q * plane->n;
+    } else {
+      body.position = q * body.position;
+      body.orientation = q * body.orientation;
+    }
+    body.velocity = q * body.velocity;
+    body.angularVelocity = q * body.angularVelocity;
+  }
+  for (Force& force : world.forces) {
+    if (UniformWind* wind = std::get_if<UniformWind>(&force)) wind->force = q * wind->force;
+    if (PointForce* point = std::get_if<PointForce>(&force)) point->force = q * point->force;
+    Spring* spring = std::get_if<Spring>(&force);
+    if (spring && spring->a == kNoBody) spring->anchorA_B = q * spring->anchorA_B;
+    if (spring && spring->b == kNoBody) spring->anchorB_B = q * spring->anchorB_B;
+  }
+}
+
+}  // namespace
+
+// Oracles: the closed forms of app/claim, with their own tolerances.
+TEST_CASE("every demo keeps its claims") {
+  for (const std::string& name : demoNames()) requireClaims(demo(name));
+}
+
+TEST_CASE("every demo keeps its claims under another gravity") {
+  for (const std::string& name : demoNames())
+    requireClaims(demo(name, {"world.gravity=[0.0, -3.71, 0.0]"}));
+}
+
+TEST_CASE("every demo keeps its claims with another restitution") {
+  for (const std::string& name : demoNames()) {
+    std::vector<std::string> overrides;
+    for (const std::string& material : materialsOf(demo(name)))
+      overrides.push_back("materials." + material + ".restitution=0.65");
+    REQUIRE_FALSE(overrides.empty());
+    requireClaims(demo(name, overrides));
+  }
+}
+
+TEST_CASE("every demo keeps its claims with another density") {
+  for (const std::string& name : demoNames()) {
+    const Scene scene = demo(name);
+    std::vector<std::string> overrides;
+    for (const BodyDef& body : scene.world.bodies)
+      if (moves(body) && body.density && !body.material.empty())
+        overrides.push_back("materials." + body.material + ".density=777.0");
+    requireClaims(demo(name, overrides));
+  }
+}
+
+TEST_CASE("every demo keeps its claims at another size") {
+  for (const std::string& name : demoNames()) requireClaims(demo(name, resized(demo(name), 0.8)));
+}
+
+TEST_CASE("every demo keeps its claims with its start turned by 40 degrees") {
+  for (const std::string& name : demoNames()) {
+    Scene scene = demo(name);
+    turn(scene.world, 40.0);
+    requireClaims(scene);
+  }
+}
+
+// Oracle: bit-equal rerun.
+TEST_CASE("every demo writes the same trajectory twice") {
+  for (const std::string& name : demoNames()) {
+    Scene scene = demo(name);
+    scene.world.duration = std::min(scene.world.duration, 2.0);
+    const Recording one = record(scene, 60.0), two = record(scene, 60.0);
+    REQUIRE(one.samples.size() == two.samples.size());
+    for (std::size_t k = 0; k < one.samples.size(); ++k)
+      for (std::size_t i = 0; i < one.samples[k].bodies.size(); ++i) {
+        CHECK(one.samples[k].bodies[i].x == two.samples[k].bodies[i].x);
+        CHECK(one.samples[k].bodies[i].q.coeffs() == two.samples[k].bodies[i].q.coeffs());
+      }
+  }
+}
