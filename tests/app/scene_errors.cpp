@@ -254,6 +254,9 @@ TEST_CASE("a wrong world, or none, is named") {
       {"[world]\nduration = \n", "2:12", "not valid TOML"},
       {"[world]\n[world]\n", "2:1", "cannot redefine existing table"},
       {"[world\n", "1:7", "not valid TOML"},
+      {"[[[world]]]\n", "1:3", "not valid TOML"},
+      {"[world]\nduration = 1é\n", "2:13", "not valid TOML"},
+      {"[world]\né = 1\n", "2:1", "not valid TOML"},
       {"a" + std::string(40, '.') + "b = 1\n", "1:33", "a key of more than 32 parts"},
   };
   for (const Wrong& wrong : table) check(wrong.text, wrong);
