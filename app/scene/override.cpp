@@ -117,7 +117,6 @@ void apply(const Override& override, int source, Node& root, Findings& findings)
       entry = &table->at(first, spot);
       path = behind(path, first.size());
     }
-    if (path.empty()) entry->spot = spot;
     if (node == &root && entry->key == "materials") materials = &entry->node;
     node = &entry->node;
   }

@@ -132,6 +132,8 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[pairs]\nrubber = {}", "9:1", "expected two materials, \"A-B\""},
       {"[pairs]\nrubber-wod = {}", "9:1", "unknown material 'wod'"},
       {"[pairs]\nrubber-rubber = { frction = 1 }", "9:19", "did you mean 'friction'?"},
+      {"[materials.a]\n[pairs]\nrubber-a = { friction = 1 }\na-rubber = { friction = 2 }", "10:1",
+       "pairs.'rubber-a': the row 'a-rubber' says it already"},
       {"[materials.\"a-b\"]", "8:12", "a name is made of A-Z a-z 0-9 _ and ."},
       {"[materials.a]\ndensty = 1", "9:1",
        "materials.a.densty: unknown key, did you mean 'density'"},
