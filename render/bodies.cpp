@@ -14,6 +14,9 @@ constexpr int kStride = 16;
 /// the corners stand out by at most 0.13, 0.15 and, at 200 px, 0.12 px.
 constexpr double kSmallBallRadius = 10.0, kBallRadius = 45.0;
 
+/// Ghosts that slide over one plane share it: the later one lies before the earlier by this depth,
+/// a few units of the depth buffer, or their faces would fight.
+constexpr float kGhostLayer = 3e-7f;
 /// What shines through the floor of a body that sank below it.
 constexpr float kSunkOpacity = 0.35f;
 constexpr float kFarSideOpacity = 0.35f;
@@ -138,6 +141,7 @@ void Bodies::draw(Use use, Group group, float opacity, float keepAbove) const {
     program.use();
     program.set("opacity", opacity);
     program.set("keepAbove", keepAbove);
+    program.set("layer", group == kGhost ? kGhostLayer : 0.0f);
     meshes_[shape].draw(buffer_, kStride, kAttributes, range.first, range.count);
   }
 }

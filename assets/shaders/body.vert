@@ -10,6 +10,7 @@ flat out vec3 bodyNormal, half_B, centre, colour;
 flat out vec4 turnBody;
 flat out float alpha, present;
 uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below, 0 all
+uniform float layer;              // depth by which each body lies before the one drawn before it
 
 // A ball is a disc that faces the onlooker, for the camera the circle where its rays touch the ball.
 vec3 ballCorner(vec3 c, float r) {
@@ -61,5 +62,6 @@ void main() {
   gl_Position = vec4(fallen.x, -fallen.z, 0.0, extent.y);
 #else
   gl_Position = viewProjection * vec4(worldPoint, 1.0);
+  gl_Position.z -= layer * float(gl_InstanceID) * gl_Position.w;
 #endif
 }
