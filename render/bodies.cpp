@@ -15,8 +15,8 @@ constexpr int kStride = 16;
 constexpr double kSmallBallRadius = 10.0, kBallRadius = 45.0;
 
 /// Ghosts that slide over one plane share it: the later one lies before the earlier by this depth,
-/// a few units of the depth buffer, or their faces would fight.
-constexpr float kGhostLayer = 3e-7f;
+/// some units of the depth buffer, or their faces would fight.
+constexpr float kGhostLayer = 1e-6f;
 /// What shines through the floor of a body that sank below it.
 constexpr float kSunkOpacity = 0.35f;
 constexpr float kFarSideOpacity = 0.35f;
