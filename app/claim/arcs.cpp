@@ -14,26 +14,29 @@ namespace {
 void addFlightRows(const Scene& scene, const Recording& recording, const FlightLog& log,
                    std::vector<ClaimRow>& rows) {
   const BodyDef& body = scene.world.bodies[log.body];
-  const Mat3 inertia = massOf(body).inertia;
+  const MassProperties mass = massOf(body);
   WorstRow path(body.name + ": off the parabolas / m", 1e-9);
   WorstRow speed(body.name + ": speed against impulses / (m/s)", 1e-9);
   WorstRow spin(body.name + ": spin against impulses", 1e-6);
+  // Spin is told relative to the body's own, or to a thousandth of m r v where it has hardly any.
+  const double radius = boundingRadius(body.shape);
   double scale = 0.0;
-  for (const FlightState& arc : log.arcs) scale = std::max(scale, arc.L.norm());
+  for (const FlightState& arc : log.arcs)
+    scale = std::max({scale, arc.L.norm(), 1e-3 * mass.mass * radius * arc.v.norm()});
 
   for (const Sample& sample : recording.samples) {
     if (sample.t >= log.end) break;
     const BodySample& seen = sample.bodies[log.body];
     const FlightState told = log.at(sample.t);
-    const Vec3 L = angularMomentum(inertia, seen.q, seen.omega);
+    const Vec3 L = angularMomentum(mass.inertia, seen.q, seen.omega);
     const double stray = (seen.x - told.x).norm();
     path.see(stray, 0.0, stray);
     speed.see(seen.v.norm(), told.v.norm(), (seen.v - told.v).norm());
-    if (scale > 0.0) spin.see(L.norm(), told.L.norm(), (L - told.L).norm() / scale);
+    spin.see(L.norm(), told.L.norm(), (L - told.L).norm() / scale);
   }
   rows.push_back(path.row());
   rows.push_back(speed.row());
-  if (scale > 0.0) rows.push_back(spin.row());
+  rows.push_back(spin.row());
 }
 
 // Kinetic energy and the potential −m a·x of the uniform forces, of one body in a sample. [J]

@@ -72,6 +72,8 @@ int dispatch(std::span<const Command> table, int argc, char** argv) {
     return kScene;
   } catch (const NoContext& error) {
     return complain(kNoContext, error.what());
+  } catch (const StoppedError& error) {
+    return complain(kPhysics, error.what());
   } catch (const std::bad_alloc&) {
     return complain(kFile, "out of memory; try a smaller --size or a lower --rate");
   } catch (const std::exception& error) {

@@ -29,6 +29,11 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A run that stopped before there was anything to show: exit 6.
+class StoppedError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Finds argv[1] in the table and runs it. Every error becomes one line on stderr and its exit
 /// code: UsageError 2 · SceneError 3 · NoContext 4 · FileError and other failures of the system 5.
 int dispatch(std::span<const Command> table, int argc, char** argv);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/command/command.h"
 #include "app/command/progress.h"
 #include "app/command/run.h"
 #include "app/command/stamp.h"
@@ -30,6 +31,8 @@ const Recording& Shoot::recording() {
 }
 
 const Presenter& Shoot::presenter() {
+  if (recording().samples.empty())
+    throw StoppedError("the physics could not begin: " + recording().report.reason);
   if (!presenter_) presenter_.emplace(scene_, recording());
   return *presenter_;
 }

@@ -1,0 +1,214 @@
+// What the commands leave in folders, and how they read their options.
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "app/command/command.h"
+#include "app/command/gallery_page.h"
+#include "app/command/options.h"
+#include "app/command/shoot.h"
+#include "app/command/stamp.h"
+#include "app/command/sweeping.h"
+#include "app/command/video.h"
+#include "app/record/file.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder of its own for each test, gone at the end.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("tumble-command-" + std::to_string(::getpid()));
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+constexpr const char* kDrop = R"(
+title = "Drop"
+checks = ["bounce-apex"]
+[world]
+duration = 0.5
+[materials.rubber]
+density = 1000.0
+restitution = 0.5
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+material = "rubber"
+position = [0, 0.6, 0]
+[image]
+size = [64, 36]
+rate = 8.0
+[sweep]
+parameter = "materials.rubber.restitution"
+values = [0.1, 0.5, 0.9]
+)";
+
+std::vector<std::string> lines(const std::string& path) {
+  std::vector<std::string> found;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) found.push_back(line);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("ranges, sizes and shards are read whole or refused with what is expected") {
+  CHECK(parseFrames("0:60") == std::pair(0, 60));
+  CHECK(parseSize("1280x720") == std::pair(1280, 720));
+  CHECK(parseShard("2/8") == std::pair(2, 8));
+  for (const char* text : {"9:3", "3:3", "-1:3", "3", "a:b", "1:2x", ":", "1:", "1:99999999999"})
+    CHECK_THROWS_AS(parseFrames(text), UsageError);
+  for (const char* text : {"1280", "1280x", "0x720", "15x720", "8193x720", "1280 x 720"})
+    CHECK_THROWS_AS(parseSize(text), UsageError);
+  for (const char* text : {"2/2", "-1/2", "1/0", "1:2"})
+    CHECK_THROWS_AS(parseShard(text), UsageError);
+}
+
+TEST_CASE("a finished image is kept, one of another scene, size or half-written is drawn anew") {
+  const Folder folder;
+  const std::string file = folder / "drop.toml";
+  writeFile(file, kDrop);
+  Studio studio;
+  const auto draw = [&](const std::vector<std::string>& overrides, int width) {
+    Scene scene = readScene(file, overrides);
+    scene.image.width = width;
+    Shoot shoot(scene, folder / "out", studio);
+    shoot.sequence({0, shoot.count()});
+    return shoot.recorded();
+  };
+  CHECK(draw({}, 64));
+  CHECK(fs::exists(folder / "out/image-000000.png"));
+  CHECK(fs::exists(folder / "out/image-000004.png"));
+  CHECK_FALSE(fs::exists(folder / "out/image-000005.png"));
+  // Everything is there: nothing is even simulated.
+  CHECK_FALSE(draw({}, 64));
+  // Another scene line, another size, another text in the file.
+  CHECK(draw({"world.gravity=[0,-1.62,0]"}, 64));
+  CHECK(draw({}, 64));
+  CHECK(draw({}, 80));
+  writeFile(file, std::string(kDrop) + "\n# a word more\n");
+  CHECK(draw({}, 80));
+  CHECK_FALSE(draw({}, 80));
+  // An image that breaks off is not a finished one.
+  const std::string image = folder / "out/image-000003.png";
+  const std::string bytes = readFile(image);
+  std::ofstream(image, std::ios::binary) << bytes.substr(0, bytes.size() - 20);
+  CHECK(readStamp(image).empty());
+  CHECK(draw({}, 80));
+  CHECK(readFile(image) == bytes);
+}
+
+TEST_CASE("an image carries version, scene line and what it shows") {
+  const Folder folder;
+  const Scene scene = parseScene(kDrop, "drop.toml", {"world.duration=0.25"});
+  Studio studio;
+  Shoot shoot(scene, folder / "out", studio);
+  const Stamp stamp = readStamp(shoot.still(0.125));
+  CHECK(stamp.at("Software").starts_with("tumble "));
+  CHECK(stamp.at("Scene") == scene.line);
+  CHECK(stamp.at("Scene").find("world.duration=0.25") != std::string::npos);
+  CHECK(stamp.at("Image").find("64x36") != std::string::npos);
+  CHECK(readStamp(folder / "none.png").empty());
+}
+
+TEST_CASE("the shards of a sweep write the rows of the whole") {
+  const Folder folder;
+  const std::string file = folder / "drop.toml";
+  writeFile(file, kDrop);
+  const SceneOptions options{file, {}};
+  const Scene scene = load(options);
+  Studio studio;
+  const SweepResult whole = runSweep(options, scene, folder / "all", {0, 1}, studio);
+  CHECK(whole.code == kOk);
+  const std::vector<std::string> rows = lines(folder / "all/sweep.csv");
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[2].starts_with("materials.rubber.restitution,\"0.5\","));
+  const Image page = readPng(folder / "all/sweep.png");
+  CHECK(page.width > 3 * 640);
+
+  runSweep(options, scene, folder / "parts", {0, 2}, studio);
+  runSweep(options, scene, folder / "parts", {1, 2}, studio);
+  CHECK_FALSE(fs::exists(folder / "parts/sweep.png"));
+  const std::vector<std::string> even = lines(folder / "parts/sweep-0-of-2.csv");
+  const std::vector<std::string> odd = lines(folder / "parts/sweep-1-of-2.csv");
+  REQUIRE(even.size() == 3);
+  REQUIRE(odd.size() == 2);
+  // All but the seconds, which no two runs share.
+  const auto value = [](const std::string& row) { return row.substr(0, row.find("\",") + 2); };
+  CHECK(value(even[1]) == value(rows[1]));
+  CHECK(value(odd[1]) == value(rows[2]));
+  CHECK(value(even[2]) == value(rows[3]));
+  for (const int k : {0, 1, 2})
+    CHECK(readPng(folder / ("parts/sweep-" + std::to_string(k) + "/strobe.png")) ==
+          readPng(folder / ("all/sweep-" + std::to_string(k) + "/strobe.png")));
+}
+
+// In place of ffmpeg a script that keeps its input, so that every byte handed over can be seen.
+TEST_CASE("a film gets every pixel of its images, and is there only when it is complete") {
+  const Folder folder;
+  const std::string script = folder / "ffmpeg";
+  writeFile(script,
+            "#!/bin/sh\nfor last; do :; done\n[ -e \"$0.fails\" ] && exit 3\ncat > \"$last\"\n");
+  ::chmod(script.c_str(), 0755);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (folder.path.string() + ":" + path).c_str(), 1);
+
+  Image image{4, 2, std::vector<std::uint8_t>(24)};
+  for (std::size_t i = 0; i < 24; ++i) image.rgb[i] = static_cast<std::uint8_t>(7 * i);
+  {
+    Video video(folder / "film.mp4", 4, 2, 60.0);
+    video.add(image);
+    video.add(image);
+    CHECK_FALSE(fs::exists(folder / "film.mp4"));
+    video.finish();
+  }
+  const std::string once(image.rgb.begin(), image.rgb.end());
+  CHECK(readFile(folder / "film.mp4") == once + once);
+
+  // Left unfinished, or failed: nothing is left behind.
+  { Video video(folder / "half.mp4", 4, 2, 60.0); }
+  writeFile(script + ".fails", "");
+  {
+    Video video(folder / "broken.mp4", 4, 2, 60.0);
+    CHECK_THROWS_AS(video.finish(), FileError);
+  }
+  ::setenv("PATH", (folder / "nowhere").c_str(), 1);
+  CHECK_THROWS_AS(Video(folder / "none.mp4", 4, 2, 60.0), FileError);
+  ::setenv("PATH", path.c_str(), 1);
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 3);  // script, its switch, film
+}
+
+TEST_CASE("the gallery's page is one file that names every picture and escapes every text") {
+  Exhibit exhibit;
+  exhibit.scene.name = "drop";
+  exhibit.scene.title = "a < b & \"c\"";
+  exhibit.plates = {{"drop/strobe.png", "the whole motion"}};
+  exhibit.verdict.rows = {{"good", 1.0, 1.0, 0.0, 1e-6}, {"bad", 2.0, 1.0, 1.0, 1e-6}};
+  exhibit.verdict.failed = 1;
+  const std::string page = galleryPage({exhibit});
+  CHECK(page.find("a &lt; b &amp; &quot;c&quot;") != std::string::npos);
+  CHECK(page.find("src=\"drop/strobe.png\"") != std::string::npos);
+  CHECK(page.find("<tr class=\"failed\"><td>bad</td>") != std::string::npos);
+  CHECK(page.find("<tr><td>good</td>") != std::string::npos);
+  CHECK(page.find("http") == std::string::npos);
+}
+
+TEST_CASE("a scene that asks for a check that is none is refused") {
+  const Folder folder;
+  writeFile(folder / "x.toml", kDrop);
+  CHECK_THROWS_AS(load({folder / "x.toml", {"checks=[\"bounce-apexes\"]"}}), SceneError);
+  CHECK_THROWS_AS(load({folder / "none.toml", {}}), SceneError);
+  CHECK_THROWS_AS(load({folder / "x.toml", {"no equals sign"}}), UsageError);
+}

@@ -1,0 +1,203 @@
+// Pictures say what the recording says.
+#include <cmath>
+
+#include "app/present/arrows.h"
+#include "app/present/bodies.h"
+#include "app/present/labels.h"
+#include "app/present/palette.h"
+#include "app/present/present.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+constexpr const char* kScene = R"(
+title = "Falling"
+[world]
+duration = 1.0
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, -3] }
+[[body]]
+name = "brick"
+shape = { box = [0.4, 0.1, 0.3] }
+mass = 1.0
+restitution = 0.25
+label = "{name}: {restitution}"
+velocity = [1.0, 0.0, 0.0]
+[show]
+path = true
+strobe = 0.1
+)";
+
+int countOf(const Picture& picture, Finish finish) {
+  int count = 0;
+  for (const Instance& instance : picture.instances) count += instance.finish == finish;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a strobe shows a ghost every interval, older ones paler, and the last pose solid") {
+  const Scene scene = parseScene(kScene, "falling");
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).strobe();
+  CHECK(countOf(picture, Finish::Ghost) == 10);
+  CHECK(countOf(picture, Finish::Solid) == 1);
+  for (std::size_t k = 0; k < 10; ++k) {
+    CHECK(picture.instances[k].position == recording.samples[6 * k].bodies[1].x);
+    if (k > 0) CHECK(picture.instances[k].alpha > picture.instances[k - 1].alpha);
+  }
+  CHECK(picture.instances.back().position == recording.samples.back().bodies[1].x);
+  // One body alone is coloured by time, and the bar says so.
+  REQUIRE(picture.bar.has_value());
+  CHECK(picture.bar->to == 1.0);
+  CHECK(picture.instances.front().colour == timeStops().front());
+}
+
+TEST_CASE("an image shows its sample's poses and time, on the floor where the scene has it") {
+  const Scene scene = parseScene(kScene, "falling");
+  const Recording recording = record(scene, 60.0);
+  const Presenter presenter(scene, recording);
+  REQUIRE(presenter.count() == 61);
+  const Picture picture = presenter.image(30);
+  REQUIRE(picture.instances.size() == 1);
+  CHECK(picture.instances[0].position == recording.samples[30].bodies[1].x);
+  CHECK(picture.instances[0].scale == Vec3(0.2, 0.05, 0.15));
+  CHECK(picture.floor.visible);
+  CHECK(picture.floor.height == -3.0);
+  CHECK(picture.subtitle == "t = 0.50 s");
+  REQUIRE(picture.lines.size() == 1);
+  CHECK(picture.lines[0].points.size() == 31);
+  CHECK(picture.lines[0].points.back() == picture.instances[0].position);
+  // The nearest sample, also beyond the ends.
+  CHECK(presenter.still(0.508).instances[0].position == recording.samples[30].bodies[1].x);
+  CHECK(presenter.still(99.0).instances[0].position == recording.samples[60].bodies[1].x);
+}
+
+TEST_CASE("the camera sees every pose of the whole motion inside the page") {
+  const Scene scene = parseScene(kScene, "falling");
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).image(0);
+  const Projection projection(picture.camera, 1280.0, 720.0);
+  for (const Eigen::Vector3d& point : motionPoints(scene, recording)) {
+    const std::optional<Eigen::Vector3d> pixel = projection.project(point);
+    REQUIRE(pixel.has_value());
+    CHECK(pixel->x() > 0.05 * 1280.0);
+    CHECK(pixel->x() < 0.95 * 1280.0);
+    CHECK(pixel->y() > 0.13 * 720.0);
+    CHECK(pixel->y() < 0.87 * 720.0);
+  }
+}
+
+TEST_CASE("labels give the values of their body") {
+  const Scene scene = parseScene(kScene, "falling");
+  CHECK(labelOf(scene, 1) == "brick: 0.25");
+  CHECK(labelOf(scene, 0).empty());
+}
+
+TEST_CASE("force arrows are as long as their force is large, and point up from the contact") {
+  Sample sample;
+  sample.contacts = {{1, 0, {0.0, 0.0, 0.0}, Vec3::UnitY(), 0.0, {0.0, 10.0, 0.0}},
+                     {2, 1, {1.0, 0.0, 0.0}, Vec3::UnitY(), 0.0, {0.0, 2.5, 0.0}},
+                     {3, 2, {2.0, 0.0, 0.0}, Vec3(-Vec3::UnitY()), 0.0, {0.0, -5.0, 0.0}}};
+  Picture picture;
+  addContactForces(sample, 10.0, 0.44, picture);
+  REQUIRE(picture.arrows.size() == 3);
+  CHECK(picture.arrows[0].tip == Vec3(0.0, 0.44, 0.0));
+  CHECK((picture.arrows[1].tip - Vec3(1.0, 0.11, 0.0)).norm() < 1e-15);
+  // A force that presses the upper body's neighbour down is drawn on the upper body.
+  CHECK((picture.arrows[2].tip - Vec3(2.0, 0.22, 0.0)).norm() < 1e-15);
+}
+
+TEST_CASE("the ladder sums each level of the tallest tower, top first, and keeps rows apart") {
+  const Scene scene = parseScene(R"(
+[world]
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[array]]
+name = "two"
+kind = "tower"
+count = 2
+body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
+[[array]]
+name = "three"
+kind = "tower"
+count = 3
+base = [2, 0, 0]
+body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
+)",
+                                 "towers");
+  // Bodies 1, 2 and 3, 4, 5; two points a level that carry half of 10 N per body above each.
+  Sample sample;
+  for (const auto& [a, b, above] :
+       {std::tuple(1, 0, 2), {2, 1, 1}, {3, 0, 3}, {4, 3, 2}, {5, 4, 1}})
+    for (const double side : {-0.25, 0.25}) {
+      const double height = b == 0 ? 0.0 : scene.world.bodies[b].position.y() + 0.25;
+      sample.contacts.push_back({a,
+                                 b,
+                                 {scene.world.bodies[a].position.x() + side, height, 0.0},
+                                 Vec3::UnitY(),
+                                 0.0,
+                                 {0.0, 5.0 * above, 0.0}});
+    }
+  Picture picture;
+  picture.camera = {.eye = {1.0, 1.0, 8.0}, .target = {1.0, 1.0, 0.0}, .fov = 24.0};
+  addForceLadder(scene, sample, 16.0 / 9.0, picture);
+  REQUIRE(picture.pageArrows.size() == 3);
+  CHECK(picture.pageArrows[0].text == "10.0 N");
+  CHECK(picture.pageArrows[1].text == "20.0 N");
+  CHECK(picture.pageArrows[2].text == "30.0 N");
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(picture.pageArrows[k].length == Approx(220.0 * (k + 1.0) / 3.0));
+    CHECK(picture.pageArrows[k].leader->x() == 2.25);
+  }
+  CHECK(picture.pageArrows[1].base.y() >= picture.pageArrows[0].base.y() + 20.0);
+}
+
+TEST_CASE("colours: by material, fixed ones grey, along cividis where an array varies") {
+  const Scene scene = parseScene(R"(
+[world]
+[materials.a]
+density = 1.0
+[materials.b]
+density = 1.0
+colour = [1.0, 0.5, 0.0]
+[[body]]
+name = "post"
+shape = { sphere = 0.1 }
+position = [0, 9, 0]
+fixed = true
+[[body]]
+name = "one"
+shape = { sphere = 0.1 }
+material = "a"
+[[body]]
+name = "two"
+shape = { sphere = 0.1 }
+position = [1, 0, 0]
+material = "a"
+[[body]]
+name = "orange"
+shape = { sphere = 0.1 }
+position = [2, 0, 0]
+material = "b"
+[[array]]
+name = "ball"
+kind = "row"
+count = 3
+step = [0, 0, 1]
+vary = { restitution = [0.2, 0.8] }
+body = { shape = { sphere = 0.1 }, position = [4, 0, 0], material = "a" }
+)",
+                                 "colours");
+  const std::vector<Colour> colours = bodyColours(scene);
+  CHECK(colours[0] == colour::kFixed);
+  CHECK(colours[1] == colours[2]);
+  CHECK(colours[3] == Colour{1.0f, 0.5f, 0.0f});
+  CHECK(colours[4] == cividisStops().front());
+  CHECK(colours[5] == ramp(cividisStops(), 0.5));
+  CHECK(colours[6] == cividisStops().back());
+}

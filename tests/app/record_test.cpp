@@ -1,0 +1,106 @@
+// Recordings and the files they become.
+#include <filesystem>
+#include <sstream>
+
+#include "app/record/file.h"
+#include "app/record/output.h"
+#include "app/scene/scene.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+constexpr const char* kSpinning = R"(
+[world]
+gravity = [0.0, 0.0, 0.0]
+duration = 1.0
+[[body]]
+name = "post"
+shape = { box = [0.1, 0.1, 0.1] }
+position = [5.0, 0.0, 0.0]
+fixed = true
+[[body]]
+name = "top"
+shape = { sphere = 0.1 }
+mass = 1.0
+velocity = [0.1, 0.0, 0.0]
+angular_velocity = [0.0, 0.0, 40.0]
+)";
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) found.push_back(line);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("samples stand at k/rate from 0 to the duration, however the rate divides it") {
+  Scene scene = parseScene(kSpinning, "spinning");
+  for (const auto& [rate, count] : {std::pair(60.0, 61), {7.0, 8}, {2.5, 3}, {0.1, 1}}) {
+    const Recording recording = record(scene, rate);
+    REQUIRE(recording.samples.size() == static_cast<std::size_t>(count));
+    for (int k = 0; k < count; ++k) CHECK(recording.samples[k].t == k / rate);
+  }
+}
+
+// The ball turns 40 rad, more than six full turns: q passes −1 twelve times.
+TEST_CASE("an attitude keeps the sign that makes it continuous") {
+  const Recording recording = record(parseScene(kSpinning, "spinning"), 60.0);
+  for (std::size_t k = 1; k < recording.samples.size(); ++k)
+    CHECK(recording.samples[k].bodies[1].q.dot(recording.samples[k - 1].bodies[1].q) > 0.9);
+}
+
+TEST_CASE(
+    "the trajectory holds a row per moving body and sample, and its numbers come back whole") {
+  const Scene scene = parseScene(kSpinning, "spinning");
+  const Recording recording = record(scene, 3.0);
+  const std::vector<std::string> rows = lines(trajectoryCsv(recording, scene));
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0] == "t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+  CHECK(rows[1] == "0,top,0,0,0,1,0,0,0,0.10000000000000001,0,0,0,0,40");
+  std::istringstream row(rows[2]);
+  std::string cell;
+  std::getline(row, cell, ',');
+  CHECK(std::stod(cell) == recording.samples[1].t);
+  std::getline(row, cell, ',');
+  CHECK(cell == "top");
+  std::getline(row, cell, ',');
+  CHECK(std::stod(cell) == recording.samples[1].bodies[1].x.x());
+}
+
+TEST_CASE("events and contacts name their bodies and list every quantity") {
+  const Scene scene = parseScene(kSpinning, "spinning");
+  Recording recording;
+  recording.report.events = {
+      {0.5, EventKind::Slip, 1, 0, {1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, -0.25, 4.0}};
+  Sample sample;
+  sample.t = 0.125;
+  sample.contacts = {{1, 0, {1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}, -1e-9, {4.0, 5.0, 6.0}}};
+  recording.samples = {sample};
+  CHECK(eventsCsv(recording, scene) ==
+        "t,kind,a,b,px,py,pz,nx,ny,nz,vrel,j\n0.5,slip,top,post,1,2,3,0,1,0,-0.25,4\n");
+  CHECK(contactsCsv(recording, scene) ==
+        "t,a,b,px,py,pz,nx,ny,nz,separation,fx,fy,fz\n"
+        "0.125,top,post,1,2,3,0,0,1,-1.0000000000000001e-09,4,5,6\n");
+}
+
+TEST_CASE("a file is written whole or not at all") {
+  const std::string folder = std::filesystem::temp_directory_path() / "tumble-record-test";
+  std::filesystem::remove_all(folder);
+  makeFolder(folder + "/deep");
+  writeFile(folder + "/deep/a.txt", "first");
+  writeFile(folder + "/deep/a.txt", "second");
+  CHECK(readFile(folder + "/deep/a.txt") == "second");
+  CHECK_THROWS_AS(writeFile(folder + "/deep/a.txt/b", "x"), FileError);
+  CHECK_THROWS_AS(makeFolder(folder + "/deep/a.txt/c"), FileError);
+  CHECK_THROWS_AS(makeFolder(folder + "/deep/a.txt"), FileError);
+  CHECK_THROWS_AS(writeFile(folder + "/deep", "x"), FileError);
+  CHECK_THROWS_AS(readFile(folder + "/none"), FileError);
+  // Nothing but the file itself is left behind.
+  CHECK(std::distance(std::filesystem::directory_iterator(folder + "/deep"), {}) == 1);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
+  std::filesystem::remove_all(folder);
+}
