@@ -21,14 +21,16 @@ enum class NormalTie : std::uint8_t {
 /// One point of contact, or of nearness. World frame, SI.
 ///   pa − pb = (separation + ra + rb) n,  n out of b towards a.
 struct ContactPoint {
-  Vec3 p = Vec3::Zero();          ///< [m] where forces act: midway between the two surfaces
-  Vec3 n = Vec3::UnitY();         ///< [1] unit contact normal, out of b towards a
-  double separation = 0.0;        ///< [m] gap along n; < 0 is overlap
-  std::uint32_t feature = 0;      ///< the same as long as the same features of the pair touch
+  Vec3 p = Vec3::Zero();      ///< [m] where forces act: midway between the two surfaces
+  Vec3 n = Vec3::UnitY();     ///< [1] unit contact normal, out of b towards a
+  double separation = 0.0;    ///< [m] gap along n; < 0 is overlap
+  std::uint32_t feature = 0;  ///< the same as long as the same features of the pair touch
   NormalTie tie = NormalTie::FaceOfB;
-  Vec3 pa = Vec3::Zero(), pb = Vec3::Zero();  ///< [m] the material points (ball centre, vertex, foot) of a and b
-  double ra = 0.0, rb = 0.0;      ///< [m] radius about pa and pb: of a ball, else 0
-  Vec3 ea = Vec3::Zero(), eb = Vec3::Zero();  ///< [1] unit edge directions where the tie names edges
+  Vec3 pa = Vec3::Zero(),
+       pb = Vec3::Zero();     ///< [m] the material points (ball centre, vertex, foot) of a and b
+  double ra = 0.0, rb = 0.0;  ///< [m] radius about pa and pb: of a ball, else 0
+  Vec3 ea = Vec3::Zero(),
+       eb = Vec3::Zero();  ///< [1] unit edge directions where the tie names edges
 };
 
 /// The points of one pair, with one normal.

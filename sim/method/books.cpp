@@ -51,12 +51,11 @@ void account(const Model& model, State& state, Report& report) {
   const double open = books.energy_end - books.energy_start + books.energy_lost_impact +
                       books.energy_lost_friction - books.work_of_forces;
   // Where nothing moves, what is open is the rounding of the terms themselves.
-  const double rounding = 1e-14 * (std::abs(books.energy_end) + std::abs(books.energy_start) +
-                                   std::abs(books.energy_lost_impact) +
-                                   std::abs(books.energy_lost_friction) +
-                                   std::abs(books.work_of_forces));
-  books.energy_balance_error =
-      std::abs(open) > rounding ? std::abs(open) / state.kineticMax : 0.0;
+  const double rounding =
+      1e-14 * (std::abs(books.energy_end) + std::abs(books.energy_start) +
+               std::abs(books.energy_lost_impact) + std::abs(books.energy_lost_friction) +
+               std::abs(books.work_of_forces));
+  books.energy_balance_error = std::abs(open) > rounding ? std::abs(open) / state.kineticMax : 0.0;
   if (state.momentumScale > 0.0) {
     const double drift = (momentum - state.momentumStart - state.externalImpulse).norm();
     books.momentum_error = std::max(books.momentum_error, drift / state.momentumScale);
