@@ -145,7 +145,7 @@ TEST_CASE("a scene that is neither a demo nor a file, and a refused --set, end w
 }
 
 TEST_CASE("an output folder below a regular file ends with 5, for root too") {
-  const std::string command = GENERATE("simulate", "render");
+  const std::string command = GENERATE("simulate", "render", "sweep");
   const Scratch scratch;
   scratch.file("scene.toml",
                kBall + "[sweep]\nparameter = \"world.duration\"\nvalues = [0.1, 0.2]\n");
