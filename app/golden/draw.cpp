@@ -12,29 +12,36 @@ namespace {
 constexpr RenderOptions kSmall = {.width = 480, .height = 270};
 constexpr int kRows = 20;  // intervals between the instants that numbers are kept of
 
-// What the window shows when its golden is drawn: something of every kind, over in a moment.
+// A ball flies at a wall: bodies of two forms that fill the image and shade each other.
 constexpr const char* kWindowScene = R"toml(
-title = "A ball and a brick"
+title = "A ball and a wall"
 chapter = "window"
 [world]
-duration = 1.0
+method = "stepping"
+duration = 0.5
 [materials.clay]
 density = 1000.0
-restitution = 0.5
+restitution = 0.3
+friction = 0.5
 [[body]]
 name = "floor"
 shape = { plane = [0, 1, 0, 0] }
+material = "clay"
 [[body]]
 name = "ball"
 shape = { sphere = 0.2 }
 material = "clay"
-position = [-0.4, 1.0, 0.0]
-[[body]]
-name = "brick"
-shape = { box = [0.4, 0.1, 0.3] }
-material = "clay"
-position = [0.4, 0.8, 0.0]
-angular_velocity = [0.0, 1.0, 3.0]
+position = [-0.6, 0.7, 1.2]
+velocity = [0.8, 1.0, -3.0]
+[[array]]
+name = "wall"
+kind = "wall"
+rows = 5
+columns = 4
+body = { shape = { box = [0.4, 0.2, 0.2] }, material = "clay" }
+[camera]
+azimuth = 35.0
+elevation = 25.0
 [show]
 path = true
 )toml";
@@ -50,7 +57,7 @@ Recording thinned(const Recording& recording) {
 }
 
 Golden drawWindow(Renderer& renderer) {
-  const Scene scene = parseScene(kWindowScene, std::string(kWindowSubject));
+  const Scene scene = windowScene();
   return {
       std::string(kWindowSubject), {{"page", viewerSnapshot(renderer, scene, 0.5, 960, 540)}}, ""};
 }
@@ -72,6 +79,10 @@ Golden drawDemo(const std::string& name, Renderer& renderer) {
 }
 
 }  // namespace
+
+Scene windowScene() {
+  return parseScene(kWindowScene, std::string(kWindowSubject));
+}
 
 Golden drawGolden(const std::string& subject, Renderer& renderer) {
   return subject == kWindowSubject ? drawWindow(renderer) : drawDemo(subject, renderer);

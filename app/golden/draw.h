@@ -5,12 +5,16 @@
 #include <string_view>
 
 #include "app/golden/golden.h"
+#include "app/scene/scene.h"
 #include "render/renderer.h"
 
 namespace tumble {
 
 /// The subject that is not a demo: the window with its user interface.
 inline constexpr std::string_view kWindowSubject = "viewer";
+
+/// The scene that the window shows in its golden.
+Scene windowScene();
 
 /// Draws a demo's start, instants and strobe, 480×270, and writes down its motion at 21 instants;
 /// or the window. Images that show nothing new are left out.

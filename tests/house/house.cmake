@@ -10,6 +10,8 @@ endfunction()
 set(house ${CMAKE_CURRENT_SOURCE_DIR}/house)
 house_test("sources are laid out as .clang-format says" quick 60 ${house}/format.sh)
 if(TUMBLE_APP)
+  house_test("every demo gives its approved images and numbers" quick 120
+             $<TARGET_FILE:tumble> golden -o ${PROJECT_BINARY_DIR}/golden)
   house_test("a project of ten lines finds the installed package" quick 120
              ${house}/consumer.sh ${PROJECT_BINARY_DIR})
   house_test("both compilers give the same bits at -O1 and -O3" long 3600
