@@ -62,9 +62,10 @@ std::string Shoot::sheet() {
   ImageFormat format = scene_.image;
   format.width = 480;
   format.height = std::max(16, format.width * scene_.image.height / scene_.image.width);
+  const double end = (presenter().count() - 1) / scene_.image.rate;
   std::vector<Panel> panels;
   for (int n = 0; n < kPanels; ++n) {
-    const double t = recording().samples.back().t * n / (kPanels - 1);
+    const double t = end * n / (kPanels - 1);
     Picture picture = presenter().still(t);
     stripForPanel(picture);
     panels.push_back({studio_.draw(picture, format), fmt::format("t = {:.2f} s", t), ""});

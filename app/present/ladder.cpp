@@ -98,7 +98,7 @@ void addForceLadder(const Scene& scene, const Sample& sample, double aspect, Pic
     picture.pageArrows.push_back({rung.leader,
                                   {x, y},
                                   kLength * rung.force / largest,
-                                  fmt::format("{:.1f} N", rung.force),
+                                  fmt::format("{:.4g} N", rung.force),
                                   colour::kForce});
     above = y;
   }

@@ -8,6 +8,7 @@
 #include "app/claim/free_body.h"
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
+#include "app/present/boxes.h"
 #include "app/present/labels.h"
 #include "app/present/marks.h"
 #include "app/present/palette.h"
@@ -121,6 +122,21 @@ Picture Presenter::blank() const {
   return picture;
 }
 
+// Whether the bodies of a sample reach over most of the motion; else a rule beside them is too
+// short to read.
+bool Presenter::fillsMotion(const Sample& sample) const {
+  Aabb all{framing_.centre, framing_.centre};
+  bool first = true;
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    const BodyDef& body = scene_.world.bodies[i];
+    if (!moves(body)) continue;
+    const Aabb box = boundingBox(body.shape, {sample.bodies[i].x, sample.bodies[i].q});
+    all = first ? box : Aabb{all.lo.cwiseMin(box.lo), all.hi.cwiseMax(box.hi)};
+    first = false;
+  }
+  return (all.hi - all.lo).norm() > framing_.radius;
+}
+
 void Presenter::addBodies(const Sample& sample, Picture& picture) const {
   const bool byTime = picture.bar.has_value();
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
@@ -180,6 +196,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
     addContactForces(sample, largestContactForce(recording_), length, picture);
     addForceLadder(scene_, sample, aspectOf(scene_), picture);
   }
+  if (show.boxes) addBoundingBoxes(scene_, sample, picture);
   if (show.normals) addNormals(sample, length, picture);
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
   if (show.forces) addForces(scene_, sample, height, picture);

@@ -91,6 +91,41 @@ TEST_CASE("the camera sees every pose of the whole motion inside the page") {
   }
 }
 
+// Twelve edges, each of the box's own length: 4 (a + b + c) in all, drawn without gaps.
+TEST_CASE("a bounding box is drawn with all its edges") {
+  const Scene scene = parseScene(kScene, "falling", {"show.boxes=true", "show.path=false"});
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).image(0);
+  double length = 0.0;
+  for (const Polyline& line : picture.lines)
+    for (std::size_t k = 1; k < line.points.size(); ++k)
+      length += (line.points[k] - line.points[k - 1]).norm();
+  CHECK(length == Approx(4.0 * (0.4 + 0.1 + 0.3)).epsilon(1e-12));
+}
+
+TEST_CASE("wind and velocity arrows point along, end on the body and grow with what they show") {
+  const Scene scene = parseScene(kScene, "falling");
+  Sample sample;
+  sample.bodies.resize(2);
+  sample.bodies[1].v = {3.0, 0.0, 0.0};
+  Recording recording;
+  recording.samples = {sample, sample};
+  recording.samples[1].bodies[1].v = {0.0, 6.0, 0.0};
+  Picture picture;
+  addVelocities(scene, recording, sample, 1.0, picture);
+  REQUIRE(picture.arrows.size() == 1);
+  CHECK((picture.arrows[0].base - Vec3(0.2, 0.0, 0.0)).norm() < 1e-15);
+  CHECK((picture.arrows[0].tip - Vec3(0.7, 0.0, 0.0)).norm() < 1e-15);
+
+  Scene windy = scene;
+  windy.world.forces = {UniformWind{kNoBody, {0.0, 0.0, 5.0}}};
+  Picture blown;
+  addForces(windy, sample, 0.3, blown);
+  REQUIRE(blown.arrows.size() == 1);
+  CHECK((blown.arrows[0].tip - Vec3(0.0, 0.0, -0.15)).norm() < 1e-15);
+  CHECK((blown.arrows[0].base - Vec3(0.0, 0.0, -0.45)).norm() < 1e-15);
+}
+
 TEST_CASE("labels give the values of their body") {
   const Scene scene = parseScene(kScene, "falling");
   CHECK(labelOf(scene, 1) == "brick: 0.25");
@@ -147,9 +182,9 @@ body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
   picture.camera = {.eye = {1.0, 1.0, 8.0}, .target = {1.0, 1.0, 0.0}, .fov = 24.0};
   addForceLadder(scene, sample, 16.0 / 9.0, picture);
   REQUIRE(picture.pageArrows.size() == 3);
-  CHECK(picture.pageArrows[0].text == "10.0 N");
-  CHECK(picture.pageArrows[1].text == "20.0 N");
-  CHECK(picture.pageArrows[2].text == "30.0 N");
+  CHECK(picture.pageArrows[0].text == "10 N");
+  CHECK(picture.pageArrows[1].text == "20 N");
+  CHECK(picture.pageArrows[2].text == "30 N");
   for (std::size_t k = 0; k < 3; ++k) {
     CHECK(picture.pageArrows[k].length == Approx(220.0 * (k + 1.0) / 3.0));
     CHECK(picture.pageArrows[k].leader->x() == 2.25);

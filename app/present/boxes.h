@@ -1,0 +1,12 @@
+// Bounding boxes, as the broad phase sees them.
+#pragma once
+
+#include "app/record/recording.h"
+#include "render/picture.h"
+
+namespace tumble {
+
+/// The twelve edges of the axis-aligned box around each moving body.
+void addBoundingBoxes(const Scene& scene, const Sample& sample, Picture& picture);
+
+}  // namespace tumble
