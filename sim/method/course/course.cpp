@@ -118,7 +118,7 @@ bool Course::wasLasting(int a, int b) const {
 
 void Course::move() {
   const double step = model_.def.course.step;
-  const double grid = gridTime(model_, state_.gridIndex, step), span = grid - state_.t;
+  const double grid = gridTime(model_, state_.gridIndex, step);
   state_.trail.push_back(
       {.t0 = state_.t, .t1 = grid, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
 
@@ -129,12 +129,14 @@ void Course::move() {
 
   // A pair may come as close as touching, to a slack, or stay as deep as rounding has brought it.
   // The slack must not be granted anew at each event, or every bounce would start a little deeper.
+  gaps_.clear();
   floor_.clear();
   allowanceNow_ = std::numeric_limits<double>::infinity();
   for (const auto& [b, a] : state_.near) {
     const double now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
                                   state_.bodies[b].pose());
     const double slack = wasLasting(a, b) ? tolerance_.drift : tolerance_.root;
+    gaps_.push_back(now);
     floor_.push_back(std::min(-slack, now - kSink * slack));
     allowanceNow_ = std::min(allowanceNow_, now - floor_.back());
   }
@@ -144,13 +146,15 @@ void Course::move() {
           allowanceNow_,
           slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).dot(c.slipDirection));
 
-  // Try the whole stretch; if something collides, or a slip ends, back up to that instant.
-  double h = span;
-  if (allowance(system, span) < 0.0) {
-    h = backUp(system, span);
+  // Try as much of the step as can be foreseen; if something collides, or a slip ends, back up to
+  // that instant.
+  const double span = grid - state_.t;
+  double h = foresee(system, span);
+  if (allowance(system, h) < 0.0) {
+    h = backUp(system, h);
     allowance(system, h);
+    ++state_.recentSticks;
   }
-  if (h < span) ++state_.recentSticks;
   commit(system, h, h < span ? state_.t + h : grid);
 }
 

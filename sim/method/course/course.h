@@ -38,6 +38,12 @@ class Course {
   /// Upper estimate [m/s²] of what outer forces do to any body.
   double accelerationScale() const;
 
+  /// How long [s] the motion may go on unseen: no pair passes through each other, no feature dips
+  /// in and out again.
+  double foresee(const CourseSystem& system, double span) const;
+  /// When [s] the first of these points that dip below their surface turns back.
+  double lowestPoint(const CourseSystem& system, std::span<const Contact> points,
+                     double span) const;
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.
   double allowance(CourseSystem& system, double h);
   /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
@@ -53,6 +59,7 @@ class Course {
   std::vector<Contact> touching_;
   std::vector<double> y0_, y_;
   std::vector<RigidBody> trial_;
+  std::vector<double> gaps_;   ///< [m] per near pair: separation now
   std::vector<double> floor_;  ///< [m] per near pair: separation that must not be passed
   double allowanceNow_ = 0.0;  ///< `allowance` of no motion at all
   int stalled_ = 0;            ///< events in a row that moved time by nothing

@@ -1,0 +1,77 @@
+// Where inside a step the motion must be looked at, so that no collision slips through between.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/method/course/course.h"
+
+namespace tumble {
+namespace {
+
+/// Radius [m] of the largest ball about the origin that fits inside a shape.
+double innerRadius(const Shape& shape) {
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return sphere->r;
+  if (const Box* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
+  if (const Cylinder* c = std::get_if<Cylinder>(&shape)) return std::min(c->r, 0.5 * c->h);
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Largest speed [m/s] and centripetal acceleration [m/s²] of the turning points of a body.
+double turningSpeed(const RigidBody& body, const Shape& shape) {
+  const double radius = boundingRadius(shape);
+  return std::isfinite(radius) ? body.omega.norm() * radius : 0.0;
+}
+
+/// Acceleration [m/s²] of the material point at p under the body's force and torque.
+Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
+  if (body.fixed()) return Vec3::Zero();
+  const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
+  return body.invM * body.force + alpha.cross(p - body.x);
+}
+
+}  // namespace
+
+double Course::foresee(const CourseSystem& system, double span) const {
+  const double shortest = 1e-3 * span;  // no pair may slow the others down for ever
+  double safe = span;
+  std::vector<Contact> points;
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto& [b, a] = state_.near[k];
+    const RigidBody &bodyA = state_.bodies[a], &bodyB = state_.bodies[b];
+    const double turnA = turningSpeed(bodyA, model_.shapes[a]);
+    const double turnB = turningSpeed(bodyB, model_.shapes[b]);
+    const double bend =
+        accelerationScale() + bodyA.omega.norm() * turnA + bodyB.omega.norm() * turnB;
+    const double speed = (bodyA.v - bodyB.v).norm() + turnA + turnB + bend * span;
+    if (gaps_[k] > speed * span) continue;
+
+    // Thin bodies must not pass through each other: half their thickness is the longest way.
+    const double thickness = innerRadius(model_.shapes[a]) + innerRadius(model_.shapes[b]);
+    if (speed * safe > 0.5 * thickness) safe = std::max(shortest, 0.5 * thickness / speed);
+
+    // Features that could dip in and come out again are near.
+    const double depth = 0.5 * bend * span * span;
+    if (gaps_[k] < depth) findContacts(model_, state_.bodies, state_.near[k], depth, points);
+  }
+  return points.empty() ? safe : std::min(safe, lowestPoint(system, points, safe));
+}
+
+double Course::lowestPoint(const CourseSystem& system, std::span<const Contact> points,
+                           double span) const {
+  std::vector<RigidBody> bodies = state_.bodies;
+  system.findForces(bodies);
+  double soonest = span;
+  for (const Contact& c : points) {
+    const RigidBody &a = bodies[c.a], &b = bodies[c.b];
+    if (wasLasting(c.a, c.b) && c.point.separation < tolerance_.touch) continue;
+    const double v = approachVelocity(a, b, c.point);
+    const double up =
+        c.point.n.dot(pointAcceleration(a, c.point.pa) - pointAcceleration(b, c.point.pb)) +
+        normalAccelerationBias(a, b, c.point);
+    if (v >= -tolerance_.keep || up <= 0.0) continue;
+    const double turn = -v / up;  // [s] when it turns back
+    if (turn < soonest && c.point.separation + 0.5 * v * turn < 0.0) soonest = turn;
+  }
+  return soonest;
+}
+
+}  // namespace tumble
