@@ -170,14 +170,14 @@ const Report& World::report() const {
   return parts_->report;
 }
 
-std::vector<std::string> World::features() const {
+std::vector<std::string> World::features(bool used) const {
   const Model& model = parts_->model;
   const auto anyBody = [&](auto&& test) {
     return std::any_of(model.def.bodies.begin(), model.def.bodies.end(), test);
   };
   std::vector<std::string> list;
-  const auto add = [&](bool used, const char* name) {
-    if (used) list.emplace_back(name);
+  const auto add = [&](bool here, const char* name) {
+    if (here == used) list.emplace_back(name);
   };
   add(!model.def.gravity.isZero(0.0), "gravity");
   add(model.count() > 1, "contact");

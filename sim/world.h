@@ -59,8 +59,8 @@ class World {
   const Model& model() const;
   /// Certificate and events so far; complete once advance(duration) has returned.
   const Report& report() const;
-  /// What this scene uses of the machinery, in words: "friction", "wind", "restitution" ….
-  std::vector<std::string> features() const;
+  /// What this scene uses of the machinery, or, for false, leaves out: "friction", "wind" ….
+  std::vector<std::string> features(bool used = true) const;
 
  private:
   struct Parts;

@@ -45,7 +45,9 @@ int describe(int argc, char** argv) {
   fmt::print("gravity   {:g} {:g} {:g} m/s²\n", world.gravity.x(), world.gravity.y(),
              world.gravity.z());
   fmt::print("method    {}, {:g} s\n", world.method, world.duration);
-  fmt::print("uses      {}\n", join(makeWorld(scene).features()));
+  const World running = makeWorld(scene);
+  fmt::print("uses      {}\n", join(running.features()));
+  fmt::print("leaves    {}\n", join(running.features(false)));
   if (scene.sweep)
     fmt::print("sweep     {} over {}\n", scene.sweep->parameter, join(scene.sweep->values));
   return kOk;

@@ -101,8 +101,8 @@ std::vector<Colour> bodyColours(const Scene& scene) {
       colours.push_back(ramp(kCividis, place->second));
       continue;
     }
-    // A body without a material is a kind of its own.
-    const std::string kind = body.material.empty() ? "body " + body.name : body.material;
+    // The copies of an array look the same; every other body is a kind of its own.
+    const std::string array = arrayOf(body.name), kind = array.empty() ? body.name : array;
     const auto found = std::find(kinds.begin(), kinds.end(), kind);
     const std::size_t index = static_cast<std::size_t>(found - kinds.begin());
     if (found == kinds.end()) kinds.push_back(kind);

@@ -36,9 +36,10 @@ void trimTrail(State& state, double t) {
 void account(const Model& model, State& state, Report& report) {
   Certificate& books = report.certificate;
   Vec3 momentum = Vec3::Zero();
-  double size = 0.0;
+  double size = 0.0, weight = 0.0;
   for (const RigidBody& body : state.bodies) {
     if (body.fixed()) continue;
+    weight += body.M * model.def.gravity.norm();
     momentum += body.P;
     size += body.P.norm();
   }
@@ -56,10 +57,10 @@ void account(const Model& model, State& state, Report& report) {
                std::abs(books.energy_lost_impact) + std::abs(books.energy_lost_friction) +
                std::abs(books.work_of_forces));
   books.energy_balance_error = std::abs(open) > rounding ? std::abs(open) / state.kineticMax : 0.0;
-  if (state.momentumScale > 0.0) {
-    const double drift = (momentum - state.momentumStart - state.externalImpulse).norm();
+  const double drift = (momentum - state.momentumStart - state.externalImpulse).norm();
+  const double carried = state.momentumScale + weight * state.t;
+  if (drift > 1e-13 * carried)
     books.momentum_error = std::max(books.momentum_error, drift / state.momentumScale);
-  }
 }
 
 void sortEvents(Report& report, std::size_t from) {
