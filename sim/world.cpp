@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
@@ -51,9 +52,9 @@ RigidBody bodyOf(const BodyDef& def, std::size_t i) {
        "restitution must lie in [0, 1]");
   need(def.friction >= 0.0 && std::isfinite(def.friction), bodyPath(i, ".friction"),
        "friction must be 0 or more");
+  need(def.orientation.coeffs().allFinite() && def.orientation.norm() > 0.0,
+       bodyPath(i, ".orientation"), "an orientation must be a quaternion that is not zero");
   const Pose pose{def.position, def.orientation.normalized()};
-  need(pose.q.coeffs().allFinite(), bodyPath(i, ".orientation"),
-       "an orientation must be a quaternion that is not zero");
   if (const HalfSpace* plane = std::get_if<HalfSpace>(&def.shape)) {
     need(def.fixed, bodyPath(i, ".fixed"), "a plane is always fixed");
     const double scale = def.velocity.norm() + def.angularVelocity.norm();
@@ -91,6 +92,43 @@ void checkPairs(const Model& model, std::span<const RigidBody> bodies) {
   }
 }
 
+/// Lengths of a shape are positive and finite; a plane has a direction.
+void checkShape(const Shape& shape, std::size_t i) {
+  const bool sound = std::visit(
+      [](const auto& s) {
+        using S = std::decay_t<decltype(s)>;
+        const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+        if constexpr (std::is_same_v<S, Sphere>) return positive(s.r);
+        if constexpr (std::is_same_v<S, Box>)
+          return positive(s.half.minCoeff()) && s.half.allFinite();
+        if constexpr (std::is_same_v<S, Cylinder>) return positive(s.r) && positive(s.h);
+        if constexpr (std::is_same_v<S, HalfSpace>)
+          return std::abs(s.n.norm() - 1.0) < 1e-9 && std::isfinite(s.d);
+      },
+      shape);
+  need(sound, bodyPath(i, ".shape"), "lengths of a shape must be positive, a plane's normal unit");
+}
+
+/// The bodies that forces name exist.
+void checkForces(const WorldDef& def) {
+  const int count = static_cast<int>(def.bodies.size());
+  for (std::size_t k = 0; k < def.forces.size(); ++k) {
+    const auto exists = [&](int body, bool orNone) {
+      const bool known = body >= 0 && body < count;
+      need(known || (orNone && body == kNoBody), "forces[" + std::to_string(k) + "]",
+           "a force names a body that is not there");
+    };
+    const Force& force = def.forces[k];
+    if (const auto* wind = std::get_if<UniformWind>(&force)) exists(wind->body, true);
+    if (const auto* drag = std::get_if<LinearDrag>(&force)) exists(drag->body, true);
+    if (const auto* point = std::get_if<PointForce>(&force)) exists(point->body, false);
+    if (const auto* spring = std::get_if<Spring>(&force)) {
+      exists(spring->a, false);
+      exists(spring->b, true);
+    }
+  }
+}
+
 double worldSize(const Model& model) {
   double size = 0.0;
   for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
@@ -122,9 +160,11 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   need(def.gravity.allFinite(), "gravity", "gravity must be finite");
   need(!def.bodies.empty(), "bodies", "a scene needs at least one body");
   for (std::size_t i = 0; i < def.bodies.size(); ++i) {
+    checkShape(def.bodies[i].shape, i);
     model.shapes.push_back(def.bodies[i].shape);
     state.bodies.push_back(bodyOf(def.bodies[i], i));
   }
+  checkForces(def);
   model.size = worldSize(model);
   parts_->method->check(model);
   checkPairs(model, state.bodies);

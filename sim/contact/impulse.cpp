@@ -11,8 +11,7 @@ double inverseEffectiveMass(const RigidBody& a, const RigidBody& b, const Vec3& 
 }
 
 double collisionImpulse(const RigidBody& a, const RigidBody& b, const ContactPoint& c, double e) {
-  if (!(e >= 0.0 && e <= 1.0))
-    throw std::invalid_argument("restitution must lie in [0, 1], got " + std::to_string(e));
+  if (!(e >= 0.0 && e <= 1.0)) throw std::invalid_argument("restitution must lie in [0, 1]");
   const double vrel = c.n.dot(pointVelocity(a, c.p) - pointVelocity(b, c.p));
   const double k = inverseEffectiveMass(a, b, c.p, c.n);
   return vrel < 0.0 && k > 0.0 ? -(1.0 + e) * vrel / k : 0.0;

@@ -94,6 +94,7 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
                              double h) {
   const auto creeps = [](const Contact& c) { return c.creeping; };
   if (std::none_of(contacts.begin(), contacts.end(), creeps)) return;
+  solution_.lambda.clear();  // the same answer whatever was solved before
   beginAccelerationProblem(bodies, problem_);
   for (Contact contact : contacts) {
     const bool slides = contact.sliding && !contact.creeping;
@@ -111,8 +112,9 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
     const Vec3 slip = slipVelocity(bodies[c.a], bodies[c.b], c.point);
     const bool saturated = tangential.norm() >= c.friction * f.dot(c.point.n) * (1.0 - 1e-9);
     // A slip that will end within the step keeps its line, so that the instant of its end is found.
-    c.mayStick = !saturated || tangential.dot(slip) >= 0.0;
-    if (!c.mayStick) c.slipDirection = -tangential.normalized();
+    const bool turnsRound = saturated && tangential.dot(slip) < 0.0;
+    if (turnsRound) c.slipDirection = -tangential.normalized();
+    c.mayStick = c.mayStick && !turnsRound;
   }
 }
 

@@ -24,6 +24,10 @@ const char* eventName(EventKind kind) {
   return "";
 }
 
+void Report::note(const char* text) {
+  if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.emplace_back(text);
+}
+
 double gridTime(const Model& model, long k, double h) {
   const double next = static_cast<double>(k + 1) * h, end = model.def.duration;
   return next > end - 1e-9 * h ? end : next;  // no sliver of a step is left before the end
@@ -56,7 +60,7 @@ void account(const Model& model, State& state, Report& report) {
       1e-14 * (std::abs(books.energy_end) + std::abs(books.energy_start) +
                std::abs(books.energy_lost_impact) + std::abs(books.energy_lost_friction) +
                std::abs(books.work_of_forces));
-  books.energy_balance_error = std::abs(open) > rounding ? std::abs(open) / state.kineticMax : 0.0;
+  books.energy_balance_error = std::abs(open) <= rounding ? 0.0 : std::abs(open) / state.kineticMax;
   const double drift = (momentum - state.momentumStart - state.externalImpulse).norm();
   const double carried = state.momentumScale + weight * state.t;
   if (drift > 1e-13 * carried)

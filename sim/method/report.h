@@ -42,6 +42,9 @@ struct Report {
   bool stopped = false;            ///< the physics could not go on
   std::string reason;              ///< one sentence: what, where, when
   std::vector<std::string> notes;  ///< approximations that were taken, once each
+
+  /// Adds a note unless it is there.
+  void note(const char* text);
 };
 
 }  // namespace tumble

@@ -1,7 +1,10 @@
 // Chapter 9, method: the half of a world that changes.
 #pragma once
 
+#include <compare>
+#include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "sim/body/rigid_body.h"
@@ -15,7 +18,8 @@ struct Segment {
   double t0 = 0.0, t1 = 0.0;     ///< [s]
   std::vector<RigidBody> start;  ///< the bodies at t0, after the events of t0
   std::vector<RigidBody> end;  ///< the bodies at t1, before its events; only if the method needs it
-  std::vector<Contact> contacts;  ///< the lasting contacts, with the forces at t0
+  std::vector<Contact>
+      contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
 };
 
 /// Time, bodies, and what a method remembers from step to step.
@@ -41,11 +45,12 @@ struct State {
   };
   std::map<ContactKey, Vec3> warm;
 
-  // What only `course` remembers: pairs that the next stretch of motion may bring together, and the
-  // events since the last whole step.
-  std::vector<std::pair<int, int>> near;
+  std::vector<std::pair<int, int>> near;  ///< pairs that the next step may bring together
+
+  // What only `course` remembers: the events since the last whole step.
   std::map<std::pair<int, int>, int> recentImpacts;
-  int recentSticks = 0;  ///< stretches that ended before the step did, since the last whole step
+  int recentBackUps = 0;  ///< stretches that ended before the step did
+  int stalled = 0;        ///< events in a row that moved time by nothing
 };
 
 }  // namespace tumble

@@ -46,6 +46,15 @@ TEST_CASE("impossible worlds are refused where they are wrong") {
   def.bodies[1].inertia = Vec3(1.0, 0.0, 1.0);
   CHECK(refusedAt(def) == "bodies[1].inertia");
   def = sound();
+  def.bodies[1].orientation = Quat(0.0, 0.0, 0.0, 0.0);
+  CHECK(refusedAt(def) == "bodies[1].orientation");
+  def = sound();
+  def.bodies[1].shape = Sphere{0.0};
+  CHECK(refusedAt(def) == "bodies[1].shape");
+  def = sound();
+  def.forces = {PointForce{7, Vec3::Zero(), Vec3::UnitX()}};
+  CHECK(refusedAt(def) == "forces[0]");
+  def = sound();
   def.method = "exact";
   CHECK(refusedAt(def) == "method");
   def = sound();

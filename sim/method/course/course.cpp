@@ -13,6 +13,9 @@ namespace {
 /// Time constant of the pull that keeps lasting contacts at zero, in steps.
 constexpr double kPullSteps = 4.0;
 
+/// Events that are located within one step, and events in a row that move time by nothing, before
+/// what is left of the step is taken as it comes.
+constexpr int kBackUpsInStep = 2000, kPatience = 200;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
 
@@ -150,12 +153,11 @@ void Course::move() {
   // that instant.
   const double span = grid - state_.t;
   double h = foresee(system, span);
-  if (allowance(system, h) < 0.0) {
-    h = backUp(system, h);
+  if (const double tooFar = allowance(system, h); tooFar < 0.0) {
+    h = backUp(system, h, tooFar);
     allowance(system, h);
-    ++state_.recentSticks;
   }
-  commit(system, h, h < span ? state_.t + h : grid);
+  commit(system, h < span ? state_.t + h : grid);
 }
 
 double Course::allowance(CourseSystem& system, double h) {
@@ -178,29 +180,26 @@ double Course::allowance(CourseSystem& system, double h) {
   return least;
 }
 
-double Course::backUp(CourseSystem& system, double span) {
-  constexpr double kInstant = 1e-15;  // [s] width of the bracket that is left
-  constexpr int kPatience = 200;      // events without progress before one is passed over
-  const double tooFar = allowance(system, span);
-  const double h = findRoot([&](double s) { return allowance(system, s); }, 0.0, span,
-                            allowanceNow_, tooFar, kInstant)
-                       .lo;
-  if (h > kInstant) {
-    stalled_ = 0;
-    return h;
+double Course::backUp(CourseSystem& system, double span, double tooFar) {
+  // The width of the bracket that is left: what a clock at t can still tell apart.
+  const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
+  ++state_.recentBackUps;
+  if (state_.recentBackUps <= kBackUpsInStep) {
+    const auto allowed = [&](double h) { return allowance(system, h); };
+    const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
+    if (h > instant) state_.stalled = 0;
+    if (h > instant || ++state_.stalled < kPatience) return std::max(h, instant);
   }
-  if (++stalled_ < kPatience) return std::max(h, kInstant);
-  stalled_ = 0;
-  report_.notes.push_back("an event without progress in time was passed over");
+  state_.stalled = 0;
+  report_.note("events without end in one step were passed over; max_penetration has the cost");
   return span;
 }
 
-void Course::commit(CourseSystem& system, double h, double t1) {
+void Course::commit(CourseSystem& system, double t1) {
   Certificate& books = report_.certificate;
   if (!allFinite(y_)) {
     report_.stopped = true;
-    report_.reason = "the motion left the range of numbers within " + std::to_string(h) +
-                     " s after t = " + std::to_string(state_.t) + " s; try a smaller course.step";
+    report_.reason = "the motion left the range of numbers; try a smaller course.step";
     state_.trail.pop_back();
     return;
   }
@@ -209,9 +208,8 @@ void Course::commit(CourseSystem& system, double h, double t1) {
   books.work_of_forces += ledger.work;
   books.energy_lost_friction += ledger.friction;
   books.max_complementarity = std::max(books.max_complementarity, system.residual());
-  if (system.unsolved() && report_.notes.empty())
-    report_.notes.push_back("resting forces were left unsolved at t = " + std::to_string(t1) +
-                            " s");
+  if (system.unsolved())
+    report_.note("some resting forces were left unsolved; max_complementarity has the worst");
   state_.externalImpulse += ledger.impulse;
   state_.trail.back().t1 = t1;
   state_.t = t1;
@@ -219,7 +217,7 @@ void Course::commit(CourseSystem& system, double h, double t1) {
   if (t1 == gridTime(model_, state_.gridIndex, model_.def.course.step)) {
     ++state_.gridIndex;
     state_.recentImpacts.clear();
-    state_.recentSticks = 0;
+    state_.recentBackUps = 0;
   }
 }
 

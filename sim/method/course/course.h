@@ -47,8 +47,9 @@ class Course {
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.
   double allowance(CourseSystem& system, double h);
   /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
-  double backUp(CourseSystem& system, double span);
-  void commit(CourseSystem& system, double h, double t1);
+  /// @param tooFar  `allowance` of the whole span, < 0
+  double backUp(CourseSystem& system, double span, double tooFar);
+  void commit(CourseSystem& system, double t1);
 
   const Model& model_;
   State& state_;
@@ -62,7 +63,6 @@ class Course {
   std::vector<double> gaps_;   ///< [m] per near pair: separation now
   std::vector<double> floor_;  ///< [m] per near pair: separation that must not be passed
   double allowanceNow_ = 0.0;  ///< `allowance` of no motion at all
-  int stalled_ = 0;            ///< events in a row that moved time by nothing
 };
 
 }  // namespace tumble

@@ -21,7 +21,7 @@ constexpr double kNoise = 10.0;
 
 // Slip below this many times what friction changes in a step has its direction chosen implicitly.
 constexpr double kCreep = 4.0;
-// Ends of slips that are located within one step; later ones wait for the next step.
+// Ends of slips that are located within one step.
 constexpr int kSticksInStep = 20;
 
 /// Relative normal acceleration [m/s²] of a contact under outer forces alone.
@@ -76,6 +76,8 @@ void Course::respond() {
   books.energy_lost_friction += impact.lostFriction;
   books.work_of_forces += impact.work;
   books.max_complementarity = std::max(books.max_complementarity, impact.residual);
+  if (impact.finishedInelastic)
+    report_.note("impacts that did not come to an end were finished without rebound");
   recordImpacts(vrel, impulse);
 }
 
@@ -115,8 +117,11 @@ void Course::chooseLasting() {
     const Vec3 slip = slipVelocity(a, b, c.point);
     c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
     if (c.sliding) c.slipDirection = slip.normalized();
-    c.mayStick = c.sliding && state_.recentSticks < kSticksInStep;
     c.creeping = c.sliding && slip.norm() < kCreep * c.friction * scale * model_.def.course.step;
+    // After many ends of slips in one step a creeping contact is taken as sticking: its slip then
+    // fades with the pull of a lasting contact, inside Coulomb's cone.
+    if (c.creeping && state_.recentBackUps >= kSticksInStep) c.sliding = c.creeping = false;
+    c.mayStick = c.sliding;
     lasting.push_back(c);
   }
   rest_.settleCreep(state_.bodies, lasting, model_.def.course.step);

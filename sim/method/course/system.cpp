@@ -1,6 +1,7 @@
 #include "sim/method/course/system.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/body/force.h"
 

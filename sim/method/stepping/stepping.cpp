@@ -41,6 +41,20 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       report_(report),
       tolerance_(ContactTolerance::forSize(model.size)) {}
 
+bool Stepping::finite() const {
+  return std::all_of(state_.bodies.begin(), state_.bodies.end(), [](const RigidBody& body) {
+    return body.x.allFinite() && body.q.coeffs().allFinite() && body.v.allFinite() &&
+           body.omega.allFinite();
+  });
+}
+
+void Stepping::stop() {
+  report_.stopped = true;
+  report_.reason = "the motion left the range of numbers; try a smaller stepping.step";
+  state_.bodies = state_.trail.back().start;
+  state_.trail.pop_back();
+}
+
 void Stepping::step() {
   const double t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
   const double h = t1 - state_.t;
@@ -50,14 +64,14 @@ void Stepping::step() {
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
   findNear(h);
   buildProblem(h);
-  solve(h);
+  solve();
   applyImpulses(h);
   moveBodies(h);
+  if (!finite()) return stop();
   project();
 
   recordEvents(t1);
   state_.trail.back().end = state_.bodies;
-  state_.trail.back().contacts = state_.lasting;
   state_.t = t1;
   ++state_.gridIndex;
   ++report_.certificate.steps;
@@ -93,6 +107,7 @@ void Stepping::buildProblem(double h) {
         body.Iinv * (body.L + h * body.torque);
   }
   solution_.lambda.clear();
+  rebounds_.clear();
   for (const Contact& contact : contacts_) addContact(contact, h);
 }
 
@@ -110,6 +125,7 @@ void Stepping::addContact(const Contact& contact, double h) {
   const double vrel = along(before_);
   const bool hits = c.separation + h * along(problem_.vStar) < 0.0;
   const bool rebounds = hits && vrel < 0.0 && contact.restitution > 0.0;
+  rebounds_.push_back(rebounds && contact.restitution * vrel < landingSpeed());
   normal.bias = rebounds ? contact.restitution * vrel : std::max(0.0, c.separation) / h;
 
   const auto warm = state_.warm.find({contact.a, contact.b, c.feature});
@@ -130,7 +146,7 @@ void Stepping::addContact(const Contact& contact, double h) {
   problem_.cones.push_back(cone);
 }
 
-void Stepping::solve(double h) {
+void Stepping::solve() {
   const SteppingSettings& settings = model_.def.stepping;
   constexpr int kSweeps = 2000;  // more bring little; what is left is in the certificate
   const SolveReport solved =
@@ -138,9 +154,8 @@ void Stepping::solve(double h) {
                      {.tolerance = settings.tolerance, .maxIterations = kSweeps}, solution_);
   Certificate& books = report_.certificate;
   books.max_complementarity = std::max(books.max_complementarity, solved.residual);
-  if (solved.status != SolveStatus::Solved && report_.notes.empty())
-    report_.notes.push_back(
-        "a step was left above the tolerance, first at t = " + std::to_string(state_.t + h) + " s");
+  if (solved.status != SolveStatus::Solved)
+    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
 }
 
 void Stepping::applyImpulses(double h) {
@@ -201,72 +216,6 @@ void Stepping::moveBodies(double h) {
     body.q.normalize();
     updateDerived(body);
   }
-}
-
-void Stepping::recordEvents(double t) {
-  const std::size_t firstEvent = report_.events.size();
-  const double landing = -2.0 * model_.def.gravity.norm() * model_.def.stepping.step;
-  std::vector<Contact> before;
-  std::swap(before, state_.lasting);
-  state_.warm.clear();
-  const auto holds = [](const std::vector<Contact>& list, const Contact& c) {
-    return std::find_if(list.begin(), list.end(),
-                        [&](const Contact& o) { return o.a == c.a && o.b == c.b; });
-  };
-
-  // Contacts of one pair stand together and share a normal.
-  for (std::size_t i = 0; i < contacts_.size();) {
-    const Contact& first = contacts_[i];
-    Event event{.t = t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
-    event.n = first.point.n;
-    event.p.setZero();
-    bool rebounds = false;
-    for (; i < contacts_.size() && contacts_[i].a == first.a && contacts_[i].b == first.b; ++i) {
-      Contact& c = contacts_[i];
-      const double j = impulse_[i].dot(c.point.n);
-      if (j <= 0.0) continue;
-      const auto [row, end] = rowsOf(problem_, i);
-      const RigidBody &a = state_.trail.back().start[c.a], &b = state_.trail.back().start[c.b];
-      event.p += j * c.point.p;
-      event.j += j;
-      event.vrel = std::min(event.vrel, approachVelocity(a, b, c.point));
-      rebounds = rebounds || problem_.rows[row].bias < landing;
-      state_.warm[{c.a, c.b, c.point.feature}] = impulse_[i];
-      c.anchor = anchorOf(a, b, c.point);
-      c.force = impulse_[i] / (t - state_.t);
-      const Vec3 tangential = impulse_[i] - j * c.point.n;
-      c.sliding =
-          c.friction > 0.0 && tangential.norm() >= c.friction * j * (1.0 - 1e-9) &&
-          slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm() > tolerance_.stick;
-      c.lasting = true;
-      state_.lasting.push_back(c);
-    }
-    if (event.j <= 0.0) continue;
-    event.p /= event.j;
-    if (event.vrel < landing) report_.events.push_back(event);
-    if (rebounds) continue;
-    const auto old = holds(before, first), now = holds(state_.lasting, first);
-    event.j = event.vrel = 0.0;
-    if (old == before.end()) {
-      event.kind = EventKind::Rest;
-      report_.events.push_back(event);
-    } else if (old->sliding != now->sliding) {
-      event.kind = now->sliding ? EventKind::Slip : EventKind::Stick;
-      report_.events.push_back(event);
-    }
-  }
-  for (auto c = before.begin(); c != before.end(); ++c) {
-    if (holds(before, *c) != c || holds(state_.lasting, *c) != state_.lasting.end()) continue;
-    report_.events.push_back({.t = t,
-                              .kind = EventKind::Separate,
-                              .a = c->a,
-                              .b = c->b,
-                              .p = c->point.p,
-                              .n = c->point.n,
-                              .vrel = 0.0,
-                              .j = 0.0});
-  }
-  sortEvents(report_, firstEvent);
 }
 
 }  // namespace tumble

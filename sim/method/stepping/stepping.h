@@ -3,6 +3,7 @@
 // moves the bodies with v⁺, and lifts what still overlaps without touching a velocity.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/method/method.h"
@@ -26,13 +27,20 @@ class Stepping {
   void findNear(double h);
   void buildProblem(double h);
   void addContact(const Contact& contact, double h);
-  void solve(double h);
+  void solve();
   void applyImpulses(double h);
   void moveBodies(double h);
   void project();
   double deepestOverlap();
   void lift();
+  bool finite() const;
+  void stop();
+  /// Contacts that pushed in this step, with their forces; keeps the impulses for the next one.
+  std::vector<Contact> pushedContacts(double h);
+  void recordImpact(double t, std::span<const Contact> pair);
   void recordEvents(double t);
+  /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
+  double landingSpeed() const;
 
   const Model& model_;
   State& state_;
@@ -44,6 +52,7 @@ class Stepping {
   std::vector<Contact> overlaps_;  ///< what the projection sees
   std::vector<Vec6> before_;       ///< twists at the start of the step
   std::vector<char> touched_;      ///< per body: a contact pushed it in this step
+  std::vector<char> rebounds_;     ///< per contact: it leaves with e times its approach
   std::vector<Vec3> impulse_;      ///< [N·s] per contact, on a
 };
 
