@@ -37,13 +37,20 @@ struct State {
   double momentumScale = 0.0;           ///< [kg m/s] max of Σ|P|
   double kineticMax = 0.0;              ///< [J]
 
-  // What only `stepping` remembers: multipliers of the last step by contact.
+  // What only `stepping` remembers: multipliers of the last step by contact, hits under way.
   struct ContactKey {
     int a, b;
     std::uint32_t feature;
     auto operator<=>(const ContactKey&) const = default;
   };
   std::map<ContactKey, Vec3> warm;
+  /// A hit that closes its gap in one step and rebounds in the next: how fast it came, what it got
+  /// so far.
+  struct Arrival {
+    double approach = 0.0;  ///< [m/s] > 0
+    double j = 0.0;         ///< [N·s]
+  };
+  std::map<ContactKey, Arrival> arrivals;
 
   std::vector<std::pair<int, int>> near;  ///< pairs that the next step may bring together
 

@@ -89,17 +89,24 @@ void Course::settle() {
   if (report_.stopped) return;
   const std::size_t firstEvent = report_.events.size();
   findTouching();
-  if (collides()) respond();
+  if (collides()) {
+    respond();
+    findNear();  // what was hit has a new way before it
+  }
   chooseLasting();
   sortEvents(report_, firstEvent);
 }
 
-void Course::findTouching() {
+void Course::findNear() {
   const double h = gridTime(model_, state_.gridIndex, model_.def.course.step) - state_.t;
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
   std::vector<Aabb> boxes;
   sweptBoxes(model_, state_.bodies, h, accelerationScale(), tolerance_.touch, boxes);
   state_.near = nearPairs(model_, state_, boxes);
+}
+
+void Course::findTouching() {
+  findNear();
   touching_.clear();
   for (const auto& pair : state_.near)
     findContacts(model_, state_.bodies, pair, tolerance_.touch, touching_);

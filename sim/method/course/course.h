@@ -27,6 +27,7 @@ class Course {
   void move();
 
  private:
+  void findNear();
   void findTouching();
   bool collides() const;
   void respond();

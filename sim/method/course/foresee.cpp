@@ -31,8 +31,12 @@ Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
 }  // namespace
 
 double Course::foresee(const CourseSystem& system, double span) const {
+  constexpr double kTurn = 0.1;  // [rad] of a body in one stretch: integrators lose a larger one
   const double shortest = 1e-3 * span;  // no pair may slow the others down for ever
   double safe = span;
+  for (const RigidBody& body : state_.bodies)
+    if (const double spin = body.omega.norm(); spin * safe > kTurn && !body.fixed())
+      safe = std::max(shortest, kTurn / spin);
   std::vector<Contact> points;
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto& [b, a] = state_.near[k];
@@ -52,7 +56,7 @@ double Course::foresee(const CourseSystem& system, double span) const {
     const double depth = 0.5 * bend * span * span;
     if (gaps_[k] < depth) findContacts(model_, state_.bodies, state_.near[k], depth, points);
   }
-  return points.empty() ? safe : std::min(safe, lowestPoint(system, points, safe));
+  return points.empty() ? safe : lowestPoint(system, points, safe);
 }
 
 double Course::lowestPoint(const CourseSystem& system, std::span<const Contact> points,

@@ -26,67 +26,85 @@ Event eventAt(double t, EventKind kind, const Contact& c) {
 
 }  // namespace
 
-std::vector<Contact> Stepping::pushedContacts(double h) {
+std::vector<Stepping::Push> Stepping::pushes(double h) {
   const std::vector<RigidBody>& start = state_.trail.back().start;
-  std::vector<Contact> pushed;
+  std::vector<Push> pushed;
+  std::map<State::ContactKey, State::Arrival> arrivals;
   state_.warm.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     Contact c = contacts_[i];
-    const double j = impulse_[i].dot(c.point.n);
+    double j = impulse_[i].dot(c.point.n);
     if (j <= 0.0) continue;
-    state_.warm[{c.a, c.b, c.point.feature}] = impulse_[i];
+    const State::ContactKey key{c.a, c.b, c.point.feature};
+    state_.warm[key] = impulse_[i];
     c.anchor = anchorOf(start[c.a], start[c.b], c.point);
     c.force = impulse_[i] / h;
     const Vec3 tangential = impulse_[i] - j * c.point.n;
     const Vec3 slip = slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
     c.sliding = c.friction > 0.0 && tangential.norm() >= c.friction * j * (1.0 - 1e-9) &&
                 slip.norm() > tolerance_.stick;
-    c.lasting = !rebounds_[i];
-    pushed.push_back(c);
+
+    // What began as an arrival is told when it has arrived, with all that it got.
+    if (const auto begun = state_.arrivals.find(key); begun != state_.arrivals.end())
+      j += begun->second.j;
+    const bool arriving = c.point.separation > tolerance_.touch;
+    if (arriving) arrivals[key] = {approach_[i], j};
+    c.lasting = !arriving && !rebounds_[i];
+    pushed.push_back({c, approach_[i], j, arriving});
   }
+  std::swap(state_.arrivals, arrivals);
   return pushed;
 }
 
-void Stepping::recordImpact(double t, std::span<const Contact> pair) {
-  const std::vector<RigidBody>& start = state_.trail.back().start;
-  Event event = eventAt(t, EventKind::Impact, pair.front());
+void Stepping::recordImpact(double t, std::span<const Push> pair) {
+  Event event = eventAt(t, EventKind::Impact, pair.front().contact);
   event.p.setZero();
-  for (const Contact& c : pair) {
-    const double j = (t - state_.t) * c.force.dot(c.point.n);
-    event.p += j * c.point.p;
-    event.j += j;
-    event.vrel = std::min(event.vrel, approachVelocity(start[c.a], start[c.b], c.point));
+  for (const Push& push : pair) {
+    if (push.arriving) continue;
+    event.p += push.j * push.contact.point.p;
+    event.j += push.j;
+    event.vrel = std::min(event.vrel, -push.approach);
   }
+  if (event.vrel >= landingSpeed()) return;
   event.p /= event.j;
-  if (event.vrel < landingSpeed()) report_.events.push_back(event);
+  report_.events.push_back(event);
 }
 
 void Stepping::recordEvents(double t) {
   const std::size_t firstEvent = report_.events.size();
-  const std::vector<Contact> pushed = pushedContacts(t - state_.t);
+  const std::vector<Push> pushed = pushes(t - state_.t);
   std::vector<Contact> before;
   std::swap(before, state_.lasting);
 
   // Contacts of one pair stand together; a pair that rebounds does not last.
   for (auto first = pushed.begin(); first != pushed.end();) {
-    const auto last = std::find_if(
-        first, pushed.end(), [&](const Contact& c) { return c.a != first->a || c.b != first->b; });
+    const auto last = std::find_if(first, pushed.end(), [&](const Push& push) {
+      return push.contact.a != first->contact.a || push.contact.b != first->contact.b;
+    });
     recordImpact(t, {first, last});
-    if (std::all_of(first, last, [](const Contact& c) { return c.lasting; })) {
-      state_.lasting.insert(state_.lasting.end(), first, last);
-      const Contact* old = ofSamePair(before, *first);
-      if (!old) report_.events.push_back(eventAt(t, EventKind::Rest, *first));
-      if (first->sliding != (old && old->sliding))
-        report_.events.push_back(
-            eventAt(t, first->sliding ? EventKind::Slip : EventKind::Stick, *first));
-    }
+    const bool rebounds = std::any_of(
+        first, last, [](const Push& push) { return !push.arriving && !push.contact.lasting; });
+    for (auto push = first; push != last; ++push)
+      if (!rebounds && push->contact.lasting) state_.lasting.push_back(push->contact);
     first = last;
+  }
+  for (const Push& push : pushed) state_.trail.back().contacts.push_back(push.contact);
+  recordChanges(t, before);
+  sortEvents(report_, firstEvent);
+}
+
+void Stepping::recordChanges(double t, const std::vector<Contact>& before) {
+  // One event for a pair, told at its first contact.
+  for (const Contact& c : state_.lasting) {
+    if (ofSamePair(state_.lasting, c) != &c) continue;
+    const Contact* old = ofSamePair(before, c);
+    if (!old) report_.events.push_back(eventAt(t, EventKind::Rest, c));
+    if (c.sliding != (old && old->sliding))
+      report_.events.push_back(eventAt(t, c.sliding ? EventKind::Slip : EventKind::Stick, c));
   }
   for (const Contact& c : before)
     if (ofSamePair(before, c) == &c && !ofSamePair(state_.lasting, c))
       report_.events.push_back(eventAt(t, EventKind::Separate, c));
-  sortEvents(report_, firstEvent);
-  state_.trail.back().contacts = pushed;
 }
 
 double Stepping::landingSpeed() const {

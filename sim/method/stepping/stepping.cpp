@@ -108,6 +108,7 @@ void Stepping::buildProblem(double h) {
   }
   solution_.lambda.clear();
   rebounds_.clear();
+  approach_.clear();
   for (const Contact& contact : contacts_) addContact(contact, h);
 }
 
@@ -116,17 +117,24 @@ void Stepping::addContact(const Contact& contact, double h) {
   const ContactPoint& c = contact.point;
   Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
 
-  // A gap may be closed by the end of the step and no further; a hit inside the step rebounds.
+  // A gap may be closed by the end of the step and no further. The step after, on the surface, the
+  // hit rebounds with the speed at which it came: so a bounce starts where it should and gains no
+  // height.
   const auto along = [&](const std::vector<Vec6>& v) {
     return normal.linear.dot(v[contact.a].head<3>() - v[contact.b].head<3>()) +
            normal.angularA.dot(v[contact.a].tail<3>()) +
            normal.angularB.dot(v[contact.b].tail<3>());
   };
   const double vrel = along(before_);
+  const auto arrival = state_.arrivals.find({contact.a, contact.b, c.feature});
+  const double known = arrival == state_.arrivals.end() ? 0.0 : arrival->second.approach;
+  const double approach = std::max(known, -vrel);
+  const bool arrived = c.separation <= tolerance_.touch;
   const bool hits = c.separation + h * along(problem_.vStar) < 0.0;
-  const bool rebounds = hits && vrel < 0.0 && contact.restitution > 0.0;
-  rebounds_.push_back(rebounds && contact.restitution * vrel < landingSpeed());
-  normal.bias = rebounds ? contact.restitution * vrel : std::max(0.0, c.separation) / h;
+  const bool rebounds = arrived && hits && approach > 0.0 && contact.restitution > 0.0;
+  normal.bias = rebounds ? -contact.restitution * approach : std::max(0.0, c.separation) / h;
+  approach_.push_back(approach);
+  rebounds_.push_back(rebounds && normal.bias < landingSpeed());
 
   const auto warm = state_.warm.find({contact.a, contact.b, c.feature});
   const Vec3 guess = warm == state_.warm.end() ? Vec3(Vec3::Zero()) : warm->second;
@@ -198,6 +206,33 @@ void Stepping::applyImpulses(double h) {
   books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, bodies));
 }
 
+void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {
+  // The parabola, where the force is constant; a spring must not be met with the mean velocity,
+  // which would feed its oscillation.
+  const auto pulls = [&](const Force& force) {
+    const Spring* spring = std::get_if<Spring>(&force);
+    return spring && (&state_.bodies[spring->a] == &body ||
+                      (spring->b != kNoBody && &state_.bodies[spring->b] == &body));
+  };
+  const bool sprung = std::any_of(model_.def.forces.begin(), model_.def.forces.end(), pulls);
+  body.x += sprung ? Vec3(h * body.v) : Vec3(0.5 * h * (before + body.v));
+
+  // The rotor by the midpoint rule, in turns small enough for it.
+  constexpr double kTurn = 0.05;  // [rad]
+  constexpr int kMostTurns = 1000;
+  const double turns = std::min(std::ceil(h * body.omega.norm() / kTurn), double{kMostTurns});
+  const double part = h / std::max(1.0, turns);
+  RigidBody middle = body;
+  middle.L -= 0.5 * h * body.torque;
+  for (int k = 0; k < std::max(1.0, turns); ++k) {
+    middle.q = body.q;
+    updateDerived(middle);
+    middle.q = rotated(body.q, 0.5 * part * middle.omega);
+    updateDerived(middle);
+    body.q = rotated(body.q, part * middle.omega).normalized();
+  }
+}
+
 void Stepping::moveBodies(double h) {
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
@@ -205,13 +240,8 @@ void Stepping::moveBodies(double h) {
     if (touched_[i] || body.fixed()) {  // as the contact problem foresaw it
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
-    } else {  // free flight: the parabola, and the midpoint rule for the rotor
-      body.x += 0.5 * h * (before_[i].head<3>() + body.v);
-      RigidBody half = body;
-      half.q = rotated(body.q, 0.5 * h * body.omega);
-      half.L = body.L - 0.5 * h * body.torque;
-      updateDerived(half);
-      body.q = rotated(body.q, h * half.omega);
+    } else {
+      coast(body, before_[i].head<3>(), h);
     }
     body.q.normalize();
     updateDerived(body);

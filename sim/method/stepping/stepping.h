@@ -30,14 +30,24 @@ class Stepping {
   void solve();
   void applyImpulses(double h);
   void moveBodies(double h);
+  /// Free flight of one body through a step; `before` is its velocity [m/s] at the start.
+  void coast(RigidBody& body, const Vec3& before, double h) const;
   void project();
   double deepestOverlap();
   void lift();
   bool finite() const;
   void stop();
-  /// Contacts that pushed in this step, with their forces; keeps the impulses for the next one.
-  std::vector<Contact> pushedContacts(double h);
-  void recordImpact(double t, std::span<const Contact> pair);
+  /// A contact that pushed in this step.
+  struct Push {
+    Contact contact;  // with its force
+    double approach;  // [m/s] how fast it came
+    double j;         // [N·s] all that it got, the step of its arrival included
+    bool arriving;    // closed its gap in this step
+  };
+  /// All of them; keeps impulses and arrivals for the next step.
+  std::vector<Push> pushes(double h);
+  void recordImpact(double t, std::span<const Push> pair);
+  void recordChanges(double t, const std::vector<Contact>& before);
   void recordEvents(double t);
   /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
   double landingSpeed() const;
@@ -52,6 +62,7 @@ class Stepping {
   std::vector<Contact> overlaps_;  ///< what the projection sees
   std::vector<Vec6> before_;       ///< twists at the start of the step
   std::vector<char> touched_;      ///< per body: a contact pushed it in this step
+  std::vector<double> approach_;   ///< [m/s] per contact: how fast it came
   std::vector<char> rebounds_;     ///< per contact: it leaves with e times its approach
   std::vector<Vec3> impulse_;      ///< [N·s] per contact, on a
 };
