@@ -192,7 +192,7 @@ body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
   CHECK(picture.pageArrows[1].base.y() >= picture.pageArrows[0].base.y() + 20.0);
 }
 
-TEST_CASE("colours: by material, fixed ones grey, along cividis where an array varies") {
+TEST_CASE("colours: each body its own, fixed ones grey, along cividis where an array varies") {
   const Scene scene = parseScene(R"(
 [world]
 [materials.a]
@@ -230,7 +230,7 @@ body = { shape = { sphere = 0.1 }, position = [4, 0, 0], material = "a" }
                                  "colours");
   const std::vector<Colour> colours = bodyColours(scene);
   CHECK(colours[0] == colour::kFixed);
-  CHECK(colours[1] == colours[2]);
+  CHECK(colours[1] != colours[2]);
   CHECK(colours[3] == Colour{1.0f, 0.5f, 0.0f});
   CHECK(colours[4] == cividisStops().front());
   CHECK(colours[5] == ramp(cividisStops(), 0.5));
