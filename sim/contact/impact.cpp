@@ -85,8 +85,8 @@ ImpulseEnergy applyContactImpulse(const Impact& impact, int contact, const Vec3&
 
 ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contacts,
                                std::span<const double> j) {
-  constexpr int kSweeps = 2000;
-  constexpr double kSettled = 1e-14;  // change of a sweep relative to the largest bound
+  constexpr int kSweeps = 200;
+  constexpr double kSettled = 1e-13;  // change of a sweep relative to the largest bound
 
   std::vector<Tangential> struck;
   double largest = 0.0;

@@ -15,7 +15,7 @@ constexpr double kPullSteps = 4.0;
 
 /// Events that are located within one step, and events in a row that move time by nothing, before
 /// what is left of the step is taken as it comes.
-constexpr int kBackUpsInStep = 2000, kPatience = 200;
+constexpr int kBackUpsInStep = 400, kPatience = 50;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
 

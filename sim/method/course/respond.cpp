@@ -12,10 +12,10 @@ namespace {
 // contact comes to rest instead of hopping for ever.
 constexpr double kHeight = 1e-10;  // [m]
 constexpr double kTime = 1e-6;     // [s]
-// Pairs that hop where nothing presses them together: rest below this speed after so many hits.
-constexpr double kCrawl = 1e-4;        // [m/s]
-constexpr int kHitsBeforeCrawl = 100;  // within one step
-constexpr int kHitsBeforeRest = 1000;  // within one step, at any speed
+// Pairs that hit each other so often in one step come to rest at the next hit that is slower than
+// what a step of free fall gives.
+constexpr int kHitsInStep = 40;
+
 // Approach of so many times the resting speed calls for an impulse.
 constexpr double kNoise = 10.0;
 
@@ -54,7 +54,8 @@ double Course::restitutionNow(const Contact& c) const {
     return 0.0;
   const auto recent = state_.recentImpacts.find({c.a, c.b});
   const int hits = recent == state_.recentImpacts.end() ? 0 : recent->second;
-  if (hits > kHitsBeforeRest || (hits > kHitsBeforeCrawl && rebound < kCrawl)) return 0.0;
+  const double crawl = accelerationScale() * model_.def.course.step;
+  if (hits > kHitsInStep && rebound < crawl) return 0.0;
   return c.restitution;
 }
 
