@@ -57,6 +57,7 @@ struct State {
   // What only `course` remembers: the events since the last whole step.
   std::map<std::pair<int, int>, int> recentImpacts;
   int recentBackUps = 0;  ///< stretches that ended before the step did
+  int backUpsSpent = 0;   ///< of the store that every whole step refills
   int stalled = 0;        ///< events in a row that moved time by nothing
 };
 

@@ -13,9 +13,11 @@ namespace {
 /// Time constant of the pull that keeps lasting contacts at zero, in steps.
 constexpr double kPullSteps = 4.0;
 
-/// Events that are located within one step, and events in a row that move time by nothing, before
-/// what is left of the step is taken as it comes.
-constexpr int kBackUpsInStep = 400, kPatience = 50;
+/// Events that are located exactly come out of a store of kBackUps, which every step refills by
+/// kRefill; beyond, and after kPatience events in a row that move time by nothing, an event may be
+/// seen late by a share kLate of the step.
+constexpr int kBackUps = 400, kRefill = 20, kPatience = 50;
+constexpr double kLate = 0.05;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
 
@@ -190,16 +192,15 @@ double Course::allowance(CourseSystem& system, double h) {
 double Course::backUp(CourseSystem& system, double span, double tooFar) {
   // The width of the bracket that is left: what a clock at t can still tell apart.
   const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
+  const auto allowed = [&](double h) { return allowance(system, h); };
+  const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
   ++state_.recentBackUps;
-  if (state_.recentBackUps <= kBackUpsInStep) {
-    const auto allowed = [&](double h) { return allowance(system, h); };
-    const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
-    if (h > instant) state_.stalled = 0;
-    if (h > instant || ++state_.stalled < kPatience) return std::max(h, instant);
-  }
-  state_.stalled = 0;
-  report_.note("events without end in one step were passed over; max_penetration has the cost");
-  return span;
+  state_.stalled = h > instant ? 0 : state_.stalled + 1;
+  if (++state_.backUpsSpent <= kBackUps && state_.stalled < kPatience) return std::max(h, instant);
+
+  // The store is used up: from here to the end of the step events are seen late rather than never.
+  report_.note("more events than a step can hold were seen late; max_penetration has the cost");
+  return std::min(span, std::max(h, kLate * model_.def.course.step));
 }
 
 void Course::commit(CourseSystem& system, double t1) {
@@ -225,6 +226,7 @@ void Course::commit(CourseSystem& system, double t1) {
     ++state_.gridIndex;
     state_.recentImpacts.clear();
     state_.recentBackUps = 0;
+    state_.backUpsSpent = std::max(0, std::min(state_.backUpsSpent, kBackUps) - kRefill);
   }
 }
 
