@@ -70,9 +70,10 @@ Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
   for (const int sides : {16, 32, 64}) meshes_.push_back(makeDisc(sides));
 }
 
-Bodies::Group Bodies::groupOf(const Instance& instance, const Stage& stage) {
+Bodies::Group Bodies::groupOf(const Instance& instance, const Stage& stage, bool hasFloor) {
   if (instance.finish == Finish::Ghost) return kGhost;
   if (instance.finish == Finish::Glass) return kGlass;
+  if (!hasFloor) return kSolid;
   // What sank by less than a pixel does not show.
   const double depth = (instance.position - stage.projection.eye()).dot(stage.projection.forward());
   const double pixel = stage.projection.pixelAtUnitDepth() * std::max(depth, 0.0);
@@ -100,7 +101,7 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
   for (std::size_t i = 0; i < picture.instances.size(); ++i) {
     const Instance& instance = picture.instances[i];
     if (superseded(picture.instances, i, stage)) continue;
-    const Group group = groupOf(instance, stage);
+    const Group group = groupOf(instance, stage, picture.floor.visible);
     const double distance = (instance.position - stage.projection.eye()).norm();
     order.push_back({group, shapeOf(instance, stage), group == kGlass ? -distance : 0.0, i});
   }

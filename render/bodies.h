@@ -44,7 +44,7 @@ class Bodies {
     int first = 0, count = 0;
   };
 
-  static Group groupOf(const Instance& instance, const Stage& stage);
+  static Group groupOf(const Instance& instance, const Stage& stage, bool hasFloor);
   static Shape shapeOf(const Instance& instance, const Stage& stage);
   void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
 

@@ -62,6 +62,10 @@ int render(int argc, char** argv) {
   if (options.rate > 0.0) scene.image.rate = options.rate;
   if (options.folder.empty()) options.folder = "out/" + scene.name;
 
+  if (options.still && !(*options.still >= 0.0 && *options.still <= scene.world.duration))
+    throw UsageError(fmt::format("--still {:g}: the scene lasts from 0 to {:g} s", *options.still,
+                                 scene.world.duration));
+
   Studio studio;
   Shoot shoot(scene, options.folder, studio);
   const std::pair<int, int> range = rangeOf(options, shoot.count());

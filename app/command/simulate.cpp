@@ -16,7 +16,7 @@ int simulate(int argc, char** argv) {
                   {"path-of-brick                       # trajectory.csv, events.csv, "
                    "contacts.csv, summary.json",
                    "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
-                   "path-of-brick --set materials.clay.restitution=0.4"});
+                   "path-of-brick --set materials.brick.restitution=0.4"});
   addSceneOptions(app, options);
   app.add_option("-o,--output", folder, "folder for the files [out/<scene>]");
   addRate(app, rate);
