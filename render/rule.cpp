@@ -51,9 +51,13 @@ std::pair<double, double> boundsOf(const Picture& picture, int axis) {
 std::optional<Rail> railOf(const Picture& picture, const Projection& projection) {
   const int axis = std::abs(projection.right().x()) >= std::abs(projection.right().z()) ? 0 : 2;
   const int other = 2 - axis;
-  const auto [low, high] = boundsOf(picture, axis);
+  auto [low, high] = boundsOf(picture, axis);
   const auto [back, front] = boundsOf(picture, other);
   if (!(high > low) || !(front > back)) return std::nullopt;
+  if (high - low < 0.5 * picture.radius) {  // small bodies on a long way: measure the way
+    low = picture.centre[axis] - 0.6 * picture.radius;
+    high = picture.centre[axis] + 0.6 * picture.radius;
+  }
   const double outward = projection.forward()[other] < 0.0 ? 1.0 : -1.0;
   return Rail{axis, other, low, high, outward > 0.0 ? front : back, outward, stepFor(high - low)};
 }

@@ -122,21 +122,6 @@ Picture Presenter::blank() const {
   return picture;
 }
 
-// Whether the bodies of a sample reach over most of the motion; else a rule beside them is too
-// short to read.
-bool Presenter::fillsMotion(const Sample& sample) const {
-  Aabb all{framing_.centre, framing_.centre};
-  bool first = true;
-  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-    const BodyDef& body = scene_.world.bodies[i];
-    if (!moves(body)) continue;
-    const Aabb box = boundingBox(body.shape, {sample.bodies[i].x, sample.bodies[i].q});
-    all = first ? box : Aabb{all.lo.cwiseMin(box.lo), all.hi.cwiseMax(box.hi)};
-    first = false;
-  }
-  return (all.hi - all.lo).norm() > framing_.radius;
-}
-
 void Presenter::addBodies(const Sample& sample, Picture& picture) const {
   const bool byTime = picture.bar.has_value();
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {

@@ -41,7 +41,6 @@ class Presenter {
 
  private:
   Picture blank() const;
-  bool fillsMotion(const Sample& sample) const;
   void addBodies(const Sample& sample, Picture& picture) const;
   void addGhosts(Picture& picture) const;
   void addTheory(Picture& picture) const;
