@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/contact/rows.h"
+#include "sim/problem/cone.h"
 
 namespace tumble {
 
@@ -63,10 +64,9 @@ SolveReport RestForces::solve(std::span<const Contact> contacts) {
 }
 
 Vec3 RestForces::force(std::size_t contact) const {
-  const bool last = contact + 1 == problem_.cones.size();
-  const std::size_t end = last ? problem_.rows.size() : problem_.cones[contact + 1].row;
+  const Cone& cone = problem_.cones[contact];
   Vec3 sum = Vec3::Zero();
-  for (std::size_t r = problem_.cones[contact].row; r < end; ++r)
+  for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r)
     sum += solution_.lambda[r] * problem_.rows[r].linear;
   return sum;
 }

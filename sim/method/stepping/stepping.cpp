@@ -6,19 +6,9 @@
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
 #include "sim/math/rotation.h"
+#include "sim/problem/cone.h"
 
 namespace tumble {
-namespace {
-
-/// First row of cone i, and one past its last.
-std::pair<std::size_t, std::size_t> rowsOf(const Problem& problem, std::size_t i) {
-  const std::size_t first = problem.cones[i].row;
-  const bool last = i + 1 == problem.cones.size();
-  return {first, last ? problem.rows.size() : problem.cones[i + 1].row};
-}
-
-}  // namespace
-
 void checkStepping(const Model& model) {
   const SteppingSettings& stepping = model.def.stepping;
   if (!findSolver(stepping.solver))
@@ -181,8 +171,8 @@ void Stepping::applyImpulses(double h) {
 
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& contact = contacts_[i];
-    const auto [first, end] = rowsOf(problem_, i);
-    for (std::size_t r = first; r < end; ++r) {
+    const Cone& cone = problem_.cones[i];
+    for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
       const Row& row = problem_.rows[r];
       const double lambda = solution_.lambda[r];
       impulse_[i] += lambda * row.linear;
@@ -191,7 +181,8 @@ void Stepping::applyImpulses(double h) {
       const Vec6 b = 0.5 * (before_[row.b] + solution_.v[row.b]);
       const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
       const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
-      (r == first ? books.energy_lost_impact : books.energy_lost_friction) -= lambda * (ofA + ofB);
+      (r == cone.row ? books.energy_lost_impact : books.energy_lost_friction) -=
+          lambda * (ofA + ofB);
       if (bodies[row.a].fixed()) books.work_of_forces -= lambda * ofA;
       if (bodies[row.b].fixed()) books.work_of_forces -= lambda * ofB;
     }
