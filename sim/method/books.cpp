@@ -7,6 +7,27 @@
 #include "sim/method/method.h"
 
 namespace tumble {
+namespace {
+
+const Contact* ofSamePair(const std::vector<Contact>& list, const Contact& c) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Contact& other) {
+    return other.a == c.a && other.b == c.b;
+  });
+  return found == list.end() ? nullptr : &*found;
+}
+
+Event eventAt(double t, EventKind kind, const Contact& c) {
+  return {.t = t,
+          .kind = kind,
+          .a = c.a,
+          .b = c.b,
+          .p = c.point.p,
+          .n = c.point.n,
+          .vrel = 0.0,
+          .j = 0.0};
+}
+
+}  // namespace
 
 const char* eventName(EventKind kind) {
   switch (kind) {
@@ -65,6 +86,20 @@ void account(const Model& model, State& state, Report& report) {
   const double carried = state.momentumScale + weight * state.t;
   if (drift > 1e-13 * carried)
     books.momentum_error = std::max(books.momentum_error, drift / state.momentumScale);
+}
+
+void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now, double t,
+                   Report& report) {
+  for (const Contact& c : now) {
+    if (ofSamePair(now, c) != &c) continue;
+    const Contact* old = ofSamePair(before, c);
+    if (!old) report.events.push_back(eventAt(t, EventKind::Rest, c));
+    if (c.sliding != (old && old->sliding))
+      report.events.push_back(eventAt(t, c.sliding ? EventKind::Slip : EventKind::Stick, c));
+  }
+  for (const Contact& c : before)
+    if (ofSamePair(before, c) == &c && !ofSamePair(now, c))
+      report.events.push_back(eventAt(t, EventKind::Separate, c));
 }
 
 void sortEvents(Report& report, std::size_t from) {

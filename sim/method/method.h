@@ -51,6 +51,11 @@ void trimTrail(State& state, double t);
 /// Brings the running totals and the certificate up to date at the end of a step.
 void account(const Model& model, State& state, Report& report);
 
+/// Tells what became of lasting contacts at time t [s]: rest, separate, slip and stick. One event
+/// for a pair, told at its first contact.
+void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now, double t,
+                   Report& report);
+
 /// Sorts the events that came after the first `from` by time, then a, then b.
 void sortEvents(Report& report, std::size_t from);
 

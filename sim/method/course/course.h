@@ -34,7 +34,6 @@ class Course {
   double restitutionNow(const Contact& contact) const;
   void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
   void chooseLasting();
-  void recordChanges(const std::vector<Contact>& before);
   bool wasLasting(int a, int b) const;
   /// Upper estimate [m/s²] of what outer forces do to any body.
   double accelerationScale() const;

@@ -127,38 +127,7 @@ void Course::chooseLasting() {
   }
   rest_.settleCreep(state_.bodies, lasting, model_.def.course.step);
   std::swap(state_.lasting, lasting);
-  recordChanges(lasting);
-}
-
-void Course::recordChanges(const std::vector<Contact>& before) {
-  const auto find = [](const std::vector<Contact>& list, const Contact& c) {
-    return std::find_if(list.begin(), list.end(),
-                        [&](const Contact& o) { return o.a == c.a && o.b == c.b; });
-  };
-  const auto add = [&](EventKind kind, const Contact& c) {
-    report_.events.push_back({.t = state_.t,
-                              .kind = kind,
-                              .a = c.a,
-                              .b = c.b,
-                              .p = c.point.p,
-                              .n = c.point.n,
-                              .vrel = 0.0,
-                              .j = 0.0});
-  };
-  // One event for a pair, told at its first contact.
-  for (auto c = state_.lasting.begin(); c != state_.lasting.end(); ++c) {
-    if (find(state_.lasting, *c) != c) continue;
-    const auto old = find(before, *c);
-    if (old == before.end()) {
-      add(EventKind::Rest, *c);
-      if (c->sliding) add(EventKind::Slip, *c);
-    } else if (old->sliding != c->sliding) {
-      add(c->sliding ? EventKind::Slip : EventKind::Stick, *c);
-    }
-  }
-  for (auto c = before.begin(); c != before.end(); ++c)
-    if (find(before, *c) == c && find(state_.lasting, *c) == state_.lasting.end())
-      add(EventKind::Separate, *c);
+  recordChanges(lasting, state_.lasting, state_.t, report_);
 }
 
 }  // namespace tumble

@@ -4,28 +4,6 @@
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
-namespace {
-
-const Contact* ofSamePair(const std::vector<Contact>& list, const Contact& c) {
-  const auto found = std::find_if(list.begin(), list.end(), [&](const Contact& other) {
-    return other.a == c.a && other.b == c.b;
-  });
-  return found == list.end() ? nullptr : &*found;
-}
-
-Event eventAt(double t, EventKind kind, const Contact& c) {
-  return {.t = t,
-          .kind = kind,
-          .a = c.a,
-          .b = c.b,
-          .p = c.point.p,
-          .n = c.point.n,
-          .vrel = 0.0,
-          .j = 0.0};
-}
-
-}  // namespace
-
 std::vector<Stepping::Push> Stepping::pushes(double h) {
   const std::vector<RigidBody>& start = state_.trail.back().start;
   std::vector<Push> pushed;
@@ -57,7 +35,9 @@ std::vector<Stepping::Push> Stepping::pushes(double h) {
 }
 
 void Stepping::recordImpact(double t, std::span<const Push> pair) {
-  Event event = eventAt(t, EventKind::Impact, pair.front().contact);
+  const Contact& first = pair.front().contact;
+  Event event{.t = t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
+  event.n = first.point.n;
   event.p.setZero();
   for (const Push& push : pair) {
     if (push.arriving) continue;
@@ -89,22 +69,8 @@ void Stepping::recordEvents(double t) {
     first = last;
   }
   for (const Push& push : pushed) state_.trail.back().contacts.push_back(push.contact);
-  recordChanges(t, before);
+  recordChanges(before, state_.lasting, t, report_);
   sortEvents(report_, firstEvent);
-}
-
-void Stepping::recordChanges(double t, const std::vector<Contact>& before) {
-  // One event for a pair, told at its first contact.
-  for (const Contact& c : state_.lasting) {
-    if (ofSamePair(state_.lasting, c) != &c) continue;
-    const Contact* old = ofSamePair(before, c);
-    if (!old) report_.events.push_back(eventAt(t, EventKind::Rest, c));
-    if (c.sliding != (old && old->sliding))
-      report_.events.push_back(eventAt(t, c.sliding ? EventKind::Slip : EventKind::Stick, c));
-  }
-  for (const Contact& c : before)
-    if (ofSamePair(before, c) == &c && !ofSamePair(state_.lasting, c))
-      report_.events.push_back(eventAt(t, EventKind::Separate, c));
 }
 
 double Stepping::landingSpeed() const {

@@ -47,7 +47,6 @@ class Stepping {
   /// All of them; keeps impulses and arrivals for the next step.
   std::vector<Push> pushes(double h);
   void recordImpact(double t, std::span<const Push> pair);
-  void recordChanges(double t, const std::vector<Contact>& before);
   void recordEvents(double t);
   /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
   double landingSpeed() const;
