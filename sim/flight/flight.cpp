@@ -1,7 +1,9 @@
 #include "sim/flight/flight.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "sim/math/rotation.h"
 
@@ -22,6 +24,17 @@ int symmetryAxis(const Mat3& I) {
   return -1;
 }
 
+SymmetricRotor rotorOf(const RigidBody& body) {
+  if (body.fixed()) return {body.q, body.omega, Vec3::Zero()};
+  const int axis = symmetryAxis(body.Ibody);
+  if (axis < 0) throw std::invalid_argument("flight: three unlike principal moments");
+  const double across = body.Ibody((axis + 1) % 3, (axis + 1) % 3);
+  const double along = body.Ibody(axis, axis);
+  Vec3 spin_B = Vec3::Zero();
+  spin_B[axis] = (1.0 / along - 1.0 / across) * body.R.col(axis).dot(body.L);
+  return {body.q, body.L / across, spin_B};
+}
+
 }  // namespace
 
 Quat SymmetricRotor::attitude(double t) const {
@@ -32,18 +45,33 @@ Vec3 SymmetricRotor::omega(double t) const {
   return precession + attitude(t) * spin_B;
 }
 
-std::optional<Flight> symmetricFlight(const RigidBody& body, const Vec3& gravity) {
-  if (body.fixed()) {
-    return Flight{{body.x, body.v, Vec3::Zero()}, {body.q, body.omega, Vec3::Zero()}};
-  }
-  const int axis = symmetryAxis(body.Ibody);
-  if (axis < 0) return std::nullopt;
+Flight::Flight(const RigidBody& start, const Vec3& acceleration, double t0)
+    : t0_(t0),
+      parabola_{start.x, start.v, start.fixed() ? Vec3(Vec3::Zero()) : acceleration},
+      rotor_(rotorOf(start)),
+      P0_(start.P),
+      force_(start.fixed() ? Vec3(Vec3::Zero()) : Vec3(start.M * acceleration)),
+      L_(start.L) {
+  // ω turns about L at the rate of precession:  ω̇ = precession × ω.
+  turning_ = start.omega.squaredNorm() + rotor_.precession.cross(start.omega).norm();
+}
 
-  const double across = body.Ibody((axis + 1) % 3, (axis + 1) % 3);
-  const double along = body.Ibody(axis, axis);
-  Vec3 spin_B = Vec3::Zero();
-  spin_B[axis] = (1.0 / along - 1.0 / across) * body.R.col(axis).dot(body.L);
-  return Flight{{body.x, body.v, gravity}, {body.q, body.L / across, spin_B}};
+void Flight::at(double t, RigidBody& body) const {
+  const Pose now = pose(t);
+  body.x = now.x;
+  body.q = now.q;
+  body.P = P0_ + (t - t0_) * force_;
+  body.L = L_;
+  updateDerived(body);
+}
+
+Pose Flight::pose(double t) const {
+  return {parabola_.position(t - t0_), rotor_.attitude(t - t0_)};
+}
+
+double Flight::accelBound(double r) const {
+  // The last factor covers rounding.
+  return (parabola_.g.norm() + r * turning_) * (1.0 + 1e-12);
 }
 
 }  // namespace tumble

@@ -1,7 +1,5 @@
-// Chapter 4, flight: motion between events in closed form, where it has a simple one.
+// Chapter 4, flight: motion between events in closed form.
 #pragma once
-
-#include <optional>
 
 #include "sim/body/rigid_body.h"
 
@@ -32,18 +30,36 @@ struct SymmetricRotor {
   Vec3 omega(double t) const;  ///< [rad/s] world
 };
 
-/// One body's flight. t [s] counts from the instant it was made for; it may be negative.
-struct Flight {
-  Parabola parabola;
-  SymmetricRotor rotor;
+/// The flight of one body from an instant on, free of torque and under a constant acceleration: a
+/// parabola and a rotor. An evaluation takes the same short time for every t and allocates nothing.
+/// World frame, SI.
+class Flight {
+ public:
+  /// @param start         the body at t0, its derived quantities current; a fixed one moves on
+  ///   steadily with its v and omega
+  /// @param acceleration  [m/s²] of the centre of mass, constant; not used for a fixed body
+  /// @param t0            [s] the instant that `start` shows
+  /// @throws std::invalid_argument for a body with three unlike principal moments.
+  Flight(const RigidBody& start, const Vec3& acceleration, double t0);
 
-  Pose pose(double t) const { return {parabola.position(t), rotor.attitude(t)}; }
+  /// Sets state and derived quantities of a body like the one given at the start to those at t [s].
+  /// L keeps its bits.
+  void at(double t, RigidBody& body) const;
+
+  /// Where the body frame stands at t [s].
+  Pose pose(double t) const;
+
+  /// A bound [m/s²] on the acceleration of every body point within r [m] of the centre of mass, for
+  /// all time:  |a| + r (|ω|² + |ω̇|).
+  double accelBound(double r) const;
+
+ private:
+  double t0_;
+  Parabola parabola_;
+  SymmetricRotor rotor_;
+  Vec3 P0_, force_;  ///< [kg m/s], [N]: P = P0 + t force
+  Vec3 L_;
+  double turning_;  ///< [1/s²] the most that |ω|² + |ω̇| can be
 };
-
-/// The flight that begins with the present state of a body under gravity [m/s²] alone, for
-///   – a body whose inertia tensor is diagonal with two or three equal moments (to rounding),
-///   – a fixed body, which moves on steadily.
-/// @return nothing for any other body: its attitude takes elliptic functions.
-std::optional<Flight> symmetricFlight(const RigidBody& body, const Vec3& gravity);
 
 }  // namespace tumble
