@@ -39,23 +39,23 @@ std::string quoted(const std::string& text) {
 }
 
 std::string csvHeader() {
-  return "parameter,value,steps,events,cpu_seconds,max_penetration,max_complementarity,energy_"
-         "start,"
-         "energy_end,energy_lost_impact,energy_lost_friction,energy_balance_error,momentum_error,"
-         "stopped,claims,claims_failed,worst_claim,worst_error_share\n";
+  std::string header = "parameter,value,";
+  for (const auto& [key, number] : kCertificateFields) header += fmt::format("{},", key);
+  return header + "cpu_seconds,stopped,claims,claims_failed,worst_claim,worst_error_share\n";
 }
 
 std::string csvRow(const std::string& parameter, const Run& run) {
-  const Certificate& c = run.recording.report.certificate;
-  return fmt::format(
-      "{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}"
-      ","
-      "{},{:.17g}\n",
-      parameter, quoted(run.value), c.steps, c.events, run.recording.cpuSeconds, c.max_penetration,
-      c.max_complementarity, c.energy_start, c.energy_end, c.energy_lost_impact,
-      c.energy_lost_friction, c.energy_balance_error, c.momentum_error,
-      run.recording.report.stopped ? 1 : 0, run.verdict.rows.size(), run.verdict.failed,
-      quoted(run.verdict.worst), run.verdict.worstShare);
+  std::string row = fmt::format("{},{},", parameter, quoted(run.value));
+  const Report& report = run.recording.report;
+  for (const auto& [key, number] : kCertificateFields) {
+    if (const auto* count = std::get_if<long Certificate::*>(&number))
+      row += fmt::format("{},", report.certificate.**count);
+    else
+      row += fmt::format("{:.17g},", report.certificate.*std::get<double Certificate::*>(number));
+  }
+  return row + fmt::format("{:.17g},{},{},{},{},{:.17g}\n", run.recording.cpuSeconds,
+                           report.stopped ? 1 : 0, run.verdict.rows.size(), run.verdict.failed,
+                           quoted(run.verdict.worst), run.verdict.worstShare);
 }
 
 std::string findingOf(const Run& run) {

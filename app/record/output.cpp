@@ -78,28 +78,17 @@ std::string contactsCsv(const Recording& recording, const Scene& scene) {
 }
 
 std::string summaryJson(const Recording& recording, const Scene& scene) {
-  const Certificate& c = recording.report.certificate;
-  nlohmann::ordered_json json = {
-      {"steps", c.steps},
-      {"events", c.events},
-      {"cpu_seconds", recording.cpuSeconds},
-      {"max_penetration", c.max_penetration},
-      {"max_complementarity", c.max_complementarity},
-      {"energy_start", c.energy_start},
-      {"energy_end", c.energy_end},
-      {"energy_lost_impact", c.energy_lost_impact},
-      {"energy_lost_friction", c.energy_lost_friction},
-      {"work_of_forces", c.work_of_forces},
-      {"energy_balance_error", c.energy_balance_error},
-      {"momentum_error", c.momentum_error},
-      {"method", scene.world.method},
-      {"features", recording.features},
-      {"version", TUMBLE_VERSION},
-      {"scene", scene.line},
-      {"stopped", recording.report.stopped},
-      {"reason", recording.report.reason},
-      {"notes", recording.report.notes},
-  };
+  nlohmann::ordered_json json;
+  for (const auto& [key, number] : kCertificateFields)
+    std::visit([&](auto field) { json[key] = recording.report.certificate.*field; }, number);
+  json["cpu_seconds"] = recording.cpuSeconds;
+  json["method"] = scene.world.method;
+  json["features"] = recording.features;
+  json["version"] = TUMBLE_VERSION;
+  json["scene"] = scene.line;
+  json["stopped"] = recording.report.stopped;
+  json["reason"] = recording.report.reason;
+  json["notes"] = recording.report.notes;
   return json.dump(2) + "\n";
 }
 

@@ -1,7 +1,9 @@
 // Chapter 9, method: what a run says of itself. Numerical outcomes are reported, never thrown.
 #pragma once
 
+#include <iterator>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "sim/math/vec.h"
@@ -34,6 +36,28 @@ struct Certificate {
   double energy_balance_error = 0.0;  ///< |E_end − E_start + lost − work| / max kinetic energy
   double momentum_error = 0.0;        ///< worst |P − P₀ − ∫F − Σ impulses| / max Σ|P|
 };
+
+/// A number of the certificate and its key in summary.json and in tables.
+struct CertificateField {
+  const char* key;
+  std::variant<long Certificate::*, double Certificate::*> number;
+};
+
+inline constexpr CertificateField kCertificateFields[] = {
+    {"steps", &Certificate::steps},
+    {"events", &Certificate::events},
+    {"max_penetration", &Certificate::max_penetration},
+    {"max_complementarity", &Certificate::max_complementarity},
+    {"energy_start", &Certificate::energy_start},
+    {"energy_end", &Certificate::energy_end},
+    {"energy_lost_impact", &Certificate::energy_lost_impact},
+    {"energy_lost_friction", &Certificate::energy_lost_friction},
+    {"work_of_forces", &Certificate::work_of_forces},
+    {"energy_balance_error", &Certificate::energy_balance_error},
+    {"momentum_error", &Certificate::momentum_error},
+};
+static_assert(sizeof(Certificate) == sizeof(double) * std::size(kCertificateFields),
+              "every number of the certificate has its key");
 
 /// What a method leaves behind: certificate, events in order of time, and why it stopped if it did.
 struct Report {
