@@ -129,6 +129,23 @@ void checkForces(const WorldDef& def) {
   }
 }
 
+/// The pivots of bodies that have one, which begin without moving there.
+void addPivots(Model& model, std::vector<RigidBody>& bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const BodyDef& def = model.def.bodies[i];
+    if (!def.pivot_B) continue;
+    const std::string where = bodyPath(i, ".pivot_body"), name = "\"" + def.name + "\"";
+    need(def.pivot_B->allFinite(), where, "a pivot must be a finite point");
+    need(!def.fixed, where, name + " is fixed; leave out the pivot or let it move");
+    need(!bodies[i].particle, where, name + " is a particle, which cannot turn about a pivot");
+    need(def.velocity.isZero(0.0), bodyPath(i, ".velocity"),
+         name + " turns about its pivot: give it an angular velocity alone");
+    const Pivot pivot = makePivot(bodies[i], static_cast<int>(i), *def.pivot_B);
+    setVelocity(bodies[i], def.angularVelocity.cross(bodies[i].x - pivot.p), def.angularVelocity);
+    model.pivots.push_back(pivot);
+  }
+}
+
 double worldSize(const Model& model) {
   double size = 0.0;
   for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
@@ -165,8 +182,9 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
     state.bodies.push_back(bodyOf(def.bodies[i], i));
   }
   checkForces(def);
+  addPivots(model, state.bodies);
   model.size = worldSize(model);
-  parts_->method->check(model);
+  parts_->method->check(model, state.bodies);
   checkPairs(model, state.bodies);
 
   for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
@@ -231,6 +249,7 @@ std::vector<std::string> World::features(bool used) const {
         return b.fixed && !(b.velocity.isZero(0.0) && b.angularVelocity.isZero(0.0));
       }),
       "moving fixed bodies");
+  add(!model.pivots.empty(), "pivots");
   const char* kForces[] = {"wind", "drag", "point forces", "springs"};
   for (std::size_t kind = 0; kind < std::size(kForces); ++kind)
     add(std::any_of(model.def.forces.begin(), model.def.forces.end(),

@@ -66,6 +66,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   if (entry.label.size() > kLongestLabel) section.complain("label", "longer than 200 bytes");
 
   section.read("fixed", def.fixed);
+  section.read("pivot_body", def.pivot_B, any("m"));
   readMass(section, def);
   readMotion(section, def);
   if (const std::optional<Shape> shape = readShape(section)) {

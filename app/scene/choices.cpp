@@ -30,6 +30,9 @@ std::vector<std::string> integratorChoices() {
 std::vector<std::string> solverChoices() {
   return namesOf(solvers());
 }
+std::vector<std::string> attitudeChoices() {
+  return {"quaternion", "matrix"};
+}
 std::vector<std::string> planChoices() {
   return {"backstep"};
 }

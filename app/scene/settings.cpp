@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/scene/choices.h"
+#include "sim/ode/integrator.h"
 
 namespace tumble {
 
@@ -54,6 +55,8 @@ void readCourse(Section& root, CourseSettings& course) {
   if (!node) return;
   Section section(*node, "course", root.findings(), "course");
   section.read("integrator", course.integrator, integratorChoices());
+  section.read("order", course.order, 1, kHighestOrder);
+  section.read("attitude", course.attitude, attitudeChoices());
   section.read("step", course.step, kStep);
   section.read("plan", course.plan, planChoices());
   section.read("contact", course.contact, contactChoices());

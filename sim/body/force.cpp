@@ -114,6 +114,11 @@ double stored(const OtherForce&, ConstBodies) {
 
 }  // namespace
 
+bool dependsOnVelocity(const Force& force) {
+  if (const Spring* spring = std::get_if<Spring>(&force)) return spring->damping != 0.0;
+  return std::holds_alternative<LinearDrag>(force);
+}
+
 void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<RigidBody> bodies) {
   for (RigidBody& body : bodies) {
     body.force.setZero();

@@ -44,6 +44,9 @@ struct Spring {
 
 using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring>;
 
+/// True if the force changes with velocities: drag, and a spring with damping.
+bool dependsOnVelocity(const Force& force);
+
 /// Sets force and torque of every body to gravity [m/s²] plus the listed forces. Fixed bodies get
 /// none.
 void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<RigidBody> bodies);

@@ -57,13 +57,12 @@ bool isInertia(const Mat3& I) {
   return I.allFinite() && I.isApprox(I.transpose()) && Eigen::LLT<Mat3>(I).info() == Eigen::Success;
 }
 
-/// The inverse; reciprocals where the body axes are principal, so that nothing is lost.
+}  // namespace
+
 Mat3 inverseInertia(const Mat3& I) {
   if (I.isDiagonal(0.0)) return Vec3(I.diagonal().cwiseInverse()).asDiagonal();
   return I.inverse();
 }
-
-}  // namespace
 
 double volume(const Shape& shape) {
   return std::visit([](const auto& s) { return volumeOf(s); }, shape);

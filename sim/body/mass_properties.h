@@ -22,6 +22,10 @@ double volume(const Shape& shape);
 /// @throws std::invalid_argument for a half-space, or if mass is not a positive finite number.
 MassProperties solidMass(const Shape& shape, double mass);
 
+/// The inverse of an inertia tensor; reciprocals where the body axes are principal, so that nothing
+/// is lost.
+Mat3 inverseInertia(const Mat3& I);
+
 /// A body at rest at the origin with these mass properties.
 /// @throws std::invalid_argument if mass is not positive and finite or inertia not symmetric and
 /// positive definite.

@@ -6,8 +6,10 @@
 
 namespace tumble {
 
-void updateDerived(RigidBody& body) {
-  body.R = rotationMatrix(body.q);
+namespace {
+
+/// Everything that follows from R and the momenta.
+void derive(RigidBody& body) {
   if (body.fixed()) {
     body.Iinv.setZero();
     return;
@@ -17,49 +19,76 @@ void updateDerived(RigidBody& body) {
   body.omega = body.Iinv * body.L;
 }
 
-void stateToArray(const RigidBody& body, std::span<double> y) {
-  assert(y.size() >= kStateSize);
-  const Quat& q = body.q;
-  const double state[kStateSize] = {
-      body.x.x(), body.x.y(), body.x.z(),         //
-      q.w(),      q.x(),      q.y(),      q.z(),  //
-      body.P.x(), body.P.y(), body.P.z(),         //
-      body.L.x(), body.L.y(), body.L.z(),
-  };
-  for (int i = 0; i < kStateSize; ++i) y[i] = state[i];
+void put(const Vec3& v, double* y) {
+  for (int k = 0; k < 3; ++k) y[k] = v[k];
 }
 
-void arrayToState(std::span<const double> y, RigidBody& body) {
-  assert(y.size() >= kStateSize);
-  body.x = Vec3(y[0], y[1], y[2]);
-  body.q = Quat(y[3], y[4], y[5], y[6]);
-  body.P = Vec3(y[7], y[8], y[9]);
-  body.L = Vec3(y[10], y[11], y[12]);
+Vec3 vec3(const double* y) {
+  return {y[0], y[1], y[2]};
+}
+
+/// ½ (0, ω)(w, u) = ½ (−ω·u, w ω + ω × u).
+void quaternionRate(const Quat& q, const Vec3& omega, double* rate) {
+  const Vec3 u = q.vec();
+  rate[0] = -0.5 * omega.dot(u);
+  put(0.5 * (q.w() * omega + omega.cross(u)), rate + 1);
+}
+
+}  // namespace
+
+void updateDerived(RigidBody& body) {
+  body.R = rotationMatrix(body.q);
+  derive(body);
+}
+
+void updateDerived(RigidBody& body, const Mat3& R) {
+  body.R = R;
+  body.q = nearestRotation(R);
+  derive(body);
+}
+
+void stateToArray(const RigidBody& body, std::span<double> y, Attitude attitude) {
+  assert(static_cast<int>(y.size()) >= stateSize(body, attitude));
+  double* to = y.data();
+  put(body.x, to), to += 3;
+  if (!body.particle && attitude == Attitude::Quaternion) {
+    *to = body.q.w();
+    put(body.q.vec(), to + 1), to += 4;
+  } else if (!body.particle) {
+    for (int row = 0; row < 3; ++row, to += 3) put(body.R.row(row), to);
+  }
+  put(body.P, to), to += 3;
+  if (!body.particle) put(body.L, to);
+}
+
+void arrayToState(std::span<const double> y, RigidBody& body, Attitude attitude) {
+  assert(static_cast<int>(y.size()) >= stateSize(body, attitude));
+  const double* from = y.data();
+  body.x = vec3(from), from += 3;
+  Mat3 R;
+  if (!body.particle && attitude == Attitude::Quaternion) {
+    body.q = Quat(from[0], from[1], from[2], from[3]), from += 4;
+  } else if (!body.particle) {
+    for (int row = 0; row < 3; ++row, from += 3) R.row(row) = vec3(from);
+  }
+  body.P = vec3(from), from += 3;
+  if (!body.particle) body.L = vec3(from);
+  if (!body.particle && attitude == Attitude::Matrix) return updateDerived(body, R);
   updateDerived(body);
 }
 
-void stateDerivative(const RigidBody& body, std::span<double> ydot) {
-  assert(ydot.size() >= kStateSize);
-  const Vec3 u = body.q.vec();
-  // ½ (0, ω)(w, u) = ½ (−ω·u, w ω + ω × u).
-  const double wdot = -0.5 * body.omega.dot(u);
-  const Vec3 udot = 0.5 * (body.q.w() * body.omega + body.omega.cross(u));
-  const double rates[kStateSize] = {
-      body.v.x(),
-      body.v.y(),
-      body.v.z(),  //
-      wdot,
-      udot.x(),
-      udot.y(),
-      udot.z(),  //
-      body.force.x(),
-      body.force.y(),
-      body.force.z(),  //
-      body.torque.x(),
-      body.torque.y(),
-      body.torque.z(),
-  };
-  for (int i = 0; i < kStateSize; ++i) ydot[i] = rates[i];
+void stateDerivative(const RigidBody& body, std::span<double> ydot, Attitude attitude) {
+  assert(static_cast<int>(ydot.size()) >= stateSize(body, attitude));
+  double* to = ydot.data();
+  put(body.v, to), to += 3;
+  if (!body.particle && attitude == Attitude::Quaternion) {
+    quaternionRate(body.q, body.omega, to), to += 4;
+  } else if (!body.particle) {
+    const Mat3 rate = skew(body.omega) * body.R;
+    for (int row = 0; row < 3; ++row, to += 3) put(rate.row(row), to);
+  }
+  put(body.force, to), to += 3;
+  if (!body.particle) put(body.torque, to);
 }
 
 void applyImpulse(RigidBody& body, const Vec3& p, const Vec3& J) {

@@ -16,7 +16,8 @@ struct RigidBody {
   double invM = 1.0;              ///< [1/kg] 1/mass; 0 for a fixed body
   double M = 1.0;                 ///< [kg] infinity for a fixed body
   Mat3 Ibody = Mat3::Identity();  ///< [kg m²] inertia tensor about the centre of mass, body frame
-  Mat3 IbodyInv = Mat3::Identity();  ///< [1/(kg m²)] its inverse; 0 for a fixed body
+  Mat3 IbodyInv = Mat3::Identity();  ///< [1/(kg m²)] its inverse; 0 for a fixed body and a particle
+  bool particle = false;             ///< has x and P alone: never turns, q stays, L is 0
 
   // State variables.
   Vec3 x = Vec3::Zero();      ///< [m] centre of mass
@@ -38,22 +39,43 @@ struct RigidBody {
   Pose pose() const { return {x, q}; }
 };
 
-/// Length of one body's share of Y: x (3), q (4, w first), P (3), L (3).
+/// How Y carries the attitude of a body: as the unit quaternion q, or, as the course has it first,
+/// as the nine numbers of R, which need not stay a rotation.
+enum class Attitude { Quaternion, Matrix };
+
+/// Length of a rigid body's share of Y: x (3), q (4, w first), P (3), L (3).
 inline constexpr int kStateSize = 13;
+/// The same with R (9, row by row) in place of q.
+inline constexpr int kMatrixStateSize = 18;
+/// The same for a particle: x (3), P (3).
+inline constexpr int kParticleStateSize = 6;
+
+/// Length of this body's share of Y.
+inline int stateSize(const RigidBody& body, Attitude attitude = Attitude::Quaternion) {
+  if (body.particle) return kParticleStateSize;
+  return attitude == Attitude::Matrix ? kMatrixStateSize : kStateSize;
+}
 
 /// Brings R, Iinv, v and omega up to date with x, q, P and L.
 void updateDerived(RigidBody& body);
 
-/// Copies the state into y[0..13).
-void stateToArray(const RigidBody& body, std::span<double> y);
+/// The same for a matrix R that stands for itself: Iinv = R IbodyInv Rᵀ whatever R is, and q
+/// becomes the rotation nearest to R.
+void updateDerived(RigidBody& body, const Mat3& R);
 
-/// Copies y[0..13) into the state and updates what is derived. q is taken as it stands, not
+/// Copies the state into y[0..stateSize).
+void stateToArray(const RigidBody& body, std::span<double> y,
+                  Attitude attitude = Attitude::Quaternion);
+
+/// Copies y[0..stateSize) into the state and updates what is derived. q is taken as it stands, not
 /// normalised.
-void arrayToState(std::span<const double> y, RigidBody& body);
+void arrayToState(std::span<const double> y, RigidBody& body,
+                  Attitude attitude = Attitude::Quaternion);
 
 /// dY/dt of one body from its derived and computed quantities:
-///   ẋ = v,  q̇ = ½ (0, ω) q,  Ṗ = F,  L̇ = τ.
-void stateDerivative(const RigidBody& body, std::span<double> ydot);
+///   ẋ = v,  q̇ = ½ (0, ω) q  or  Ṙ = ω* R,  Ṗ = F,  L̇ = τ.
+void stateDerivative(const RigidBody& body, std::span<double> ydot,
+                     Attitude attitude = Attitude::Quaternion);
 
 /// Velocity [m/s] of the material point that is at world point p [m]:  ṗ = v + ω × (p − x).
 inline Vec3 pointVelocity(const RigidBody& body, const Vec3& p) {

@@ -1,5 +1,6 @@
 #include "sim/math/rotation.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -132,6 +133,19 @@ Mat3 rotationMatrix(const Quat& q) {
       s * (x * y + w * z), 1.0 - s * (x * x + z * z), s * (y * z - w * x),   //
       s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y);
   return R;
+}
+
+Quat nearestRotation(const Mat3& R) {
+  constexpr int kMost = 60;  // a matrix 2³⁰ times too long takes 30 halvings and then a few
+  Mat3 Q = R;
+  if (!(Q.determinant() > 0.0)) Q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (int i = 0; i < kMost; ++i) {
+    const Mat3 next = 0.5 * (Q + Q.inverse().transpose());
+    const double change = (next - Q).norm();
+    Q = next;
+    if (!(change > 1e-15)) break;
+  }
+  return Quat(Q).normalized();
 }
 
 }  // namespace tumble

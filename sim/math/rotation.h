@@ -26,4 +26,10 @@ Quat rotated(const Quat& q, const Vec3& w);
 /// stages of an integrator, where q is only nearly of unit length, still see a rotation.
 Mat3 rotationMatrix(const Quat& q);
 
+/// The rotation Q nearest to a matrix of positive determinant: that of its polar decomposition
+/// R = S Q, by Newton's iteration  Q ← ½ (Q + Q⁻ᵀ)  from Q = R (Higham, Computing the Polar
+/// Decomposition, 1986).
+/// @return a unit quaternion; NaN if R has no positive determinant.
+Quat nearestRotation(const Mat3& R);
+
 }  // namespace tumble

@@ -15,7 +15,7 @@ struct Method {
   std::string_view name;
   std::string_view summary;
   /// Throws Refusal for settings or bodies that this method cannot handle.
-  void (*check)(const Model&);
+  void (*check)(const Model&, std::span<const RigidBody> bodies);
   /// Makes whole steps of the method's own grid until state.t ≥ t_end or the report says stopped.
   void (*advance)(const Model&, State&, double t_end, Report&);
   /// The bodies at time t inside the trail, and their lasting contacts with forces.

@@ -8,6 +8,7 @@
 
 #include "sim/body/force.h"
 #include "sim/body/mass_properties.h"
+#include "sim/body/pivot.h"
 #include "sim/shape/shape.h"
 
 namespace tumble {
@@ -27,6 +28,8 @@ struct BodyDef {
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
   bool fixed = false;
+  /// Body point [m, body frame, from the centre of mass] that stays where it is at the start.
+  std::optional<Vec3> pivot_B;
 };
 
 /// What replaces the mixing rule for two materials.
@@ -37,6 +40,8 @@ struct PairDef {
 
 struct CourseSettings {
   std::string integrator = "rk4";
+  int order = 12;  ///< of an integrator of any order
+  std::string attitude = "quaternion";
   double step = 1.0 / 240.0;  ///< [s]
   std::string plan = "backstep";
   std::string contact = "constraint";
@@ -82,6 +87,7 @@ struct Surface {
 struct Model {
   WorldDef def;
   std::vector<Shape> shapes;  ///< per body
+  std::vector<Pivot> pivots;  ///< of the bodies that have one
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }

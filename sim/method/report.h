@@ -28,6 +28,7 @@ struct Event {
 /// The certificate that every run ends with. SI.
 struct Certificate {
   long steps = 0, events = 0;
+  long evaluations = 0;              ///< of the forces on all bodies; a Taylor jet counts its order
   double max_penetration = 0.0;      ///< [m] max(0, −separation)
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
@@ -46,6 +47,7 @@ struct CertificateField {
 inline constexpr CertificateField kCertificateFields[] = {
     {"steps", &Certificate::steps},
     {"events", &Certificate::events},
+    {"evaluations", &Certificate::evaluations},
     {"max_penetration", &Certificate::max_penetration},
     {"max_complementarity", &Certificate::max_complementarity},
     {"energy_start", &Certificate::energy_start},

@@ -204,7 +204,7 @@ bool Dopri5::dense(double t, std::span<double> y) const {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeDopri5(int size) {
+std::unique_ptr<Stepper> makeDopri5(int size, int /*order*/) {
   return std::make_unique<Dopri5>(size);
 }
 

@@ -22,7 +22,7 @@ class Euler : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeEuler(int size) {
+std::unique_ptr<Stepper> makeEuler(int size, int /*order*/) {
   return std::make_unique<Euler>(size);
 }
 

@@ -26,16 +26,36 @@ class Stepper {
   virtual bool withinTolerance() const { return true; }
 };
 
+/// What a step keeps, up to rounding, of any system that has it. Linear invariants (momentum) are
+/// kept by every row.
+struct Keeps {
+  bool quadratic = false;  ///< invariants that are quadratic in Y (|q|², Euler's energy and |L|²)
+  bool symplectic = false;  ///< areas in phase space, so that the energy only oscillates
+  bool symmetric = false;   ///< a step by −h undoes a step by h
+  bool manifold = false;    ///< the manifold that `normalise` serves (unit quaternions)
+};
+
 /// A row of the table: what an integrator is called, needs, keeps and achieves.
 struct Integrator {
-  std::string_view name;        ///< value of `course.integrator` in a scene
-  std::string_view summary;     ///< one line for people
-  int order;                    ///< global error ~ h^order
-  bool adaptive = false;        ///< divides a step by its own error estimate
-  bool needsKickDrift = false;  ///< works only on systems that offer kick and drift
-  bool hasDense = false;        ///< `Stepper::dense` answers
-  std::unique_ptr<Stepper> (*make)(int size);
+  std::string_view name;     ///< value of `course.integrator` in a scene
+  std::string_view summary;  ///< one line for people
+  int order;                 ///< global error ~ h^order
+  bool adaptive = false;     ///< divides a step by its own error estimate
+  bool anyOrder = false;     ///< the order is the caller's choice; `order` is the default
+  bool hasDense = false;     ///< `Stepper::dense` answers
+  Offers needs = {};         ///< beside the derivative
+  Keeps keeps = {};
+  std::unique_ptr<Stepper> (*create)(int size, int order);
+
+  /// A stepper for systems of that size.
+  /// @param chosen  order for a row of any order, 0 = the row's own
+  std::unique_ptr<Stepper> make(int size, int chosen = 0) const {
+    return create(size, anyOrder && chosen > 0 ? chosen : order);
+  }
 };
+
+/// The highest order that a row of any order takes.
+inline constexpr int kHighestOrder = 40;
 
 /// All integrators. To add one: write `sim/ode/<name>.cpp` and add its row in integrators.cpp.
 std::span<const Integrator> integrators();

@@ -24,7 +24,7 @@ class Midpoint : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeMidpoint(int size) {
+std::unique_ptr<Stepper> makeMidpoint(int size, int /*order*/) {
   return std::make_unique<Midpoint>(size);
 }
 

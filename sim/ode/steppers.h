@@ -8,11 +8,11 @@
 
 namespace tumble {
 
-std::unique_ptr<Stepper> makeEuler(int size);
-std::unique_ptr<Stepper> makeSymplecticEuler(int size);
-std::unique_ptr<Stepper> makeMidpoint(int size);
-std::unique_ptr<Stepper> makeRk4(int size);
-std::unique_ptr<Stepper> makeDopri5(int size);
+std::unique_ptr<Stepper> makeEuler(int size, int order);
+std::unique_ptr<Stepper> makeSymplecticEuler(int size, int order);
+std::unique_ptr<Stepper> makeMidpoint(int size, int order);
+std::unique_ptr<Stepper> makeRk4(int size, int order);
+std::unique_ptr<Stepper> makeDopri5(int size, int order);
 
 /// to = from + h rate, number by number.
 inline void follow(std::span<const double> from, double h, std::span<const double> rate,

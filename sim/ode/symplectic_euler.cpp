@@ -11,7 +11,7 @@ namespace {
 class SymplecticEuler : public Stepper {
  public:
   void step(const System& system, double t, double h, std::span<double> y) override {
-    assert(system.offersKickDrift());
+    assert(system.offers().split != Split::None);
     system.kick(t, h, y);
     system.drift(t, h, y);
     system.normalise(y);
@@ -20,7 +20,7 @@ class SymplecticEuler : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeSymplecticEuler(int /*size*/) {
+std::unique_ptr<Stepper> makeSymplecticEuler(int /*size*/, int /*order*/) {
   return std::make_unique<SymplecticEuler>();
 }
 

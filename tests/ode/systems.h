@@ -19,7 +19,7 @@ class DrivenOscillator : public System {
     ydot[0] = y[1];
     ydot[1] = -y[0] + std::cos(2.0 * t);
   }
-  bool offersKickDrift() const override { return true; }
+  Offers offers() const override { return {.split = Split::Exact}; }
   void kick(double t, double h, std::span<double> y) const override {
     y[1] += h * (-y[0] + std::cos(2.0 * t));
   }
@@ -43,7 +43,7 @@ class Kepler : public System {
     ydot[0] = y[2];
     ydot[1] = y[3];
   }
-  bool offersKickDrift() const override { return true; }
+  Offers offers() const override { return {.split = Split::Exact}; }
   void kick(double, double h, std::span<double> y) const override {
     std::array<double, 4> rate{};
     kick4(y, rate);

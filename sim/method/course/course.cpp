@@ -10,9 +10,6 @@
 namespace tumble {
 namespace {
 
-/// Time constant of the pull that keeps lasting contacts at zero, in steps.
-constexpr double kPullSteps = 4.0;
-
 /// Events that are located exactly come out of a store of kBackUps, which every step refills by
 /// kRefill; beyond, and after kPatience events in a row that move time by nothing, an event may be
 /// seen late by a share kLate of the step.
@@ -21,14 +18,8 @@ constexpr double kLate = 0.05;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
 
-double pullTime(const Model& model) {
-  return kPullSteps * model.def.course.step;
-}
-
-std::unique_ptr<Stepper> makeStepper(const Model& model) {
-  const int size = model.count() * kStateSize + CourseSystem::kLedgerSize;
-  return findIntegrator(model.def.course.integrator)->make(size);
-}
+/// Stands in where contacts do not offer what the chosen integrator needs.
+constexpr const char* kStandIn = "rk4";
 
 bool allFinite(std::span<const double> y) {
   return std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
@@ -36,9 +27,10 @@ bool allFinite(std::span<const double> y) {
 
 }  // namespace
 
-void checkCourse(const Model& model) {
+void checkCourse(const Model& model, std::span<const RigidBody> bodies) {
   const CourseSettings& course = model.def.course;
-  if (!findIntegrator(course.integrator))
+  const Integrator* row = findIntegrator(course.integrator);
+  if (!row)
     throw Refusal("course.integrator", "no integrator is called \"" + course.integrator + "\"");
   if (!(course.step > 0.0) || !std::isfinite(course.step))
     throw Refusal("course.step", "a step must be a positive number of seconds");
@@ -47,6 +39,16 @@ void checkCourse(const Model& model) {
   if (course.contact != "constraint")
     throw Refusal("course.contact",
                   "no contact model is called \"" + course.contact + "\"; there is: constraint");
+  if (course.order < 1 || course.order > kHighestOrder)
+    throw Refusal("course.order",
+                  "an order must be a whole number from 1 to " + std::to_string(kHighestOrder));
+  if (course.attitude != "quaternion" && course.attitude != "matrix")
+    throw Refusal("course.attitude", "no attitude is called \"" + course.attitude +
+                                         "\"; there are: quaternion, matrix");
+  const CourseSystem system(model, bodies);
+  if (const std::string_view lack = missing(system.offers(), row->needs); !lack.empty())
+    throw Refusal("course.integrator", "\"" + course.integrator + "\" needs " + std::string(lack) +
+                                           ", which this scene does not offer");
 }
 
 void advanceCourse(const Model& model, State& state, double t_end, Report& report) {
@@ -67,23 +69,30 @@ void lookCourse(const Model& model, const State& state, double t, std::vector<Ri
     if (s.t0 <= t) segment = &s;
   const bool now = !segment || t >= state.t;
   bodies = now ? state.bodies : segment->start;
-  CourseSystem system(model, bodies, now ? state.lasting : segment->contacts, pullTime(model));
+  CourseSystem system(model, bodies);
+  system.begin(now ? state.lasting : segment->contacts);
   if (!now && t > segment->t0) {
     std::vector<double> y(system.size());
     system.pack(bodies, y);
-    makeStepper(model)->step(system, segment->t0, t - segment->t0, y);
+    CourseSteppers(model, system).of(system).step(system, segment->t0, t - segment->t0, y);
     system.unpack(y, bodies);
   }
   system.findForces(bodies);
   contacts = system.contacts();
 }
 
+CourseSteppers::CourseSteppers(const Model& model, const System& system)
+    : row_(*findIntegrator(model.def.course.integrator)),
+      chosen_(row_.make(system.size(), model.def.course.order)),
+      standIn_(findIntegrator(kStandIn)->make(system.size())) {}
+
 Course::Course(const Model& model, State& state, Report& report)
     : model_(model),
       state_(state),
       report_(report),
       tolerance_(ContactTolerance::forSize(model.size)),
-      stepper_(makeStepper(model)),
+      system_(model, state.bodies),
+      steppers_(model, system_),
       rest_(pullTime(model)),
       trial_(state.bodies) {}
 
@@ -134,10 +143,12 @@ void Course::move() {
   state_.trail.push_back(
       {.t0 = state_.t, .t1 = grid, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
 
-  CourseSystem system(model_, state_.bodies, state_.lasting, pullTime(model_));
-  y0_.resize(system.size());
-  y_.resize(system.size());
-  system.pack(state_.bodies, y0_);
+  system_.begin(state_.lasting);
+  if (steppers_.stands(system_))
+    report_.note("while contacts last, rk4 stands in for an integrator that cannot have them");
+  y0_.resize(system_.size());
+  y_.resize(system_.size());
+  system_.pack(state_.bodies, y0_);
 
   // A pair may come as close as touching, to a slack, or stay as deep as rounding has brought it.
   // The slack must not be granted anew at each event, or every bounce would start a little deeper.
@@ -161,19 +172,19 @@ void Course::move() {
   // Try as much of the step as can be foreseen; if something collides, or a slip ends, back up to
   // that instant.
   const double span = grid - state_.t;
-  double h = foresee(system, span);
-  if (const double tooFar = allowance(system, h); tooFar < 0.0) {
-    h = backUp(system, h, tooFar);
-    allowance(system, h);
+  double h = foresee(span);
+  if (const double tooFar = allowance(h); tooFar < 0.0) {
+    h = backUp(h, tooFar);
+    allowance(h);
   }
-  commit(system, h < span ? state_.t + h : grid);
+  commit(h < span ? state_.t + h : grid);
 }
 
-double Course::allowance(CourseSystem& system, double h) {
+double Course::allowance(double h) {
   y_ = y0_;
-  stepper_->step(system, state_.t, h, y_);
+  steppers_.of(system_).step(system_, state_.t, h, y_);
   if (!allFinite(y_)) return 0.0;  // commit() reports it
-  system.unpack(y_, trial_);
+  system_.unpack(y_, trial_);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto& [b, a] = state_.near[k];
@@ -189,10 +200,10 @@ double Course::allowance(CourseSystem& system, double h) {
   return least;
 }
 
-double Course::backUp(CourseSystem& system, double span, double tooFar) {
+double Course::backUp(double span, double tooFar) {
   // The width of the bracket that is left: what a clock at t can still tell apart.
   const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
-  const auto allowed = [&](double h) { return allowance(system, h); };
+  const auto allowed = [&](double h) { return allowance(h); };
   const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
   ++state_.recentBackUps;
   state_.stalled = h > instant ? 0 : state_.stalled + 1;
@@ -203,7 +214,7 @@ double Course::backUp(CourseSystem& system, double span, double tooFar) {
   return std::min(span, std::max(h, kLate * model_.def.course.step));
 }
 
-void Course::commit(CourseSystem& system, double t1) {
+void Course::commit(double t1) {
   Certificate& books = report_.certificate;
   if (!allFinite(y_)) {
     report_.stopped = true;
@@ -211,17 +222,19 @@ void Course::commit(CourseSystem& system, double t1) {
     state_.trail.pop_back();
     return;
   }
-  system.unpack(y_, state_.bodies);
-  const Ledger ledger = system.ledger(y_);
+  system_.unpack(y_, state_.bodies);
+  const Ledger ledger = system_.ledger(y_);
   books.work_of_forces += ledger.work;
   books.energy_lost_friction += ledger.friction;
-  books.max_complementarity = std::max(books.max_complementarity, system.residual());
-  if (system.unsolved())
+  books.max_complementarity = std::max(books.max_complementarity, system_.residual());
+  if (system_.unsolved())
     report_.note("some resting forces were left unsolved; max_complementarity has the worst");
   state_.externalImpulse += ledger.impulse;
   state_.trail.back().t1 = t1;
   state_.t = t1;
   ++books.steps;
+  books.evaluations += system_.evaluations() - counted_;
+  counted_ = system_.evaluations();
   if (t1 == gridTime(model_, state_.gridIndex, model_.def.course.step)) {
     ++state_.gridIndex;
     state_.recentImpacts.clear();

@@ -10,10 +10,26 @@
 
 namespace tumble {
 
-void checkCourse(const Model& model);
+void checkCourse(const Model& model, std::span<const RigidBody> bodies);
 void advanceCourse(const Model& model, State& state, double t_end, Report& report);
 void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                 std::vector<Contact>& contacts);
+
+/// The integrator that the scene names, and the one that stands in for it while contacts last that
+/// do not offer what it needs.
+class CourseSteppers {
+ public:
+  CourseSteppers(const Model& model, const System& system);
+
+  /// The one for a system as it is now.
+  Stepper& of(const System& system) { return *(stands(system) ? standIn_ : chosen_); }
+  /// True if the other one stands in.
+  bool stands(const System& system) const { return !missing(system.offers(), row_.needs).empty(); }
+
+ private:
+  const Integrator& row_;
+  std::unique_ptr<Stepper> chosen_, standIn_;
+};
 
 /// The flow chart of slide SD39 at work on one world.
 class Course {
@@ -40,22 +56,23 @@ class Course {
 
   /// How long [s] the motion may go on unseen: no pair passes through each other, no feature dips
   /// in and out again.
-  double foresee(const CourseSystem& system, double span) const;
+  double foresee(double span) const;
   /// When [s] the first of these points that dip below their surface turns back.
-  double lowestPoint(const CourseSystem& system, std::span<const Contact> points,
-                     double span) const;
+  double lowestPoint(std::span<const Contact> points, double span) const;
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.
-  double allowance(CourseSystem& system, double h);
+  double allowance(double h);
   /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
   /// @param tooFar  `allowance` of the whole span, < 0
-  double backUp(CourseSystem& system, double span, double tooFar);
-  void commit(CourseSystem& system, double t1);
+  double backUp(double span, double tooFar);
+  void commit(double t1);
 
   const Model& model_;
   State& state_;
   Report& report_;
   ContactTolerance tolerance_;
-  std::unique_ptr<Stepper> stepper_;
+  CourseSystem system_;
+  CourseSteppers steppers_;
+  long counted_ = 0;  ///< evaluations of system_ that are in the certificate
   RestForces rest_;
   std::vector<Contact> touching_;
   std::vector<double> y0_, y_;

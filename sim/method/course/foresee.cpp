@@ -30,7 +30,7 @@ Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
 
 }  // namespace
 
-double Course::foresee(const CourseSystem& system, double span) const {
+double Course::foresee(double span) const {
   constexpr double kTurn = 0.1;  // [rad] of a body in one stretch: integrators lose a larger one
   const double shortest = 1e-3 * span;  // no pair may slow the others down for ever
   double safe = span;
@@ -56,13 +56,12 @@ double Course::foresee(const CourseSystem& system, double span) const {
     const double depth = 0.5 * bend * span * span;
     if (gaps_[k] < depth) findContacts(model_, state_.bodies, state_.near[k], depth, points);
   }
-  return points.empty() ? safe : lowestPoint(system, points, safe);
+  return points.empty() ? safe : lowestPoint(points, safe);
 }
 
-double Course::lowestPoint(const CourseSystem& system, std::span<const Contact> points,
-                           double span) const {
+double Course::lowestPoint(std::span<const Contact> points, double span) const {
   std::vector<RigidBody> bodies = state_.bodies;
-  system.findForces(bodies);
+  system_.findForces(bodies);
   double soonest = span;
   for (const Contact& c : points) {
     const RigidBody &a = bodies[c.a], &b = bodies[c.b];

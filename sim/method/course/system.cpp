@@ -1,42 +1,53 @@
 #include "sim/method/course/system.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "sim/body/force.h"
 
 namespace tumble {
 namespace {
 
-/// One body's share of Y.
-template <class T>
-std::span<T> share(std::span<T> y, std::size_t body) {
-  return y.subspan(body * kStateSize, kStateSize);
+/// Time constant of the pull that keeps lasting contacts at zero, in steps.
+constexpr double kPullSteps = 4.0;
+
+template <class Number>
+std::span<Number> withoutLedger(std::span<Number> y) {
+  return y.first(y.size() - CourseSystem::kLedgerSize);
 }
 
-constexpr int kMomenta = 7;  // where P and L begin in a body's share
+/// Adds h · rates to the ledger at the end of y.
+void addLedger(const Ledger& rates, double h, std::span<double> y) {
+  double* last = &y[y.size() - CourseSystem::kLedgerSize];
+  last[0] += h * rates.work;
+  last[1] += h * rates.friction;
+  for (int k = 0; k < 3; ++k) last[2 + k] += h * rates.impulse[k];
+}
 
 }  // namespace
 
-CourseSystem::CourseSystem(const Model& model, std::span<const RigidBody> bodies,
-                           std::vector<Contact> contacts, double tau)
-    : model_(model),
-      bodies_(bodies.begin(), bodies.end()),
-      contacts_(std::move(contacts)),
-      rest_(tau),
-      rate_(size()) {}
+double pullTime(const Model& model) {
+  return kPullSteps * model.def.course.step;
+}
 
-int CourseSystem::size() const {
-  return static_cast<int>(bodies_.size()) * kStateSize + kLedgerSize;
+CourseSystem::CourseSystem(const Model& model, std::span<const RigidBody> bodies)
+    : model_(model),
+      bodies_(model.def.gravity, model.def.forces, {bodies.begin(), bodies.end()}, model.pivots,
+              model.def.course.attitude == "matrix" ? Attitude::Matrix : Attitude::Quaternion),
+      work_(bodies.begin(), bodies.end()),
+      rest_(pullTime(model)) {}
+
+void CourseSystem::begin(const std::vector<Contact>& contacts) {
+  contacts_ = contacts;
+  rest_ = RestForces(pullTime(model_));
+  residual_ = 0.0;
+  unsolved_ = false;
 }
 
 void CourseSystem::pack(std::span<const RigidBody> bodies, std::span<double> y) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) stateToArray(bodies[i], share(y, i));
+  bodies_.toArray(bodies, withoutLedger(y));
   std::fill(y.end() - kLedgerSize, y.end(), 0.0);
 }
 
 void CourseSystem::unpack(std::span<const double> y, std::span<RigidBody> bodies) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) arrayToState(share(y, i), bodies[i]);
+  bodies_.fromArray(withoutLedger(y), bodies);
 }
 
 Ledger CourseSystem::ledger(std::span<const double> y) const {
@@ -45,7 +56,7 @@ Ledger CourseSystem::ledger(std::span<const double> y) const {
 }
 
 SolveReport CourseSystem::findForces(std::span<RigidBody> bodies) const {
-  sumForces(model_.def.gravity, model_.def.forces, bodies);
+  bodies_.sumForces(bodies);
   outerForce_.setZero();
   for (const RigidBody& body : bodies)
     if (!body.fixed()) outerForce_ += body.force;
@@ -53,57 +64,83 @@ SolveReport CourseSystem::findForces(std::span<RigidBody> bodies) const {
   return rest_.apply(bodies, contacts_);
 }
 
-void CourseSystem::derivative(double /*t*/, std::span<const double> y,
-                              std::span<double> ydot) const {
-  unpack(y, bodies_);
-  const SolveReport solved = findForces(bodies_);
+void CourseSystem::load(std::span<const double> y) const {
+  unpack(y, work_);
+  const SolveReport solved = findForces(work_);
   residual_ = std::max(residual_, solved.residual);
   unsolved_ = unsolved_ || solved.status != SolveStatus::Solved;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) stateDerivative(bodies_[i], share(ydot, i));
+}
 
-  // The ledger: power of outer forces and of moving fixed bodies, power lost to friction, outer
-  // force.
-  double power = powerOfForces(model_.def.forces, bodies_), lost = 0.0;
-  Vec3 outer = outerForce_;
+Ledger CourseSystem::contactRates() const {
+  Ledger rates{.impulse = outerForce_};
   for (const Contact& c : contacts_) {
-    const RigidBody &a = bodies_[c.a], &b = bodies_[c.b];
-    if (c.friction > 0.0) lost -= c.force.dot(slipVelocity(a, b, c.point));
+    const RigidBody &a = work_[c.a], &b = work_[c.b];
+    if (c.friction > 0.0) rates.friction -= c.force.dot(slipVelocity(a, b, c.point));
     if (b.fixed()) {
-      power += c.force.dot(pointVelocity(b, c.point.p));
-      outer += c.force;
+      rates.work += c.force.dot(pointVelocity(b, c.point.p));
+      rates.impulse += c.force;
     } else if (a.fixed()) {
-      power -= c.force.dot(pointVelocity(a, c.point.p));
-      outer -= c.force;
+      rates.work -= c.force.dot(pointVelocity(a, c.point.p));
+      rates.impulse -= c.force;
     }
   }
-  double* last = &ydot[ydot.size() - kLedgerSize];
-  last[0] = power;
-  last[1] = lost;
-  for (int k = 0; k < 3; ++k) last[2 + k] = outer[k];
+  return rates;
 }
 
-void CourseSystem::kick(double t, double h, std::span<double> y) const {
-  derivative(t, y, rate_);
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (int k = kMomenta; k < kStateSize; ++k)
-      y[i * kStateSize + k] += h * rate_[i * kStateSize + k];
-  for (std::size_t k = y.size() - kLedgerSize; k < y.size(); ++k) y[k] += h * rate_[k];
+void CourseSystem::derivative(double /*t*/, std::span<const double> y,
+                              std::span<double> ydot) const {
+  load(y);
+  bodies_.rates(work_, withoutLedger(ydot));
+  Ledger rates = contactRates();
+  rates.work += powerOfForces(model_.def.forces, work_);
+  std::fill(ydot.end() - kLedgerSize, ydot.end(), 0.0);
+  addLedger(rates, 1.0, ydot);
 }
 
-void CourseSystem::drift(double /*t*/, double h, std::span<double> y) const {
-  unpack(y, bodies_);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    stateDerivative(bodies_[i], share(std::span<double>(rate_), i));
-    for (int k = 0; k < kMomenta; ++k) y[i * kStateSize + k] += h * rate_[i * kStateSize + k];
-  }
+Offers CourseSystem::offers() const {
+  return contacts_.empty() ? bodies_.offers() : Offers{.split = Split::Rough, .lie = true};
+}
+
+void CourseSystem::kick(double /*t*/, double h, std::span<double> y) const {
+  load(y);
+  addLedger(contactRates(), h, y);
+  bodies_.push(h, work_, withoutLedger(y));
+}
+
+// The work of outer forces is done where points move: here, by the trapezoidal rule.
+void CourseSystem::drift(double t, double h, std::span<double> y) const {
+  const auto power = [&] {
+    if (model_.def.forces.empty()) return 0.0;
+    unpack(y, work_);
+    return powerOfForces(model_.def.forces, work_);
+  };
+  const double before = power();
+  bodies_.drift(t, h, withoutLedger(y));
+  addLedger({.work = 0.5 * (before + power())}, h, y);
+}
+
+void CourseSystem::algebra(double /*t*/, std::span<const double> y, std::span<double> a) const {
+  load(y);
+  bodies_.increments(work_, withoutLedger(a));
+  Ledger rates = contactRates();
+  rates.work += powerOfForces(model_.def.forces, work_);
+  std::fill(a.end() - kLedgerSize, a.end(), 0.0);
+  addLedger(rates, 1.0, a);
+}
+
+void CourseSystem::commutator(std::span<const double> a, std::span<const double> b,
+                              std::span<double> out) const {
+  bodies_.commutator(withoutLedger(a), withoutLedger(b), withoutLedger(out));
+  std::fill(out.end() - kLedgerSize, out.end(), 0.0);
+}
+
+void CourseSystem::act(std::span<const double> a, std::span<double> y) const {
+  bodies_.act(withoutLedger(a), withoutLedger(y));
+  addLedger(ledger(a), 1.0, y);
 }
 
 void CourseSystem::normalise(std::span<double> y) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    double* q = &y[i * kStateSize + 3];
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int k = 0; k < 4; ++k) q[k] /= length;
-  }
+  bodies_.normalise(withoutLedger(y));
 }
 
 }  // namespace tumble

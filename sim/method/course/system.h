@@ -4,11 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "sim/body/body_system.h"
 #include "sim/contact/rest.h"
 #include "sim/method/model.h"
-#include "sim/ode/system.h"
 
 namespace tumble {
+
+/// Time constant [s] of the pull that keeps lasting contacts at zero: a few steps.
+double pullTime(const Model& model);
 
 /// What is integrated along with the bodies, at the end of Y, so that the books close to the order
 /// of the integrator.
@@ -18,20 +21,29 @@ struct Ledger {
   Vec3 impulse = Vec3::Zero();  ///< [N·s] of everything outside the bodies that move
 };
 
-/// Y = 13 numbers a body in scene order (slide SD11), then the five of the ledger.
+/// Y = the share of each body in scene order (slide SD11), as `BodySystem` has it, then the five
+/// numbers of the ledger.
 class CourseSystem : public System {
  public:
   static constexpr int kLedgerSize = 5;
 
-  /// @param contacts  lasting contacts; they are followed through every stage
-  CourseSystem(const Model& model, std::span<const RigidBody> bodies, std::vector<Contact> contacts,
-               double tau);
+  CourseSystem(const Model& model, std::span<const RigidBody> bodies);
 
-  int size() const override;
+  /// Begins a stretch of motion with these lasting contacts, which are followed through every
+  /// stage.
+  void begin(const std::vector<Contact>& contacts);
+
+  int size() const override { return bodies_.size() + kLedgerSize; }
   void derivative(double t, std::span<const double> y, std::span<double> ydot) const override;
-  bool offersKickDrift() const override { return true; }
+  /// What the bodies offer; contacts leave a rough split and the action of the group.
+  Offers offers() const override;
   void kick(double t, double h, std::span<double> y) const override;
   void drift(double t, double h, std::span<double> y) const override;
+  int algebraSize() const override { return bodies_.algebraSize() + kLedgerSize; }
+  void algebra(double t, std::span<const double> y, std::span<double> a) const override;
+  void commutator(std::span<const double> a, std::span<const double> b,
+                  std::span<double> out) const override;
+  void act(std::span<const double> a, std::span<double> y) const override;
   void normalise(std::span<double> y) const override;
 
   /// Bodies → Y, with an empty ledger.
@@ -44,16 +56,23 @@ class CourseSystem : public System {
   SolveReport findForces(std::span<RigidBody> bodies) const;
   const std::vector<Contact>& contacts() const { return contacts_; }
 
-  /// Worst residual of the contact problems so far, and whether one was left unsolved.
+  /// Worst residual of the contact problems of this stretch, and whether one was left unsolved.
   double residual() const { return residual_; }
   bool unsolved() const { return unsolved_; }
+  /// Evaluations of all forces since the system was made.
+  long evaluations() const { return bodies_.evaluations(); }
 
  private:
+  /// Y into work_, with all forces.
+  void load(std::span<const double> y) const;
+  /// Rates of the ledger while work_ is as loaded, but for the power of outer forces.
+  Ledger contactRates() const;
+
   const Model& model_;
-  mutable std::vector<RigidBody> bodies_;
+  BodySystem bodies_;
+  mutable std::vector<RigidBody> work_;
   mutable std::vector<Contact> contacts_;
   mutable RestForces rest_;
-  mutable std::vector<double> rate_;
   mutable Vec3 outerForce_ = Vec3::Zero();
   mutable double residual_ = 0.0;
   mutable bool unsolved_ = false;

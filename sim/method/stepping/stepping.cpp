@@ -9,7 +9,7 @@
 #include "sim/problem/cone.h"
 
 namespace tumble {
-void checkStepping(const Model& model) {
+void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
   const SteppingSettings& stepping = model.def.stepping;
   if (!findSolver(stepping.solver))
     throw Refusal("stepping.solver", "no solver is called \"" + stepping.solver + "\"");
@@ -17,6 +17,9 @@ void checkStepping(const Model& model) {
     throw Refusal("stepping.step", "a step must be a positive number of seconds");
   if (!(stepping.tolerance > 0.0) || !std::isfinite(stepping.tolerance))
     throw Refusal("stepping.tolerance", "a tolerance must be a positive number");
+  if (!model.pivots.empty())
+    throw Refusal("bodies[" + std::to_string(model.pivots[0].body) + "].pivot_body",
+                  "\"stepping\" knows no pivots; take method = \"course\" or leave it out");
 }
 
 void advanceStepping(const Model& model, State& state, double t_end, Report& report) {
@@ -65,6 +68,7 @@ void Stepping::step() {
   state_.t = t1;
   ++state_.gridIndex;
   ++report_.certificate.steps;
+  ++report_.certificate.evaluations;
   account(model_, state_, report_);
 }
 
