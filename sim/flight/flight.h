@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/body/rigid_body.h"
+#include "sim/flight/rotor.h"
 
 namespace tumble {
 
@@ -15,21 +16,6 @@ struct Parabola {
   Vec3 velocity(double t) const { return v0 + t * g; }
 };
 
-/// Attitude that is two steady rotations, one about an axis fixed in the world, one about an axis
-/// fixed in the body:
-///   q = exp(t precession) q0 exp(t spin_B),   ω = precession + R spin_B.
-/// So turns a body that has two equal principal moments I₁ and a third I₃ about its axis e, free of
-/// torque (Landau and Lifshitz, Mechanics, §33):
-///   precession = L/I₁,   spin_B = (1/I₃ − 1/I₁)(L·e) e_B.
-struct SymmetricRotor {
-  Quat q0 = Quat::Identity();      ///< body to world at t = 0
-  Vec3 precession = Vec3::Zero();  ///< [rad/s] world
-  Vec3 spin_B = Vec3::Zero();      ///< [rad/s] body
-
-  Quat attitude(double t) const;
-  Vec3 omega(double t) const;  ///< [rad/s] world
-};
-
 /// The flight of one body from an instant on, free of torque and under a constant acceleration: a
 /// parabola and a rotor. An evaluation takes the same short time for every t and allocates nothing.
 /// World frame, SI.
@@ -39,7 +25,6 @@ class Flight {
   ///   steadily with its v and omega
   /// @param acceleration  [m/s²] of the centre of mass, constant; not used for a fixed body
   /// @param t0            [s] the instant that `start` shows
-  /// @throws std::invalid_argument for a body with three unlike principal moments.
   Flight(const RigidBody& start, const Vec3& acceleration, double t0);
 
   /// Sets state and derived quantities of a body like the one given at the start to those at t [s].
@@ -50,16 +35,16 @@ class Flight {
   Pose pose(double t) const;
 
   /// A bound [m/s²] on the acceleration of every body point within r [m] of the centre of mass, for
-  /// all time:  |a| + r (|ω|² + |ω̇|).
+  /// all time:  |a| + r (½ ω² + √(¼ ω⁴ + ω̇²)), the greatest ω and ω̇ on the way
+  /// (`Polhode::turning`).
   double accelBound(double r) const;
 
  private:
   double t0_;
   Parabola parabola_;
-  SymmetricRotor rotor_;
+  Rotor rotor_;
   Vec3 P0_, force_;  ///< [kg m/s], [N]: P = P0 + t force
-  Vec3 L_;
-  double turning_;  ///< [1/s²] the most that |ω|² + |ω̇| can be
+  Vec3 L_;           ///< [kg m²/s]
 };
 
 }  // namespace tumble
