@@ -56,6 +56,11 @@ hits 7 path-of-brick
 hits 7 path-of-brick --set course.step=0.00026041666666666666
 hits 3 path-of-brick --set materials.brick.restitution=0.4
 
+section "CPU time of closed-form flight: start, evaluation, ten thousand bodies sampled 60/s for 10 s"
+cmake --build "$build" --target sim_bench >/dev/null 2>&1
+run "$build/tests/sim_bench" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+  --benchmark_min_time=0.1 2>/dev/null | grep -e '^\$' -e CPU -e _median
+
 section "CPU time of an image of 200 bodies, 1280x720, shadows, four samples a pixel, PNG written"
 cmake --build "$build" --target render_bench >/dev/null 2>&1
 run "$build/tests/render_bench" "$scratch"
