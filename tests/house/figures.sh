@@ -56,6 +56,11 @@ hits 7 path-of-brick
 hits 7 path-of-brick --set course.step=0.00026041666666666666
 hits 3 path-of-brick --set materials.brick.restitution=0.4
 
+section "Hard scenes, by stepping: an edge to slide over, seven unlike boxes, forty bodies in a tray"
+for scene in tests/stability/*.toml; do
+  run "$tumble" simulate "$scene" -o "$scratch/hard" | grep -v '^wrote'
+done
+
 section "CPU time of closed-form flight: start, evaluation, ten thousand bodies sampled 60/s for 10 s"
 cmake --build "$build" --target sim_bench >/dev/null 2>&1
 run "$build/tests/sim_bench" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
