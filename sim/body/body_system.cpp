@@ -61,6 +61,7 @@ Offers BodySystem::offers() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (!bodies_[i].fixed() && !turns_[i].exact()) offers.split = Split::Symmetric;
   if (std::any_of(forces_.begin(), forces_.end(), dependsOnVelocity)) offers.split = Split::Rough;
+  offers.jet = BodyJet::covers(forces_, bodies_, pivotOf_);
   return offers;
 }
 
@@ -121,6 +122,32 @@ void BodySystem::normalise(std::span<double> y) const {
     hold(pivot, momentumAbout(pivot, body), body);
     stateToArray(body, held);
   }
+}
+
+void BodySystem::jet(double /*t*/, std::span<const double> y, int order,
+                     std::span<double> coefficients) const {
+  fromArray(y);
+  evaluations_ += order;
+  jet_.expand(gravity_, forces_, pivots_, pivotOf_, bodies_, order);
+  const std::size_t stride = coefficients.size() / (static_cast<std::size_t>(order) + 1);
+  std::copy(y.begin(), y.end(), coefficients.begin());
+  for (int k = 1; k <= order; ++k) {
+    double* to = &coefficients[k * stride];
+    const auto put = [&](const auto& v) { to = std::copy(v.begin(), v.end(), to); };
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const BodySeries& s = jet_.body(i);
+      put(s.x[k]);
+      if (!bodies_[i].particle) put(s.q[k]);
+      put(s.P[k]);
+      if (!bodies_[i].particle) put(s.L[k]);
+    }
+  }
+}
+
+Vec3 BodySystem::jetMomentum(int k) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) sum += jet_.body(i).P[k];
+  return sum;
 }
 
 // An increment has a number less than Y for each quaternion, six less for each matrix.

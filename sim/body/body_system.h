@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sim/body/body_jet.h"
 #include "sim/body/force.h"
 #include "sim/body/free_turn.h"
 #include "sim/body/pivot.h"
@@ -21,12 +22,22 @@ class BodySystem : public System {
   int size() const override { return offset_.back(); }
   void derivative(double t, std::span<const double> y, std::span<double> ydot) const override;
 
-  /// A kick and a drift, rough if a force depends on velocities, exact if no body tumbles.
+  /// A kick and a drift, rough if a force depends on velocities, exact if no body tumbles; a jet if
+  /// `BodyJet` covers the forces. The attitude as a matrix has the action of the group alone.
   Offers offers() const override;
   /// P += h F,  L += h τ, with the forces of this moment.
   void kick(double t, double h, std::span<double> y) const override;
   /// x += h v, and the free turn of each body with its L as it is.
   void drift(double t, double h, std::span<double> y) const override;
+
+  /// Coefficients of all bodies; those of order k begin at k · (length of `coefficients`/(order +
+  /// 1)).
+  void jet(double t, std::span<const double> y, int order,
+           std::span<double> coefficients) const override;
+  /// Coefficient k of the power of the forces without potential in the last jet.
+  double jetPower(int k) const { return jet_.power(k); }
+  /// Coefficient k of the momentum of all bodies in the last jet.
+  Vec3 jetMomentum(int k) const;
 
   /// An increment is 12 numbers a body, 6 a particle: (Δx, w, ΔP, ΔL) takes (x, q, P, L) to
   /// (x + Δx, exp(w) q, P + ΔP, L + ΔL). Of the commutators only [w₁, w₂] = w₁ × w₂ is not zero.
@@ -75,6 +86,7 @@ class BodySystem : public System {
   std::vector<FreeTurn> turns_;  ///< per body, about its pivot if it has one
   std::vector<int> offset_;      ///< where each body's share of Y begins, and the end of all
   Attitude attitude_;
+  mutable BodyJet jet_;
   mutable long evaluations_ = 0;
 };
 

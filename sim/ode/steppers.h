@@ -13,6 +13,18 @@ std::unique_ptr<Stepper> makeSymplecticEuler(int size, int order);
 std::unique_ptr<Stepper> makeMidpoint(int size, int order);
 std::unique_ptr<Stepper> makeRk4(int size, int order);
 std::unique_ptr<Stepper> makeDopri5(int size, int order);
+std::unique_ptr<Stepper> makeImplicitMidpoint(int size, int order);
+std::unique_ptr<Stepper> makeSplitting2(int size, int order);
+std::unique_ptr<Stepper> makeSplitting4(int size, int order);
+std::unique_ptr<Stepper> makeNystrom4(int size, int order);
+std::unique_ptr<Stepper> makeRkmk4(int size, int order);
+std::unique_ptr<Stepper> makeTaylor(int size, int order);
+
+/// Strang's splitting, the symmetric step that the splitting methods are composed of:
+///   kick h/2 · drift h · kick h/2
+/// On particles it is the method of Störmer and Verlet, on bodies that of Dullweber, Leimkuhler and
+/// McLachlan. Does not normalise.
+void strang(const System& system, double t, double h, std::span<double> y);
 
 /// to = from + h rate, number by number.
 inline void follow(std::span<const double> from, double h, std::span<const double> rate,

@@ -119,6 +119,20 @@ void CourseSystem::drift(double t, double h, std::span<double> y) const {
   addLedger({.work = 0.5 * (before + power())}, h, y);
 }
 
+void CourseSystem::jet(double t, std::span<const double> y, int order,
+                       std::span<double> coefficients) const {
+  bodies_.jet(t, withoutLedger(y), order, coefficients);
+  std::copy(y.end() - kLedgerSize, y.end(), &coefficients[bodies_.size()]);
+  for (int k = 1; k <= order; ++k) {
+    const std::span<double> last = coefficients.subspan(k * y.size() + bodies_.size(), kLedgerSize);
+    last[0] = bodies_.jetPower(k - 1) / k;
+    last[1] = 0.0;
+    // Free of contact, all that changes momentum comes from outside.
+    const Vec3 impulse = bodies_.jetMomentum(k);
+    std::copy(impulse.begin(), impulse.end(), &last[2]);
+  }
+}
+
 void CourseSystem::algebra(double /*t*/, std::span<const double> y, std::span<double> a) const {
   load(y);
   bodies_.increments(work_, withoutLedger(a));

@@ -39,6 +39,8 @@ class CourseSystem : public System {
   Offers offers() const override;
   void kick(double t, double h, std::span<double> y) const override;
   void drift(double t, double h, std::span<double> y) const override;
+  void jet(double t, std::span<const double> y, int order,
+           std::span<double> coefficients) const override;
   int algebraSize() const override { return bodies_.algebraSize() + kLedgerSize; }
   void algebra(double t, std::span<const double> y, std::span<double> a) const override;
   void commutator(std::span<const double> a, std::span<const double> b,
