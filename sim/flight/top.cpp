@@ -1,0 +1,134 @@
+#include "sim/flight/top.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "sim/math/rotation.h"
+
+namespace tumble {
+namespace {
+
+/// Order at which an arc costs least per second, and the size of its last terms beside the first.
+constexpr int kOrder = 24;
+constexpr double kNegligible = 2e-17;
+/// An arc that would have to be shorter than this beside the time itself ends the motion.
+constexpr double kShortest = 1e-12;
+
+Vec4 quaternionTimes(const Vec4& q, const Vec3& w) {
+  const Vec3 u = q.tail<3>();
+  Vec4 product;
+  product[0] = -u.dot(w);
+  product.tail<3>() = q[0] * w + u.cross(w);
+  return product;
+}
+
+/// The longest step of which the last two terms of the series are negligible, found by shortening
+/// one that is too long by a tenth again and again.
+double arcLength(const std::vector<Vec4>& q, const std::vector<Vec3>& H, double rate) {
+  const double spin = H[0].norm();
+  double h = rate > 0.0 ? 8.0 / rate : 1.0;
+  for (const int k : {kOrder - 1, kOrder}) {
+    const double size = std::max(q[k].norm(), spin > 0.0 ? H[k].norm() / spin : 0.0);
+    const auto term = [&] {
+      double power = 1.0;
+      for (int i = 0; i < k; ++i) power *= h;
+      return size * power;
+    };
+    while (term() > kNegligible) h *= 0.9;
+  }
+  return h;
+}
+
+/// Horner's rule, from the smallest term to the largest.
+template <class Vector>
+Vector evaluate(const std::vector<Vector>& c, double s) {
+  Vector sum = c[kOrder];
+  for (int k = kOrder - 1; k >= 0; --k) sum = c[k] + s * sum;
+  return sum;
+}
+
+}  // namespace
+
+HeavyTop::HeavyTop(const RigidBody& start, const Pivot& pivot, const Vec3& gravity, double t0)
+    : pivot_(pivot),
+      gravity_(gravity),
+      weight_(start.M * gravity.norm()),
+      body_(start),
+      q_(start.q.w(), start.q.x(), start.q.y(), start.q.z()),
+      H_B_(start.R.transpose() * momentumAbout(pivot, start)),
+      end_(t0) {
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(pivot.Ibody).eigenvalues();
+  const double torque = weight_ * pivot.c_B.norm();
+  const double energy = 0.5 * H_B_.dot(pivot.IbodyInv * H_B_) + 2.0 * torque;
+  const double omega2 = 2.0 * energy / moments[0];
+  bound_ = omega2 + (torque + (moments[2] - moments[0]) * omega2) / moments[0];
+}
+
+bool HeavyTop::addArc() {
+  Arc arc{.t = end_, .h = 0.0, .q = {q_}, .H_B = {H_B_}};
+  const Mat3 R = rotationMatrix(Quat(q_[0], q_[1], q_[2], q_[3]));
+  std::vector<Vec3> omega, gamma = {R.transpose() * gravity_};
+  for (int k = 0; k < kOrder; ++k) {
+    omega.push_back(pivot_.IbodyInv * arc.H_B[k]);
+    Vec3 H = -body_.M * pivot_.c_B.cross(gamma[k]), g = Vec3::Zero();
+    Vec4 q = Vec4::Zero();
+    for (int j = 0; j <= k; ++j) {
+      H += arc.H_B[j].cross(omega[k - j]);
+      g += gamma[j].cross(omega[k - j]);
+      q += quaternionTimes(arc.q[j], omega[k - j]);
+    }
+    arc.H_B.push_back(H / (k + 1));
+    gamma.push_back(g / (k + 1));
+    arc.q.push_back(0.5 * q / (k + 1));
+  }
+  if (!arc.q[kOrder].allFinite() || !arc.H_B[kOrder].allFinite()) return false;
+  arc.h = arcLength(arc.q, arc.H_B, std::sqrt(bound_));
+  if (!(arc.h > kShortest * std::abs(end_))) return false;
+  const double next = end_ + arc.h;
+  arc.h = next - end_;  // so that the clock of the arcs does not round
+  q_ = evaluate(arc.q, arc.h).normalized();
+  H_B_ = evaluate(arc.H_B, arc.h);
+  end_ = next;
+  arcs_.push_back(std::move(arc));
+  return true;
+}
+
+bool HeavyTop::reach(double t) {
+  while (arcs_.empty() || end_ < t)
+    if (!addArc()) return false;
+  return true;
+}
+
+void HeavyTop::forget(double t) {
+  auto keep = arcs_.begin();
+  while (keep != arcs_.end() && keep + 1 != arcs_.end() && keep->t + keep->h < t) ++keep;
+  arcs_.erase(arcs_.begin(), keep);
+}
+
+const HeavyTop::Arc& HeavyTop::arcAt(double t) const {
+  assert(!arcs_.empty() && t <= end_);
+  const auto after = std::upper_bound(arcs_.begin(), arcs_.end(), t,
+                                      [](double time, const Arc& arc) { return time < arc.t; });
+  return after == arcs_.begin() ? *after : *(after - 1);
+}
+
+void HeavyTop::at(double t, RigidBody& body) const {
+  const Arc& arc = arcAt(t);
+  const Vec4 q = evaluate(arc.q, t - arc.t);
+  body.q = Quat(q[0], q[1], q[2], q[3]).normalized();
+  hold(pivot_, rotationMatrix(body.q) * evaluate(arc.H_B, t - arc.t), body);
+}
+
+Pose HeavyTop::pose(double t) const {
+  RigidBody body = body_;
+  at(t, body);
+  return body.pose();
+}
+
+double HeavyTop::accelBound(double r) const {
+  return (pivot_.c_B.norm() + r) * bound_;
+}
+
+}  // namespace tumble
