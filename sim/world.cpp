@@ -1,7 +1,6 @@
 #include "sim/world.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <type_traits>
 
@@ -14,13 +13,6 @@ namespace {
 
 std::string bodyPath(std::size_t i, const char* field = "") {
   return "bodies[" + std::to_string(i) + "]" + field;
-}
-
-/// Six digits, the same in every locale.
-std::string shortNumber(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
-  return {text, end.ptr};
 }
 
 void need(bool holds, const std::string& where, const std::string& what) {
@@ -211,8 +203,14 @@ Sample World::sample(double t) const {
   parts_->method->look(parts_->model, parts_->state, t, bodies, contacts);
   Sample sample;
   sample.t = t;
+  const WorldDef& def = parts_->model.def;
+  const bool matrix = def.method == "course" && def.course.attitude == "matrix";
   for (const RigidBody& body : bodies)
-    sample.bodies.push_back({body.x, body.q, body.v, body.omega});
+    sample.bodies.push_back({.x = body.x,
+                             .q = body.q,
+                             .v = body.v,
+                             .omega = body.omega,
+                             .R = matrix ? std::optional(body.R) : std::nullopt});
   for (const Contact& c : contacts)
     sample.contacts.push_back({c.a, c.b, c.point.p, c.point.n, c.point.separation, c.force});
   sample.kinetic = kineticEnergy(bodies);

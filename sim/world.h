@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@ struct BodySample {
   Quat q = Quat::Identity();
   Vec3 v = Vec3::Zero();
   Vec3 omega = Vec3::Zero();
+  /// With attitude = "matrix": R as it was integrated; q is the rotation nearest to it.
+  std::optional<Mat3> R = {};
 };
 
 /// One contact point at one time: separation ≤ 1e-9 m, or a force. Force [N] on a, friction

@@ -1,9 +1,16 @@
 #include "sim/method/model.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace tumble {
+
+std::string shortNumber(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+  return {text, end.ptr};
+}
 
 Surface Model::surface(int a, int b) const {
   const BodyDef &p = def.bodies[a], &q = def.bodies[b];

@@ -78,6 +78,9 @@ class Refusal : public std::invalid_argument {
   std::string where_;
 };
 
+/// Six digits of a number, for refusals and reasons; the same in every locale.
+std::string shortNumber(double value);
+
 /// Restitution and friction of a pair of bodies.
 struct Surface {
   double restitution = 0.0, friction = 0.0;

@@ -100,6 +100,8 @@ void Course::settle() {
   if (report_.stopped) return;
   const std::size_t firstEvent = report_.events.size();
   findTouching();
+  stopUntouchable();
+  if (report_.stopped) return;
   if (collides()) {
     respond();
     findNear();  // what was hit has a new way before it
@@ -124,6 +126,23 @@ void Course::findTouching() {
   for (const Contact& c : touching_)
     report_.certificate.max_penetration =
         std::max(report_.certificate.max_penetration, -c.point.separation);
+}
+
+void Course::stopUntouchable() {
+  const bool matrix = model_.def.course.attitude == "matrix";
+  const auto held = [&](int body) {
+    return std::any_of(model_.pivots.begin(), model_.pivots.end(),
+                       [&](const Pivot& pivot) { return pivot.body == body; });
+  };
+  for (const Contact& c : touching_) {
+    if (!matrix && !held(c.a) && !held(c.b)) continue;
+    const std::string &a = model_.def.bodies[c.a].name, &b = model_.def.bodies[c.b].name;
+    report_.stopped = true;
+    report_.reason = "\"" + a + "\" touches \"" + b + "\" at " + shortNumber(state_.t) + " s; " +
+                     (matrix ? "with attitude = \"matrix\" nothing may touch"
+                             : "a body with a pivot has no contacts");
+    return;
+  }
 }
 
 double Course::accelerationScale() const {

@@ -45,6 +45,9 @@ class Course {
  private:
   void findNear();
   void findTouching();
+  /// Stops the run where something touches that cannot have contacts here: a body with a pivot, or
+  /// one whose attitude is a matrix.
+  void stopUntouchable();
   bool collides() const;
   void respond();
   double restitutionNow(const Contact& contact) const;

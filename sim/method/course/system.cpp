@@ -101,22 +101,41 @@ Offers CourseSystem::offers() const {
   return contacts_.empty() ? bodies_.offers() : Offers{.split = Split::Rough, .lie = true};
 }
 
-void CourseSystem::kick(double /*t*/, double h, std::span<double> y) const {
-  load(y);
-  addLedger(contactRates(), h, y);
-  bodies_.push(h, work_, withoutLedger(y));
+Vec3 CourseSystem::heldMomentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Pivot& pivot : model_.pivots) sum += work_[pivot.body].P;
+  return sum;
 }
 
-// The work of outer forces is done where points move: here, by the trapezoidal rule.
+// A pivot gives what the momentum of its body gains, in kicks and in drifts.
+void CourseSystem::kick(double /*t*/, double h, std::span<double> y) const {
+  load(y);
+  Ledger rates = contactRates();
+  for (const Pivot& pivot : model_.pivots) rates.impulse -= work_[pivot.body].force;
+  addLedger(rates, h, y);
+  const Vec3 before = heldMomentum();
+  bodies_.push(h, work_, withoutLedger(y));
+  addLedger({.impulse = heldMomentum() - before}, 1.0, y);
+}
+
+// The work of outer forces is done where points move: here, by Simpson's rule.
 void CourseSystem::drift(double t, double h, std::span<double> y) const {
-  const auto power = [&] {
-    if (model_.def.forces.empty()) return 0.0;
-    unpack(y, work_);
+  if (model_.def.forces.empty() && model_.pivots.empty())
+    return bodies_.drift(t, h, withoutLedger(y));
+  const auto power = [&](std::span<const double> at) {
+    unpack(at, work_);
     return powerOfForces(model_.def.forces, work_);
   };
-  const double before = power();
+  const double before = power(y);
+  const Vec3 momentum = heldMomentum();
+  half_.assign(y.begin(), y.end());
+  bodies_.drift(t, 0.5 * h, withoutLedger(std::span<double>(half_)));
+  const double between = power(half_);
   bodies_.drift(t, h, withoutLedger(y));
-  addLedger({.work = 0.5 * (before + power())}, h, y);
+  const double after = power(y);
+  addLedger(
+      {.work = h / 6.0 * (before + 4.0 * between + after), .impulse = heldMomentum() - momentum},
+      1.0, y);
 }
 
 void CourseSystem::jet(double t, std::span<const double> y, int order,

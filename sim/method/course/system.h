@@ -69,10 +69,13 @@ class CourseSystem : public System {
   void load(std::span<const double> y) const;
   /// Rates of the ledger while work_ is as loaded, but for the power of outer forces.
   Ledger contactRates() const;
+  /// P [kg m/s] of all bodies with a pivot in work_.
+  Vec3 heldMomentum() const;
 
   const Model& model_;
   BodySystem bodies_;
   mutable std::vector<RigidBody> work_;
+  mutable std::vector<double> half_;  ///< Y half-way through a drift
   mutable std::vector<Contact> contacts_;
   mutable RestForces rest_;
   mutable Vec3 outerForce_ = Vec3::Zero();
