@@ -60,7 +60,9 @@ Vec3 rounded(const Triple& a) {
 
 Polhode::Polhode(const Mat3& Ibody, const Quat& q, const Vec3& momentum) : L(momentum.norm()) {
   // The angular momentum along the principal axes.
-  const auto [moments, axes] = principal(Ibody);
+  const std::pair<Vec3, Mat3> frame = principal(Ibody);
+  const Vec3& moments = frame.first;
+  const Mat3& axes = frame.second;
   Triple L_P = inBody(q, momentum);
   if (!Ibody.isDiagonal(0.0)) {
     const Vec3 turned = axes.transpose() * rounded(L_P);
