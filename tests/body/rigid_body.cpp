@@ -110,3 +110,28 @@ TEST_CASE("a fixed body ignores forces and impulses and keeps its motion") {
   CHECK((rate[0] == 0.2 && rate[2] == -0.1));
   CHECK(rate[5] == Approx(0.5 * 1.5 * table.q.w()));
 }
+
+// Oracle: Σ m (|r|² 1 − r rᵀ) over points that turn with the body. Measured 5e-16, allowed 1e-14.
+TEST_CASE("the inertia tensor is constant in the body and turns with it in the world") {
+  const double mass[] = {1.0, 2.0, 0.5, 3.0};
+  const Vec3 points_B[] = {{0.3, -0.1, 0.2}, {-0.4, 0.2, 0.1}, {0.1, 0.5, -0.3}, {0.0, -0.2, -0.1}};
+  const auto tensor = [&](const Mat3& R) {
+    Mat3 sum = Mat3::Zero();
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 r = R * points_B[i];
+      sum += mass[i] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+    }
+    return sum;
+  };
+  RigidBody body = makeBody({6.5, tensor(Mat3::Identity())});
+  const Mat3 constant = body.Ibody;
+  for (const double angle : {0.4, 1.7, -2.9}) {
+    body.q = fromAxisAngle({1.0, -2.0, 0.7}, angle);
+    updateDerived(body);
+    const Mat3 world = tensor(body.R);
+    CHECK((body.R * body.Ibody * body.R.transpose() - world).norm() < 1e-14);
+    CHECK((body.Iinv * world - Mat3::Identity()).norm() < 1e-14);
+    CHECK((world - constant).norm() > 0.1);
+    CHECK(body.Ibody == constant);
+  }
+}

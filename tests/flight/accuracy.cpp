@@ -55,12 +55,12 @@ double error(const RigidBody& start) {
   return angleTo(exact, q) / (kEpsilon * start.omega.norm() * kTime);
 }
 
-/// What half a unit in the last place of every number of the start changes at most, in the same
-/// units.
+/// The floor of the error, in the same units: what half a unit in the last place of every number of
+/// the start changes, and ε, what rounding the attitude itself may.
 double conditioning(const RigidBody& start, Draw& draw) {
   const FreeTop<Quad> top = freeTop<Quad>(start);
   const auto exact = ThetaTop(top).attitude(Quad(kTime));
-  double most = 0.0;
+  double most = kEpsilon;
   for (int n = 0; n < 3; ++n) {
     FreeTop<Quad> other = top;
     for (Quad& I : other.I) I *= 1 + Quad(draw(0, 1) < 0.5 ? -0.5 : 0.5) * kEpsilon;
