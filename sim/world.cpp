@@ -4,9 +4,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
 #include "sim/method/method.h"
+#include "sim/neighbours.h"
 
 namespace tumble {
 namespace {
@@ -35,6 +35,19 @@ MassProperties massOf(const BodyDef& def, std::size_t i) {
   return properties;
 }
 
+/// A particle has a mass of its own, and nothing that turns.
+RigidBody particleOf(const BodyDef& def, std::size_t i) {
+  const std::string name = "particle \"" + def.name + "\" ";
+  need(def.mass.has_value(), bodyPath(i), name + "needs a mass");
+  need(*def.mass > 0.0 && std::isfinite(*def.mass), bodyPath(i, ".mass"),
+       "the mass of " + name + "must be a positive number of kg");
+  need(!def.inertia, bodyPath(i, ".inertia"), name + "has no inertia");
+  RigidBody body = makeParticle(*def.mass);
+  body.x = def.position;
+  setVelocity(body, def.velocity, Vec3::Zero());
+  return body;
+}
+
 RigidBody bodyOf(const BodyDef& def, std::size_t i) {
   need(def.position.allFinite(), bodyPath(i, ".position"), "a position must be finite");
   need(def.velocity.allFinite(), bodyPath(i, ".velocity"), "a velocity must be finite");
@@ -46,6 +59,12 @@ RigidBody bodyOf(const BodyDef& def, std::size_t i) {
        "friction must be 0 or more");
   need(def.orientation.coeffs().allFinite() && def.orientation.norm() > 0.0,
        bodyPath(i, ".orientation"), "an orientation must be a quaternion that is not zero");
+  if (std::holds_alternative<Particle>(def.shape)) {
+    need(def.angularVelocity.isZero(0.0), bodyPath(i, ".angular_velocity"),
+         "a particle does not turn");
+    need(def.orientation.vec().isZero(0.0), bodyPath(i, ".orientation"),
+         "a particle has no orientation");
+  }
   const Pose pose{def.position, def.orientation.normalized()};
   if (const HalfSpace* plane = std::get_if<HalfSpace>(&def.shape)) {
     need(def.fixed, bodyPath(i, ".fixed"), "a plane is always fixed");
@@ -56,32 +75,13 @@ RigidBody bodyOf(const BodyDef& def, std::size_t i) {
          "a plane can only move within itself, and turn about its normal");
   }
   if (def.fixed) return makeFixedBody(pose, def.velocity, def.angularVelocity);
+  if (std::holds_alternative<Particle>(def.shape)) return particleOf(def, i);
   RigidBody body = makeBody(massOf(def, i));
   body.x = pose.x;
   body.q = pose.q;
   updateDerived(body);
   setVelocity(body, def.velocity, def.angularVelocity);
   return body;
-}
-
-/// Refuses pairs that the table of shapes does not know, and bodies that overlap at the start.
-void checkPairs(const Model& model, std::span<const RigidBody> bodies) {
-  const double touch = ContactTolerance::forSize(model.size).touch;
-  for (int b = 0; b < model.count(); ++b) {
-    for (int a = b + 1; a < model.count(); ++a) {
-      if (model.fixed(a) && model.fixed(b)) continue;
-      const std::string &nameA = model.def.bodies[a].name, &nameB = model.def.bodies[b].name;
-      need(canCollide(model.shapes[a], model.shapes[b]), bodyPath(a, ".shape"),
-           "\"" + nameA + "\" (" + std::string(shapeName(model.shapes[a])) + ") and \"" + nameB +
-               "\" (" + std::string(shapeName(model.shapes[b])) +
-               ") could meet, and there is no contact rule for these two shapes");
-      const double gap =
-          separation(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose());
-      need(gap >= -touch, bodyPath(a, ".position"),
-           "\"" + nameA + "\" overlaps \"" + nameB + "\" by " + shortNumber(-gap) +
-               " m at the start; move them apart");
-    }
-  }
 }
 
 /// Lengths of a shape are positive and finite; a plane has a direction.
@@ -96,6 +96,8 @@ void checkShape(const Shape& shape, std::size_t i) {
         if constexpr (std::is_same_v<S, Cylinder>) return positive(s.r) && positive(s.h);
         if constexpr (std::is_same_v<S, HalfSpace>)
           return std::abs(s.n.norm() - 1.0) < 1e-9 && std::isfinite(s.d);
+        if constexpr (std::is_same_v<S, Particle>)
+          return s.radius >= 0.0 && std::isfinite(s.radius);
       },
       shape);
   need(sound, bodyPath(i, ".shape"), "lengths of a shape must be positive, a plane's normal unit");
@@ -114,6 +116,7 @@ void checkForces(const WorldDef& def) {
     if (const auto* wind = std::get_if<UniformWind>(&force)) exists(wind->body, true);
     if (const auto* drag = std::get_if<LinearDrag>(&force)) exists(drag->body, true);
     if (const auto* point = std::get_if<PointForce>(&force)) exists(point->body, false);
+    if (const auto* field = std::get_if<CircularField>(&force)) exists(field->body, true);
     if (const auto* spring = std::get_if<Spring>(&force)) {
       exists(spring->a, false);
       exists(spring->b, true);
@@ -144,7 +147,7 @@ double worldSize(const Model& model) {
     const double radius = boundingRadius(model.shapes[i]);
     if (std::isfinite(radius)) size = std::max(size, radius + model.def.bodies[i].position.norm());
   }
-  return size;
+  return size > 0.0 ? size : 1.0;
 }
 
 }  // namespace
@@ -170,14 +173,15 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   need(!def.bodies.empty(), "bodies", "a scene needs at least one body");
   for (std::size_t i = 0; i < def.bodies.size(); ++i) {
     checkShape(def.bodies[i].shape, i);
-    model.shapes.push_back(def.bodies[i].shape);
+    model.shapes.push_back(contactShape(def.bodies[i].shape));
+    if (touchesAnything(def.bodies[i].shape)) model.solid.push_back(static_cast<int>(i));
     state.bodies.push_back(bodyOf(def.bodies[i], i));
   }
   checkForces(def);
   addPivots(model, state.bodies);
   model.size = worldSize(model);
   parts_->method->check(model, state.bodies);
-  checkPairs(model, state.bodies);
+  checkNeighbours(model, state.bodies);
 
   for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
   Certificate& books = parts_->report.certificate;
@@ -236,19 +240,15 @@ std::vector<std::string> World::features(bool used) const {
     if (here == used) list.emplace_back(name);
   };
   add(!model.def.gravity.isZero(0.0), "gravity");
-  add(model.count() > 1, "contact");
+  add(model.solid.size() > 1, "contact");
   add(anyBody([](const BodyDef& b) { return b.restitution > 0.0; }), "restitution");
-  bool friction = false;
-  for (int b = 0; b < model.count() && !friction; ++b)
-    for (int a = b + 1; a < model.count() && !friction; ++a)
-      friction = model.surface(a, b).friction > 0.0;
-  add(friction, "friction");
+  add(anyFriction(model), "friction");
   add(anyBody([](const BodyDef& b) {
         return b.fixed && !(b.velocity.isZero(0.0) && b.angularVelocity.isZero(0.0));
       }),
       "moving fixed bodies");
   add(!model.pivots.empty(), "pivots");
-  const char* kForces[] = {"wind", "drag", "point forces", "springs"};
+  const char* kForces[] = {"wind", "drag", "point forces", "springs", "circular fields"};
   for (std::size_t kind = 0; kind < std::size(kForces); ++kind)
     add(std::any_of(model.def.forces.begin(), model.def.forces.end(),
                     [&](const Force& f) { return f.index() == kind; }),

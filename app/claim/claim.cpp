@@ -18,6 +18,7 @@ constexpr Check kChecks[] = {
     {"arcs",
      "between hits a parabola; each hit changes momentum, spin and energy as its impulse says",
      arcRows, arcPaths},
+    {"orbit", "in a circular field, radius and phase of the exact orbit", orbitRows, orbitPaths},
     {"tower-forces", "contact forces carry the weight above; nothing drifts or sinks", towerRows,
      nullptr},
 };

@@ -27,6 +27,8 @@ std::optional<Vec3> freeAcceleration(const WorldDef& world, int body) {
       acceleration += point->force / mass;
     } else if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
       if (drag->body == body || drag->body == kNoBody) return {};
+    } else if (const CircularField* field = std::get_if<CircularField>(&force)) {
+      if (field->body == body || field->body == kNoBody) return {};
     } else if (const Spring* spring = std::get_if<Spring>(&force)) {
       if (spring->a == body || spring->b == body) return {};
     }
@@ -38,6 +40,7 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n) {
   const Vec3 n_B = q.conjugate() * n;
   if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return sphere->r;
   if (const Box* box = std::get_if<Box>(&shape)) return box->half.dot(n_B.cwiseAbs());
+  if (const Particle* particle = std::get_if<Particle>(&shape)) return particle->radius;
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
     return 0.5 * cylinder->h * std::abs(n_B.y()) + cylinder->r * std::hypot(n_B.x(), n_B.z());
   return 0.0;

@@ -11,6 +11,8 @@ std::vector<ClaimRow> restTimeRows(const Scene&, const Recording&);
 std::vector<ClaimRow> firstHitRows(const Scene&, const Recording&);
 std::vector<ClaimRow> arcRows(const Scene&, const Recording&);
 std::vector<Curve> arcPaths(const Scene&, const Recording&);
+std::vector<ClaimRow> orbitRows(const Scene&, const Recording&);
+std::vector<Curve> orbitPaths(const Scene&, const Recording&);
 std::vector<ClaimRow> towerRows(const Scene&, const Recording&);
 
 }  // namespace tumble

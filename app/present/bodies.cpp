@@ -6,6 +6,13 @@
 
 namespace tumble {
 
+namespace {
+
+/// Radius of the dot that stands for a point, relative to the extent of the scene.
+constexpr double kDot = 0.003;
+
+}  // namespace
+
 Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
                     const Vec3& near, double extent) {
   Instance instance;
@@ -21,6 +28,9 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
   } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&body.shape)) {
     instance.form = Form::Cylinder;
     instance.scale = {cylinder->r, 0.5 * cylinder->h, cylinder->r};
+  } else if (const Particle* particle = std::get_if<Particle>(&body.shape)) {
+    instance.form = Form::Sphere;
+    instance.scale.setConstant(particle->radius > 0.0 ? particle->radius : kDot * extent);
   } else if (const HalfSpace* plane = std::get_if<HalfSpace>(&body.shape)) {
     // A slab whose upper face lies in the plane, below the foot of `near`.
     const double thickness = 0.01 * extent;
@@ -67,7 +77,9 @@ std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& r
   const std::vector<BodyDef>& bodies = scene.world.bodies;
   for (const Sample& sample : recording.samples)
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (moves(bodies[i]))
+      if (std::holds_alternative<Particle>(bodies[i].shape))
+        points.push_back(sample.bodies[i].x);
+      else if (moves(bodies[i]))
         addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
 
   Aabb motion{Vec3::Zero(), Vec3::Zero()};

@@ -8,7 +8,8 @@
 
 namespace tumble {
 
-/// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide.
+/// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide,
+/// a particle without a radius a dot of a small share of it.
 Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
                     const Vec3& near, double extent);
 

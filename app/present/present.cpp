@@ -148,7 +148,7 @@ void Presenter::addGhosts(Picture& picture) const {
       if (!moves(body)) continue;
       const Colour colour = single ? ramp(timeStops(), u) : colours_[i];
       Instance ghost = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
-                                  framing_.centre, framing_.radius);
+                                  framing_.centre, 3.0 * framing_.radius);
       ghost.finish = Finish::Ghost;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);

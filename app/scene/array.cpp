@@ -13,8 +13,11 @@ struct GeneratorRow {
   const char* kind;
   Generator (*make)(Section& array, Weather& weather);
 };
-constexpr std::array<GeneratorRow, 4> kGenerators = {
-    {{"row", makeRow}, {"tower", makeTower}, {"wall", makeWall}, {"rain", makeRain}}};
+constexpr std::array<GeneratorRow, 5> kGenerators = {{{"row", makeRow},
+                                                      {"tower", makeTower},
+                                                      {"wall", makeWall},
+                                                      {"rain", makeRain},
+                                                      {"fountain", makeFountain}}};
 
 const GeneratorRow* readKind(Section& section) {
   std::vector<std::string> kinds;
@@ -100,8 +103,9 @@ void readArray(const Node& node, const std::string& index, Section& root,
 
 }  // namespace
 
-void readArrays(Section& root, const Materials& materials, std::uint64_t seed, Bodies& bodies) {
-  Weather weather{seed, {}};
+void readArrays(Section& root, const Materials& materials, std::uint64_t seed, const Vec3& gravity,
+                Bodies& bodies) {
+  Weather weather{seed, gravity, {}};
   int index = 0;
   for (const Node& node : root.tables("array"))
     readArray(node, std::to_string(index++), root, materials, weather, bodies);

@@ -10,8 +10,13 @@ namespace tumble {
 ///   kind = "tower"  upward from base, the middle of its underside; each stands on the one before
 ///   kind = "wall"   rows × columns of boxes in running bond; see wall.cpp
 ///   kind = "rain"   count bodies at random places and orientations; see rain.cpp
+///   kind = "fountain"  count bodies thrown from base with speed, within spread of the vertical,
+///   each
+///                   as old as a draw from ages says: x = base + v a + ½ g a²; see fountain.cpp
 /// vary = { restitution = [0, 1], "shape.sphere" = [0.1, 0.2] } makes numbers of the template run
 /// evenly from the first copy to the last.
-void readArrays(Section& root, const Materials& materials, std::uint64_t seed, Bodies& bodies);
+/// @param gravity  [m/s²], for what is thrown
+void readArrays(Section& root, const Materials& materials, std::uint64_t seed, const Vec3& gravity,
+                Bodies& bodies);
 
 }  // namespace tumble

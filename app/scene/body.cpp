@@ -41,6 +41,14 @@ void checkPlane(Section& section, BodyDef& def) {
       section.complain(key, "a plane stands where its [nx, ny, nz, d] says; leave this out");
 }
 
+// A particle has a mass and no inertia, and it does not turn.
+void checkParticle(Section& section, const BodyDef& def) {
+  if (!def.mass && !def.fixed) section.complain("mass", "missing; a particle needs a mass");
+  for (const char* key : {"inertia", "orientation", "angular_velocity", "angular_velocity_body"})
+    if (section.find(key))
+      section.complain(key, "a particle has no inertia and does not turn; leave this out");
+}
+
 }  // namespace
 
 BodyEntry readBody(Section& section, const std::string& name, const Materials& materials) {
@@ -72,6 +80,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   if (const std::optional<Shape> shape = readShape(section)) {
     def.shape = *shape;
     if (std::get_if<HalfSpace>(&def.shape)) checkPlane(section, def);
+    if (std::get_if<Particle>(&def.shape)) checkParticle(section, def);
     if (section.good() && !def.fixed && !def.mass && !def.density)
       section.complain("mass",
                        "missing; a moving body needs a mass, or a density of its own or its "
@@ -109,6 +118,18 @@ std::optional<int> Bodies::named(Section& section, std::string_view key) const {
   for (const BodyDef& body : scene_.world.bodies) names.push_back(body.name);
   section.complain(key, "unknown body " + quoted(name) + hint(name, names));
   return {};
+}
+
+std::vector<int> Bodies::group(Section& section, std::string_view key) const {
+  std::string name;
+  if (!section.find(key)) return {kNoBody};
+  section.read(key, name);
+  std::vector<int> copies;
+  for (auto it = indices_.find(name + ".0"); it != indices_.end();
+       it = indices_.find(name + "." + std::to_string(copies.size())))
+    copies.push_back(it->second);
+  if (copies.empty()) copies.push_back(named(section, key).value_or(kNoBody));
+  return copies;
 }
 
 void readBodies(Section& root, const Materials& materials, Bodies& bodies) {

@@ -32,6 +32,9 @@ class Bodies {
   /// Index of the body that the key of the section names; nothing, after a complaint, if there is
   /// none.
   std::optional<int> named(Section& section, std::string_view key) const;
+  /// Indices of the copies of the array, or of the one body, that the key names; kNoBody, for
+  /// every body, without the key or after a complaint.
+  std::vector<int> group(Section& section, std::string_view key) const;
 
  private:
   Scene& scene_;

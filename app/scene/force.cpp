@@ -1,6 +1,7 @@
 #include "app/scene/force.h"
 
 #include <array>
+#include <type_traits>
 
 namespace tumble {
 
@@ -19,20 +20,32 @@ void need(Section& section, std::string_view key) {
   if (!section.find(key)) section.complain(key, "missing");
 }
 
-Force readWind(Section& section, const Bodies& bodies) {
+Force readWind(Section& section, const Bodies&) {
   UniformWind wind;
-  wind.body = bodyOf(section, "body", bodies, false);
   need(section, "force");
   section.read("force", wind.force, any("N"));
   return wind;
 }
 
-Force readDrag(Section& section, const Bodies& bodies) {
+Force readDrag(Section& section, const Bodies&) {
   LinearDrag drag;
-  drag.body = bodyOf(section, "body", bodies, false);
   section.read("linear", drag.linear, notNegative("N s/m"));
   section.read("angular", drag.angular, notNegative("N m s"));
   return drag;
+}
+
+Force readField(Section& section, const Bodies&) {
+  CircularField field;
+  Vec3 axis = Vec3::UnitY();
+  double rate = 1.0;
+  need(section, "rate");
+  section.read("centre", field.centre, any("m"));
+  section.read("axis", axis, any({}));
+  section.read("rate", rate, {-1e6, 1e6, false, "rad/s"});
+  if (axis.stableNorm() < 1e-9)
+    section.complain("axis", "expected three numbers that are not all zero");
+  field.rotation = rate * axis.stableNormalized();
+  return field;
 }
 
 Force readPoint(Section& section, const Bodies& bodies) {
@@ -63,8 +76,24 @@ struct ForceRow {
   const char* kind;
   Force (*read)(Section&, const Bodies&);
 };
-constexpr std::array<ForceRow, 4> kForces = {
-    {{"wind", readWind}, {"drag", readDrag}, {"point", readPoint}, {"spring", readSpring}}};
+constexpr std::array<ForceRow, 5> kForces = {{{"wind", readWind},
+                                              {"drag", readDrag},
+                                              {"point", readPoint},
+                                              {"spring", readSpring},
+                                              {"field", readField}}};
+
+// Appends the force; one that acts on centres of mass once for each body that `body` names.
+template <class Kind>
+void append(const Kind& force, Section& section, const Bodies& bodies, std::vector<Force>& forces) {
+  if constexpr (std::is_same_v<Kind, PointForce> || std::is_same_v<Kind, Spring>) {
+    forces.push_back(force);
+  } else {
+    for (const int body : bodies.group(section, "body")) {
+      forces.push_back(force);
+      std::get<Kind>(forces.back()).body = body;
+    }
+  }
+}
 
 }  // namespace
 
@@ -72,23 +101,21 @@ void readForces(Section& root, const Bodies& bodies, std::vector<Force>& forces)
   std::vector<std::string> kinds;
   for (const ForceRow& row : kForces) kinds.emplace_back(row.kind);
 
+  int number = 0;
   for (const Node& node : root.tables("force")) {
-    const std::string index = std::to_string(forces.size());
-    Section section(node, "force." + index, root.findings(), "forces[" + index + "]");
+    Section section(node, "force." + std::to_string(number++), root.findings(),
+                    "forces[" + std::to_string(forces.size()) + "]");
     std::string kind, name;
     section.read("name", name);
     section.read("kind", kind, kinds);
     if (!section.find("kind")) section.complain("kind", "missing" + hint("", kinds));
-    Force force = UniformWind{};
-    bool known = false;
+    // Without a kind nobody can tell which keys are known.
     for (const ForceRow& row : kForces) {
       if (kind != row.kind) continue;
-      force = row.read(section, bodies);
-      known = true;
+      std::visit([&](const auto& force) { append(force, section, bodies, forces); },
+                 row.read(section, bodies));
+      section.finish();
     }
-    // Without a kind nobody can tell which keys are known.
-    if (known) section.finish();
-    forces.push_back(force);
   }
 }
 

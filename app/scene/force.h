@@ -1,4 +1,4 @@
-// [[force]]: wind, drag, point forces and springs.
+// [[force]]: wind, drag, point forces, springs and fields.
 #pragma once
 
 #include "app/scene/body.h"

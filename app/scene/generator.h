@@ -17,6 +17,7 @@ struct Drop {
 /// What the copies of an array share with other arrays of the scene.
 struct Weather {
   std::uint64_t seed = 0;
+  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
   std::vector<Drop> drops;
 };
 
@@ -34,6 +35,7 @@ Generator makeRow(Section& array, Weather& weather);
 Generator makeTower(Section& array, Weather& weather);
 Generator makeWall(Section& array, Weather& weather);
 Generator makeRain(Section& array, Weather& weather);
+Generator makeFountain(Section& array, Weather& weather);
 
 inline constexpr int kMostCopies = 100'000;
 

@@ -38,7 +38,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   readPairs(root, materials, scene.world.pairs);
   Bodies bodies(scene);
   readBodies(root, materials, bodies);
-  readArrays(root, materials, scene.seed, bodies);
+  readArrays(root, materials, scene.seed, scene.world.gravity, bodies);
   if (bodies.next() == 0 && root.good())
     root.complain("body", "missing; a scene needs at least one [[body]] or [[array]]");
   readForces(root, bodies, scene.world.forces);

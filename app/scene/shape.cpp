@@ -30,6 +30,13 @@ std::optional<Shape> readCylinder(Section& shape) {
   return Cylinder{size[0], size[1]};
 }
 
+// A particle's radius is a key of the body.
+std::optional<Shape> readParticle(Section& body) {
+  Particle particle;
+  body.read("radius", particle.radius, kLength);
+  return particle;
+}
+
 std::optional<Shape> readPlane(Section& shape) {
   double p[4] = {0.0, 1.0, 0.0, 0.0};
   shape.read("plane", p, 4, any("m"));
@@ -55,6 +62,11 @@ std::optional<Shape> readShape(Section& body) {
   const Node* node = body.find("shape");
   if (!node) {
     body.complain("shape", "missing, for example shape = { sphere = 0.1 }");
+    return {};
+  }
+  if (const std::string* word = node->as<std::string>()) {
+    if (*word == "particle") return readParticle(body);
+    body.complain("shape", "expected \"particle\" or a table, found " + describe(*node));
     return {};
   }
   Section section(*node, body.path("shape"), body.findings());

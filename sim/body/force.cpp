@@ -11,9 +11,10 @@ using ConstBodies = std::span<const RigidBody>;
 /// Calls act(body) for the one body of a force, or for each, fixed ones left out.
 template <class Span, class Action>
 void forEachFree(Span bodies, int index, Action act) {
-  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
-    if ((index == kNoBody || index == i) && !bodies[i].fixed()) act(bodies[i]);
-  }
+  const std::size_t first = index == kNoBody ? 0 : index;
+  const std::size_t end = index == kNoBody ? bodies.size() : first + 1;
+  for (std::size_t i = first; i < end; ++i)
+    if (!bodies[i].fixed()) act(bodies[i]);
 }
 
 /// One end of a spring: where it is and how fast it moves. World frame.
@@ -73,6 +74,11 @@ void add(const Spring& spring, Bodies bodies) {
   if (isFree(bodies, spring.b)) applyForce(bodies[spring.b], pull.b.p, -pull.force);
 }
 
+void add(const CircularField& field, Bodies bodies) {
+  forEachFree(bodies, field.body,
+              [&](RigidBody& body) { body.force += body.M * acceleration(field, body.x); });
+}
+
 double power(const UniformWind& wind, ConstBodies bodies) {
   double sum = 0.0;
   forEachFree(bodies, wind.body, [&](const RigidBody& body) { sum += wind.force.dot(body.v); });
@@ -101,10 +107,22 @@ double power(const Spring& spring, ConstBodies bodies) {
   return sum;
 }
 
-/// Energy [J] that a force has stored; only springs do.
+double power(const CircularField&, ConstBodies) {
+  return 0.0;
+}
+
+/// Energy [J] that a force has stored; only springs and fields do.
 double stored(const Spring& spring, ConstBodies bodies) {
   const double stretch = pullOf(spring, bodies).stretch;
   return 0.5 * spring.stiffness * stretch * stretch;
+}
+
+double stored(const CircularField& field, ConstBodies bodies) {
+  double sum = 0.0;
+  forEachFree(bodies, field.body, [&](const RigidBody& body) {
+    sum += 0.5 * body.M * field.rotation.cross(body.x - field.centre).squaredNorm();
+  });
+  return sum;
 }
 
 template <class OtherForce>
@@ -117,6 +135,10 @@ double stored(const OtherForce&, ConstBodies) {
 bool dependsOnVelocity(const Force& force) {
   if (const Spring* spring = std::get_if<Spring>(&force)) return spring->damping != 0.0;
   return std::holds_alternative<LinearDrag>(force);
+}
+
+Vec3 acceleration(const CircularField& field, const Vec3& x) {
+  return field.rotation.cross(field.rotation.cross(x - field.centre));
 }
 
 void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<RigidBody> bodies) {

@@ -42,7 +42,20 @@ struct Spring {
   double rest = 0.0;                                        ///< [m]
 };
 
-using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring>;
+/// The field whose particles run in circles about an axis (slides SD5, SF4), as a force on the
+/// centre of mass of one body, or of each:
+///   f = m Ω × (Ω × (x − c)) = −m |Ω|² r⊥,   potential ½ m |Ω × (x − c)|².
+/// Every orbit across the axis has the period 2π/|Ω|; where v = Ω × r it is a circle.
+struct CircularField {
+  int body = kNoBody;
+  Vec3 centre = Vec3::Zero();     ///< [m] c, a point of the axis
+  Vec3 rotation = Vec3::UnitZ();  ///< [rad/s] Ω, along the axis
+};
+
+/// Acceleration [m/s²] that the field gives at x [m]; linear in x − c.
+Vec3 acceleration(const CircularField& field, const Vec3& x);
+
+using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring, CircularField>;
 
 /// True if the force changes with velocities: drag, and a spring with damping.
 bool dependsOnVelocity(const Force& force);
@@ -54,7 +67,7 @@ void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<Rig
 /// Σ (½ M v² + ½ ω·I ω) [J].
 double kineticEnergy(std::span<const RigidBody> bodies);
 
-/// Σ −m g·x + Σ ½ k (l − rest)² [J].
+/// Σ −m g·x + Σ ½ k (l − rest)² + Σ ½ m |Ω × (x − c)|² [J].
 double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
                        std::span<const RigidBody> bodies);
 

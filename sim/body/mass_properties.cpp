@@ -31,6 +31,10 @@ double volumeOf(const HalfSpace&) {
   return kInfinity;
 }
 
+double volumeOf(const Particle&) {
+  return 0.0;
+}
+
 /// Principal moments [m²] about the body axes, per mass.
 Vec3 momentsOf(const Sphere& s) {
   return Vec3::Constant(0.4 * s.r * s.r);
@@ -50,6 +54,10 @@ Vec3 momentsOf(const Cylinder& c) {
 
 Vec3 momentsOf(const HalfSpace&) {
   throw std::invalid_argument("shape: a half-space has no finite mass");
+}
+
+Vec3 momentsOf(const Particle&) {
+  return Vec3::Zero();
 }
 
 /// Symmetric and positive definite.
@@ -85,6 +93,18 @@ RigidBody makeBody(const MassProperties& mass) {
   body.Ibody = mass.inertia;
   body.IbodyInv = inverseInertia(mass.inertia);
   updateDerived(body);
+  return body;
+}
+
+RigidBody makeParticle(double mass) {
+  requireMass(mass);
+  RigidBody body;
+  body.particle = true;
+  body.M = mass;
+  body.invM = 1.0 / mass;
+  body.Ibody.setZero();
+  body.IbodyInv.setZero();
+  body.Iinv.setZero();
   return body;
 }
 

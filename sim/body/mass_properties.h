@@ -13,12 +13,12 @@ struct MassProperties {
   Mat3 inertia = Mat3::Identity();  ///< [kg m²]
 };
 
-/// Volume [m³] of a shape; infinity for a half-space.
+/// Volume [m³] of a shape; infinity for a half-space, 0 for a particle.
 double volume(const Shape& shape);
 
 /// Closed forms for a solid of uniform density with the given mass [kg] > 0:
 ///   sphere 2/5 m r²;  box m/12 (b² + c²), full edges;  cylinder ½ m r² about Y, m/12 (3r² + h²)
-///   across.
+///   across;  particle 0.
 /// @throws std::invalid_argument for a half-space, or if mass is not a positive finite number.
 MassProperties solidMass(const Shape& shape, double mass);
 
@@ -30,6 +30,10 @@ Mat3 inverseInertia(const Mat3& I);
 /// @throws std::invalid_argument if mass is not positive and finite or inertia not symmetric and
 /// positive definite.
 RigidBody makeBody(const MassProperties& mass);
+
+/// A point of mass [kg] at rest at the origin: no inertia, no turning (slides SD2–SD5).
+/// @throws std::invalid_argument if mass is not positive and finite.
+RigidBody makeParticle(double mass);
 
 /// A body of infinite mass at a pose, moving on steadily with v [m/s] and omega [rad/s].
 RigidBody makeFixedBody(const Pose& pose, const Vec3& v = Vec3::Zero(),

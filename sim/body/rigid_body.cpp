@@ -10,6 +10,10 @@ namespace {
 
 /// Everything that follows from R and the momenta.
 void derive(RigidBody& body) {
+  if (body.particle) {
+    body.v = body.invM * body.P;
+    return;
+  }
   if (body.fixed()) {
     body.Iinv.setZero();
     return;
@@ -94,14 +98,14 @@ void stateDerivative(const RigidBody& body, std::span<double> ydot, Attitude att
 void applyImpulse(RigidBody& body, const Vec3& p, const Vec3& J) {
   if (body.fixed()) return;
   body.P += J;
-  body.L += (p - body.x).cross(J);
+  if (!body.particle) body.L += (p - body.x).cross(J);
   updateDerived(body);
 }
 
 void applyForce(RigidBody& body, const Vec3& p, const Vec3& f) {
   if (body.fixed()) return;
   body.force += f;
-  body.torque += (p - body.x).cross(f);
+  if (!body.particle) body.torque += (p - body.x).cross(f);
 }
 
 void setVelocity(RigidBody& body, const Vec3& v, const Vec3& omega) {

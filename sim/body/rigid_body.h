@@ -83,10 +83,11 @@ inline Vec3 pointVelocity(const RigidBody& body, const Vec3& p) {
 }
 
 /// Adds the impulse J [N·s] at world point p [m]:  P += J,  L += (p − x) × J. A fixed body ignores
-/// it.
+/// it, a particle its moment.
 void applyImpulse(RigidBody& body, const Vec3& p, const Vec3& J);
 
-/// Adds the force f [N] at world point p [m] to force and torque. A fixed body ignores it.
+/// Adds the force f [N] at world point p [m] to force and torque. A fixed body ignores it,
+/// a particle its torque.
 void applyForce(RigidBody& body, const Vec3& p, const Vec3& f);
 
 /// Sets P and L so that v and omega become the given ones, and updates what is derived.

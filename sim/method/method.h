@@ -28,12 +28,13 @@ std::span<const Method> methods();
 const Method* findMethod(std::string_view name);
 
 /// Pairs of bodies worth a closer look: boxes overlap, and not both are fixed.
-/// `boxes` has one entry per body.
+/// `boxes` has one entry per body of model.solid.
 std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
                                            std::span<const Aabb> boxes);
 
-/// Boxes that hold each body during the next `h` seconds at its present velocity, grown by the
-/// way a constant acceleration of size `acceleration` [m/s²] goes, and by `margin` [m].
+/// Boxes that hold each body of model.solid during the next `h` seconds at its present velocity,
+/// grown by the way a constant acceleration of size `acceleration` [m/s²] goes, and by `margin`
+/// [m].
 void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
                 double acceleration, double margin, std::vector<Aabb>& boxes);
 

@@ -89,7 +89,8 @@ struct Surface {
 /// The checked definition, ready to run: constant bodies, shapes, surfaces, forces and settings.
 struct Model {
   WorldDef def;
-  std::vector<Shape> shapes;  ///< per body
+  std::vector<Shape> shapes;  ///< per body, as others meet it
+  std::vector<int> solid;     ///< the bodies that can touch anything, in order
   std::vector<Pivot> pivots;  ///< of the bodies that have one
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 

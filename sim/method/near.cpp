@@ -8,15 +8,17 @@ std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
                                            std::span<const Aabb> boxes) {
   state.broadPhase.update(boxes);
   std::vector<std::pair<int, int>> near;
-  for (const auto& [i, j] : state.broadPhase.pairs())
-    if (!(model.fixed(i) && model.fixed(j))) near.emplace_back(i, j);
+  for (const auto& [i, j] : state.broadPhase.pairs()) {
+    const int b = model.solid[i], a = model.solid[j];
+    if (!(model.fixed(a) && model.fixed(b))) near.emplace_back(b, a);
+  }
   return near;
 }
 
 void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
                 double acceleration, double margin, std::vector<Aabb>& boxes) {
   boxes.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (const int i : model.solid) {
     const RigidBody& body = bodies[i];
     const double radius = boundingRadius(model.shapes[i]);
     const double turn = std::isfinite(radius) ? body.omega.norm() * radius * h : 0.0;

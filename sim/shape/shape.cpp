@@ -30,6 +30,10 @@ Vec3 halfWidths(const HalfSpace&, const Mat3&) {
   return Vec3::Constant(kInfinity);
 }
 
+Vec3 halfWidths(const Particle& p, const Mat3&) {
+  return Vec3::Constant(p.radius);
+}
+
 double radius(const Sphere& s) {
   return s.r;
 }
@@ -41,6 +45,9 @@ double radius(const Cylinder& c) {
 }
 double radius(const HalfSpace&) {
   return kInfinity;
+}
+double radius(const Particle& p) {
+  return p.radius;
 }
 
 std::string_view name(const Sphere&) {
@@ -55,6 +62,9 @@ std::string_view name(const Cylinder&) {
 std::string_view name(const HalfSpace&) {
   return "half-space";
 }
+std::string_view name(const Particle&) {
+  return "particle";
+}
 
 }  // namespace
 
@@ -67,6 +77,16 @@ Aabb boundingBox(const Shape& shape, const Pose& pose, double margin) {
   const Vec3 width = std::visit([&](const auto& s) { return halfWidths(s, R); }, shape);
   const Vec3 reach = width + Vec3::Constant(margin);
   return {pose.x - reach, pose.x + reach};
+}
+
+Shape contactShape(const Shape& shape) {
+  const Particle* particle = std::get_if<Particle>(&shape);
+  return particle && particle->radius > 0.0 ? Shape(Sphere{particle->radius}) : shape;
+}
+
+bool touchesAnything(const Shape& shape) {
+  const Particle* particle = std::get_if<Particle>(&shape);
+  return !particle || particle->radius > 0.0;
 }
 
 double boundingRadius(const Shape& shape) {

@@ -29,7 +29,13 @@ struct HalfSpace {
   double d = 0.0;  ///< [m]
 };
 
-using Shape = std::variant<Sphere, Box, Cylinder, HalfSpace>;
+/// Point of mass that does not turn. It meets nothing, unless it has a radius [m]: then it is a
+/// ball to all others.
+struct Particle {
+  double radius = 0.0;
+};
+
+using Shape = std::variant<Sphere, Box, Cylinder, HalfSpace, Particle>;
 
 /// Axis-aligned box in the world frame [m].
 struct Aabb {
@@ -39,12 +45,19 @@ struct Aabb {
   }
 };
 
-/// "sphere", "box", "cylinder" or "half-space".
+/// "sphere", "box", "cylinder", "half-space" or "particle".
 std::string_view shapeName(const Shape& shape);
 
 /// Smallest axis-aligned box around a posed shape, grown by `margin` [m] on every side.
 /// A half-space has none: ±infinity.
 Aabb boundingBox(const Shape& shape, const Pose& pose, double margin = 0.0);
+
+/// What others meet when they touch the shape: the ball of a particle that has a radius; every
+/// other shape as it is.
+Shape contactShape(const Shape& shape);
+
+/// False for what meets nothing: a particle without a radius.
+bool touchesAnything(const Shape& shape);
 
 /// Radius [m] of the ball about the body origin that holds the shape; infinity for a half-space.
 double boundingRadius(const Shape& shape);

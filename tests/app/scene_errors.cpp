@@ -115,7 +115,21 @@ TEST_CASE("a wrong second body is named by its number until it has a name") {
       {"[[body]]\nshape = { spere = 1 }\nmass = 1", "9:11", "did you mean 'sphere'?"},
       {"[[body]]\nshape = { hull = [[0, 0, 0]] }\nmass = 1", "9:11",
        "body.1.shape.hull: unknown key; valid: sphere, box, cylinder, plane"},
-      {"[[body]]\nshape = \"particle\"\nmass = 1", "9:9", "expected a table, found the string"},
+      {"[[body]]\nshape = \"partikle\"\nmass = 1", "9:9",
+       "body.1.shape: expected \"particle\" or a table, found the string"},
+      {"[[body]]\nshape = \"particle\"", "8:1", "body.1.mass: missing; a particle needs a mass"},
+      {"[[body]]\nshape = \"particle\"\nmaterial = \"rubber\"", "8:1",
+       "body.1.mass: missing; a particle needs a mass"},
+      {"[[body]]\nshape = \"particle\"\nmass = 1\nradius = -1", "11:10",
+       "body.1.radius: expected a number [m]"},
+      {"[[body]]\nshape = \"particle\"\nmass = 1\nangular_velocity = [0, 1, 0]", "11:20",
+       "body.1.angular_velocity: a particle has no inertia and does not turn"},
+      {"[[body]]\nshape = \"particle\"\nmass = 1\norientation = [1, 0, 0, 0]", "11:15",
+       "body.1.orientation: a particle has no inertia and does not turn"},
+      {"[[body]]\nshape = \"particle\"\nmass = 1\ninertia = [1, 1, 1]", "11:11",
+       "body.1.inertia: a particle has no inertia and does not turn"},
+      {"[[body]]\nshape = { sphere = 1 }\nmass = 1\nradius = 1", "11:1",
+       "body.1.radius: unknown key"},
   };
   for (const Wrong& wrong : table) check(kRight + wrong.text + "\n", wrong);
 }
@@ -166,6 +180,9 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[[force]]\nkind = \"spring\"\na = \"ball\"\nb = \"ball\"\nstiffness = 1", "11:5",
        "force.0.b: both ends are on the same body"},
       {"[[force]]\nkind = \"spring\"\na = \"ball\"", "8:1", "force.0.stiffness: missing"},
+      {"[[force]]\nkind = \"field\"", "8:1", "force.0.rate: missing"},
+      {"[[force]]\nkind = \"field\"\nrate = 1\naxis = [0, 0, 0]", "11:8",
+       "force.0.axis: expected three numbers that are not all zero"},
       {"[force]\nkind = \"wind\"", "8:1", "an array of tables, [[force]], found a table"},
   };
   for (const Wrong& wrong : table) check(kRight + wrong.text + "\n", wrong);
