@@ -93,7 +93,8 @@ TEST_CASE("an orbit under gravity turns about the point where field and gravity 
 }
 
 TEST_CASE("without a circular field the claim fails") {
-  const std::vector<ClaimRow> rows = orbitRows("[[body]]\nshape = { sphere = 1 }\nmass = 1\n");
+  const std::vector<ClaimRow> rows =
+      orbitRows("[world]\n[[body]]\nshape = { sphere = 1 }\nmass = 1\n");
   REQUIRE(rows.size() == 1);
   CHECK(!rows[0].holds());
 }

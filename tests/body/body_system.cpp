@@ -155,3 +155,23 @@ TEST_CASE("every integrator leaves unit quaternions") {
     CHECK(std::abs(system.bodies()[0].q.norm() - 1.0) < 1e-15);
   }
 }
+
+// Slide SD11. Oracle: what "rigid" means. 27 points of a spinning brick, through RK4 and the unit
+// quaternion it leaves. Measured 1.1e-16 m, allowed 1e-12 m.
+TEST_CASE("the points of a rigid body keep their distances") {
+  BodySystem system(kGravity, {}, {tumblingBrick()});
+  std::vector<Vec3> points_B;
+  for (double x : {-0.1, 0.0, 0.1})
+    for (double y : {-0.2, 0.0, 0.2})
+      for (double z : {-0.3, 0.0, 0.3}) points_B.emplace_back(x, y, z);
+  double worst = 0.0;
+  for (int round = 0; round < 10; ++round) {
+    run("rk4", system, 1e-3, 10'000);
+    const RigidBody& body = system.bodies()[0];
+    for (const Vec3& p : points_B)
+      for (const Vec3& o : points_B)
+        worst = std::max(worst, std::abs((body.R * (p - o)).norm() - (p - o).norm()));
+  }
+  CAPTURE(worst);
+  CHECK(worst < 1e-12);
+}

@@ -40,6 +40,7 @@ TEST_CASE("a particle falls through the ground, unless it has a radius") {
     def.duration = 2.0;
     def.bodies = {ground(0.0, 0.5), particle("point", {0.0, 1.0, 0.0}),
                   particle("grain", {1.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, 0.1)};
+    def.bodies[2].friction = 0.5;
     World world(def);
     const Sample end = run(world);
     CHECK(end.bodies[1].x.y() == Approx(1.0 - 0.5 * 9.81 * 4.0).epsilon(1e-2));
