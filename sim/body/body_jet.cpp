@@ -66,8 +66,10 @@ double powerCoefficient(const std::vector<double>& a, double p, const std::vecto
 /// Calls act(index) for the one body of a force, or for each, fixed ones left out.
 template <class Action>
 void forEachFree(std::span<const RigidBody> bodies, int index, Action act) {
-  for (int i = 0; i < static_cast<int>(bodies.size()); ++i)
-    if ((index == kNoBody || index == i) && !bodies[i].fixed()) act(i);
+  const int first = index == kNoBody ? 0 : index;
+  const int end = index == kNoBody ? static_cast<int>(bodies.size()) : index + 1;
+  for (int i = first; i < end; ++i)
+    if (!bodies[i].fixed()) act(i);
 }
 
 }  // namespace
@@ -82,6 +84,8 @@ bool BodyJet::covers(std::span<const Force> forces, std::span<const RigidBody> b
   for (const Force& force : forces) {
     if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
       if (held(drag->body)) return false;
+    } else if (const CircularField* field = std::get_if<CircularField>(&force)) {
+      if (held(field->body)) return false;
     } else if (const Spring* spring = std::get_if<Spring>(&force)) {
       if (held(spring->a) || (spring->b != kNoBody && held(spring->b))) return false;
     } else if (!std::holds_alternative<UniformWind>(force) &&
@@ -222,6 +226,12 @@ void BodyJet::addForces(int k) {
         s.torque_B[k] -= drag->angular * s.omega_B[k];
         power_[k] -= perMomentum * bodies_[i].invM * cauchy<double>(s.P, s.P, k, dotOf) +
                      drag->angular * cauchy<double>(s.omega_B, s.omega_B, k, dotOf);
+      });
+    } else if (const CircularField* field = std::get_if<CircularField>(&forces_[n])) {
+      // Linear in x − c: coefficient by coefficient.
+      forEachFree(bodies_, field->body, [&](int i) {
+        const Vec3 x = k == 0 ? Vec3(series_[i].x[0] - field->centre) : series_[i].x[k];
+        series_[i].force[k] += bodies_[i].M * field->rotation.cross(field->rotation.cross(x));
       });
     } else if (const Spring* spring = std::get_if<Spring>(&forces_[n])) {
       addSpring(*spring, springs_[n], k);

@@ -105,6 +105,8 @@ TEST_CASE("in the circular field Euler spirals out as its step says and midpoint
   CHECK(radiusAfterTurn("euler") == Approx(std::pow(1.01, 31.5)).epsilon(1e-12));
   CHECK(std::abs(radiusAfterTurn("midpoint") - 1.0) < 2e-3);
   CHECK(std::abs(radiusAfterTurn("rk4") - 1.0) < 2e-6);
+  // Order 12 of the series: what is left out is h¹³/13! a step.
+  CHECK(std::abs(radiusAfterTurn("taylor") - 1.0) < 1e-13);
 }
 
 // Oracle: closed form of the oscillation across the axis and of the fall along it. Measured 2e-12
