@@ -23,7 +23,7 @@ class Arrows {
     float base[3], radius, reach[3], colour[3];
   };
   gl::Program program_;
-  Mesh mesh_ = makeArrow(16);
+  MeshBuffer mesh_ = makeArrow(16);
   gl::Object buffer_;
   std::vector<Shaft> shafts_;
 };

@@ -26,8 +26,8 @@ constexpr double kSamePlace = 0.2;
 
 /// Whether two bodies of one form stand in one place, but for `slack` [m] at their surfaces.
 bool coincide(const Instance& a, const Instance& b, double slack) {
-  if (a.form != b.form || (a.position - b.position).squaredNorm() > slack * slack ||
-      a.scale != b.scale)
+  if (a.form != b.form || a.facets != b.facets ||
+      (a.position - b.position).squaredNorm() > slack * slack || a.scale != b.scale)
     return false;
   const double angle = a.orientation.angularDistance(b.orientation);
   return angle * reachOf(a) <= slack;
@@ -55,7 +55,7 @@ Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
                            {"body.frag", "GLASS"},       {"depth.frag", "DEPTH_ONLY"},
                            {"depth.frag", "FROM_LIGHT"}, {"above.frag", "FROM_ABOVE"},
                            {"above.frag", "CAST"}};
-  const char* surfaces[kSurfaces] = {"BOX", "CYLINDER", "BALL"};
+  const char* surfaces[kSurfaces] = {"BOX", "CYLINDER", "BALL", "FACETS"};
   for (const Row& row : rows) {
     for (const char* surface : surfaces) {
       programs_.emplace_back(shaders, "body.vert", row.fragment,
@@ -89,7 +89,38 @@ Bodies::Shape Bodies::shapeOf(const Instance& instance, const Stage& stage) {
   return radius <= kSmallBallRadius ? kSmallBall : radius <= kBallRadius ? kBall : kLargeBall;
 }
 
+Bodies::Surface Bodies::surfaceOf(int shape) {
+  if (shape >= kShapes) return kFacetSurface;
+  return shape == kBox ? kBoxSurface : shape == kCylinder ? kCylinderSurface : kBallSurface;
+}
+
+// Surfaces stay in OpenGL's memory while pictures show them.
+void Bodies::keepSurfaces(const Picture& picture) {
+  std::map<std::shared_ptr<const Facets>, MeshBuffer> kept;
+  for (const Instance& body : picture.instances) {
+    if (body.form != Form::Facets || kept.count(body.facets) > 0) continue;
+    auto known = surfaces_.extract(body.facets);
+    if (known.empty())
+      kept.emplace(body.facets, makeFacets(*body.facets));
+    else
+      kept.insert(std::move(known));
+  }
+  surfaces_ = std::move(kept);
+}
+
 void Bodies::load(const Picture& picture, const Stage& stage) {
+  // Each facetted surface is a shape of its own, numbered in the order of the picture.
+  keepSurfaces(picture);
+  drawn_.clear();
+  for (const MeshBuffer& mesh : meshes_) drawn_.push_back(&mesh);
+  std::map<const Facets*, int> numbers;
+  for (const Instance& body : picture.instances) {
+    if (body.form != Form::Facets) continue;
+    const int next = static_cast<int>(drawn_.size());
+    if (numbers.emplace(body.facets.get(), next).second)
+      drawn_.push_back(&surfaces_.at(body.facets));
+  }
+
   // Groups and shapes stand together; within them glass goes from far to near, all else keeps its
   // order.
   struct Key {
@@ -103,14 +134,16 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
     if (superseded(picture.instances, i, stage)) continue;
     const Group group = groupOf(instance, stage, picture.floor.visible);
     const double distance = (instance.position - stage.projection.eye()).norm();
-    order.push_back({group, shapeOf(instance, stage), group == kGlass ? -distance : 0.0, i});
+    const int shape = instance.form == Form::Facets ? numbers.at(instance.facets.get())
+                                                    : shapeOf(instance, stage);
+    order.push_back({group, shape, group == kGlass ? -distance : 0.0, i});
   }
   std::stable_sort(order.begin(), order.end(), [](const Key& a, const Key& b) {
     return std::tie(a.group, a.shape, a.nearness) < std::tie(b.group, b.shape, b.nearness);
   });
 
   instances_.clear();
-  ranges_ = {};
+  for (std::vector<Range>& ranges : ranges_) ranges.assign(drawn_.size(), {});
   for (const Key& key : order) {
     const Instance& from = picture.instances[key.index];
     const Eigen::Vector3f centre = stage.toStage(from.position), half = from.scale.cast<float>();
@@ -126,24 +159,22 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
                           {half.x(), half.y(), half.z()},
                           ghost ? 0.0f : 1.0f,
                           {from.colour[0], from.colour[1], from.colour[2]},
-                          0.0f});
+                          static_cast<float>(thicknessOf(from))});
   }
   gl::upload(GL_ARRAY_BUFFER, buffer_, instances_);
 }
 
 void Bodies::draw(Use use, Group group, float opacity, float keepAbove) const {
-  for (int shape = 0; shape < kShapes; ++shape) {
+  for (int shape = 0; shape < static_cast<int>(drawn_.size()); ++shape) {
     const Range& range = ranges_[group][shape];
     if (range.count == 0) continue;
-    const int surface = shape == kBox        ? kBoxSurface
-                        : shape == kCylinder ? kCylinderSurface
-                                             : kBallSurface;
+    const Surface surface = surfaceOf(shape);
     const gl::Program& program = programs_[static_cast<std::size_t>(use) * kSurfaces + surface];
     program.use();
     program.set("opacity", opacity);
     program.set("keepAbove", keepAbove);
     program.set("layer", group == kGhost ? kGhostLayer : 0.0f);
-    meshes_[shape].draw(buffer_, kStride, kAttributes, range.first, range.count);
+    drawn_[shape]->draw(buffer_, kStride, kAttributes, range.first, range.count);
   }
 }
 

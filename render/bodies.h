@@ -1,8 +1,10 @@
-// Boxes, cylinders and balls: sorted into batches once per picture, drawn by every pass that needs
-// them.
+// Boxes, cylinders, balls and facets: sorted into batches once per picture, drawn by every pass
+// that needs them.
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,14 +33,14 @@ class Bodies {
   enum Group { kSolid, kSunk, kGhost, kGlass, kGroups };
   enum Shape { kBox, kCylinder, kSmallBall, kBall, kLargeBall, kShapes };
   enum Use { kSolidUse, kGhostUse, kGlassUse, kDepthUse, kLightUse, kAboveUse, kCastUse, kUses };
-  enum Surface { kBoxSurface, kCylinderSurface, kBallSurface, kSurfaces };
+  enum Surface { kBoxSurface, kCylinderSurface, kBallSurface, kFacetSurface, kSurfaces };
 
   /// As instance.glsl reads it.
   struct Body {
     float centre[3], alpha;
     float turn[4];
     float half[3], present;
-    float colour[3], unused;
+    float colour[3], thickness;
   };
   struct Range {
     int first = 0, count = 0;
@@ -46,13 +48,17 @@ class Bodies {
 
   static Group groupOf(const Instance& instance, const Stage& stage, bool hasFloor);
   static Shape shapeOf(const Instance& instance, const Stage& stage);
+  static Surface surfaceOf(int shape);
+  void keepSurfaces(const Picture& picture);
   void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
 
-  std::vector<gl::Program> programs_;  // [use][surface]
-  std::vector<Mesh> meshes_;           // [shape]
+  std::vector<gl::Program> programs_;                             // [use][surface]
+  std::vector<MeshBuffer> meshes_;                                // [shape]
+  std::map<std::shared_ptr<const Facets>, MeshBuffer> surfaces_;  // of the latest picture
+  std::vector<const MeshBuffer*> drawn_;  // [shape], facets behind the others
   gl::Object buffer_;
   std::vector<Body> instances_;
-  std::array<std::array<Range, kShapes>, kGroups> ranges_{};
+  std::array<std::vector<Range>, kGroups> ranges_;  // [group][shape]
 };
 
 }  // namespace tumble

@@ -19,7 +19,7 @@ class FloorDisc {
 
  private:
   gl::Program program_;
-  Mesh disc_ = makeDisc(48);
+  MeshBuffer disc_ = makeDisc(48);
 };
 
 }  // namespace tumble

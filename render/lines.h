@@ -23,7 +23,7 @@ class Lines {
     float start[3], end[3], seams[4], colour[3], halfWidth;
   };
   gl::Program program_;
-  Mesh quad_ = makeQuad();
+  MeshBuffer quad_ = makeQuad();
   gl::Object buffer_;
   std::vector<Stretch> stretches_;
 };

@@ -9,12 +9,15 @@ namespace {
 
 using Eigen::Vector3f;
 
+/// Place of `toEdge` in body.vert, beyond those of instances.
+constexpr GLuint kToEdge = 8;
+
 struct Triangles {
   std::vector<Vertex> vertices;
   std::vector<GLuint> indices;
 
   GLuint add(float x, float y, float z, const Vector3f& normal, float w = 0.0f) {
-    vertices.push_back({{x, y, z, w}, normal});
+    vertices.push_back({{x, y, z, w}, normal, Vector3f::Zero()});
     return static_cast<GLuint>(vertices.size() - 1);
   }
   void triangle(GLuint a, GLuint b, GLuint c) { indices.insert(indices.end(), {a, b, c}); }
@@ -22,7 +25,7 @@ struct Triangles {
     triangle(a, b, c);
     triangle(a, c, d);
   }
-  Mesh mesh() const { return Mesh(vertices, indices); }
+  MeshBuffer mesh() const { return MeshBuffer(vertices, indices); }
 };
 
 float turn(int i, int sides) {
@@ -38,7 +41,7 @@ void enable(GLuint location, GLint size, int stride, std::size_t offset, GLuint 
 
 }  // namespace
 
-Mesh::Mesh(const std::vector<Vertex>& vertices, const std::vector<GLuint>& indices)
+MeshBuffer::MeshBuffer(const std::vector<Vertex>& vertices, const std::vector<GLuint>& indices)
     : array_(gl::makeVertexArray()),
       vertices_(gl::makeBuffer()),
       indices_(gl::makeBuffer()),
@@ -48,10 +51,11 @@ Mesh::Mesh(const std::vector<Vertex>& vertices, const std::vector<GLuint>& indic
   gl::upload(GL_ELEMENT_ARRAY_BUFFER, indices_, indices);
   enable(0, 4, sizeof(Vertex), offsetof(Vertex, position), 0);
   enable(1, 3, sizeof(Vertex), offsetof(Vertex, normal), 0);
+  enable(kToEdge, 3, sizeof(Vertex), offsetof(Vertex, toEdge), 0);
 }
 
-void Mesh::draw(GLuint buffer, int stride, const std::vector<InstanceAttribute>& attributes,
-                int first, int count) const {
+void MeshBuffer::draw(GLuint buffer, int stride, const std::vector<InstanceAttribute>& attributes,
+                      int first, int count) const {
   if (count == 0) return;
   glBindVertexArray(array_);
   glBindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -62,7 +66,17 @@ void Mesh::draw(GLuint buffer, int stride, const std::vector<InstanceAttribute>&
   glDrawElementsInstanced(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr, count);
 }
 
-Mesh makeBox() {
+MeshBuffer makeFacets(const Facets& facets) {
+  Triangles surface;
+  for (const Facets::Corner& corner : facets.corners) {
+    const Vector3f& p = corner.position;
+    surface.indices.push_back(surface.add(p.x(), p.y(), p.z(), corner.normal));
+    surface.vertices.back().toEdge = corner.toEdge;
+  }
+  return surface.mesh();
+}
+
+MeshBuffer makeBox() {
   Triangles box;
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
@@ -82,7 +96,7 @@ Mesh makeBox() {
   return box.mesh();
 }
 
-Mesh makeCylinder(int sides) {
+MeshBuffer makeCylinder(int sides) {
   Triangles cylinder;
   const GLuint top = cylinder.add(0, 1, 0, Vector3f::UnitY());
   const GLuint bottom = cylinder.add(0, -1, 0, -Vector3f::UnitY());
@@ -101,7 +115,7 @@ Mesh makeCylinder(int sides) {
   return cylinder.mesh();
 }
 
-Mesh makeDisc(int sides) {
+MeshBuffer makeDisc(int sides) {
   Triangles disc;
   const float radius = std::sqrt(turn(1, sides) / std::sin(turn(1, sides)));
   for (int i = 0; i < sides; ++i)
@@ -112,7 +126,7 @@ Mesh makeDisc(int sides) {
   return disc.mesh();
 }
 
-Mesh makeQuad() {
+MeshBuffer makeQuad() {
   Triangles quad;
   quad.add(0, -1, 0, Vector3f::UnitZ());
   quad.add(1, -1, 0, Vector3f::UnitZ());
@@ -122,7 +136,7 @@ Mesh makeQuad() {
   return quad.mesh();
 }
 
-Mesh makeArrow(int sides) {
+MeshBuffer makeArrow(int sides) {
   // Half section from base to tip: radius 0 none, 1 shaft, 2 head; at 0 base, 1 back of the head, 2
   // tip; the normal of the piece, outward and along.
   struct Piece {

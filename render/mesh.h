@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "render/gl.h"
+#include "render/picture.h"
 
 namespace tumble {
 
 struct Vertex {
   Eigen::Vector4f position;  ///< w is free
   Eigen::Vector3f normal;
+  Eigen::Vector3f toEdge = Eigen::Vector3f::Zero();  ///< of facets
 };
 
 /// An attribute that differs from instance to instance: its place in the shader, size and offset in
@@ -23,9 +25,9 @@ struct InstanceAttribute {
 };
 
 /// Triangles in OpenGL's memory; counter-clockwise from outside.
-class Mesh {
+class MeshBuffer {
  public:
-  Mesh(const std::vector<Vertex>& vertices, const std::vector<GLuint>& indices);
+  MeshBuffer(const std::vector<Vertex>& vertices, const std::vector<GLuint>& indices);
   /// Draws `count` copies with attributes from a buffer of `stride` floats per instance.
   void draw(GLuint buffer, int stride, const std::vector<InstanceAttribute>& attributes, int first,
             int count) const;
@@ -35,10 +37,11 @@ class Mesh {
   GLsizei count_ = 0;
 };
 
-Mesh makeBox();                ///< corners at ±1
-Mesh makeCylinder(int sides);  ///< radius 1 about Y, from −1 to 1
-Mesh makeDisc(int sides);      ///< in x and y, as large as the unit circle, facing +z
-Mesh makeQuad();               ///< x from 0 to 1, y from −1 to 1
-Mesh makeArrow(int sides);     ///< for arrow.vert
+MeshBuffer makeFacets(const Facets& facets);
+MeshBuffer makeBox();                ///< corners at ±1
+MeshBuffer makeCylinder(int sides);  ///< radius 1 about Y, from −1 to 1
+MeshBuffer makeDisc(int sides);      ///< in x and y, as large as the unit circle, facing +z
+MeshBuffer makeQuad();               ///< x from 0 to 1, y from −1 to 1
+MeshBuffer makeArrow(int sides);     ///< for arrow.vert
 
 }  // namespace tumble

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,19 @@ namespace tumble {
 /// sRGB in [0, 1].
 using Colour = std::array<float, 3>;
 
-enum class Form { Box, Sphere, Cylinder };
+/// The surface of a solid as triangles, in its own frame [m], counter-clockwise from outside.
+struct Facets {
+  struct Corner {
+    Eigen::Vector3f position, normal;
+    /// Distance [m] to the three edges of its triangle, as far as they are to be drawn; else large.
+    Eigen::Vector3f toEdge;
+  };
+  std::vector<Corner> corners;  ///< three a triangle
+  double reach = 0.0;           ///< [m] of the farthest corner from the origin
+  double thickness = 0.0;       ///< [m] half of the shortest edge of the box around it
+};
+
+enum class Form { Box, Sphere, Cylinder, Facets };
 enum class Finish { Solid, Ghost, Glass };
 
 /// One drawn body.
@@ -27,6 +40,7 @@ struct Instance {
   Colour colour = {0.23f, 0.44f, 0.66f};
   float alpha = 1.0f;  ///< of a ghost
   Finish finish = Finish::Solid;
+  std::shared_ptr<const Facets> facets = nullptr;  ///< of Form::Facets, drawn `scale` times as large
 };
 
 /// Lowest point of a body [m], world.
@@ -34,6 +48,9 @@ double lowestPoint(const Instance& instance);
 
 /// Radius of a ball about the body's position that holds it [m].
 double reachOf(const Instance& instance);
+
+/// Half the shortest edge of the box around a body [m].
+double thicknessOf(const Instance& instance);
 
 enum class Stroke { Solid, Dotted };
 

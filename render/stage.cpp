@@ -24,7 +24,7 @@ Eigen::Vector3d keyLight(const Projection& projection) {
 /// Half the mean least half extent, within limits that keep it visible and local.
 double reachOfContact(const Picture& picture) {
   double sum = 0.0;
-  for (const Instance& body : picture.instances) sum += body.scale.minCoeff();
+  for (const Instance& body : picture.instances) sum += thicknessOf(body);
   const double mean =
       picture.instances.empty() ? 0.0 : sum / static_cast<double>(picture.instances.size());
   return std::clamp(mean, 0.02 * picture.radius, 0.08 * picture.radius);

@@ -6,6 +6,10 @@ in vec3 bodyPoint;
 flat in vec3 bodyNormal, half_B, centre, colour;
 flat in vec4 turnBody;
 flat in float alpha;
+#ifdef FACETS
+in vec3 smoothNormal, toEdge;
+flat in float thickness;
+#endif
 uniform float opacity;            // of the whole pass
 uniform float keepAbove;          // as in body.vert
 layout(location = 0) out vec4 result;
@@ -50,6 +54,14 @@ Surface cylinderSurface() {
                  edgeLine(toRim / max(fwidth(toRim), 1e-6), smallest, pixel));
 }
 
+#ifdef FACETS
+Surface facetSurface() {
+  vec3 pixels = toEdge / max(fwidth(toEdge), 1e-6);
+  return Surface(worldPoint, rotate(turnBody, normalize(smoothNormal)), bodyPoint,
+                 edgeLine(min(pixels.x, min(pixels.y, pixels.z)), thickness, pixelSize(worldPoint)));
+}
+#endif
+
 // Where the sight line through this fragment first meets the exact sphere.
 Surface ballSurface() {
   vec3 sight = normalize(worldPoint - eye.xyz), p = worldPoint - centre;
@@ -62,7 +74,7 @@ Surface ballSurface() {
 
 // A band about the z axis of the body, that its spin can be seen; left out on bodies too small for it.
 vec3 spinMark(vec3 base, Surface s) {
-#ifdef BOX
+#if defined(BOX) || defined(FACETS)
   return base;
 #else
   float distance = abs(s.point_B.z) - 0.16 * half_B.x, pixel = pixelSize(s.point);
@@ -71,7 +83,7 @@ vec3 spinMark(vec3 base, Surface s) {
 #endif
 }
 
-// Share of this fragment on the wanted side of the floor; boxes and cylinders are cut before.
+// Share of this fragment on the wanted side of the floor; all but balls are cut before.
 float kept(Surface s) {
 #ifdef BALL
   return keepAbove == 0.0 ? 1.0 : clamp(0.5 + keepAbove * s.point.y / max(fwidth(s.point.y), 1e-6), 0.0, 1.0);
@@ -85,6 +97,8 @@ void main() {
   Surface s = boxSurface();
 #elif defined(BALL)
   Surface s = ballSurface();
+#elif defined(FACETS)
+  Surface s = facetSurface();
 #else
   Surface s = cylinderSurface();
 #endif

@@ -1,4 +1,4 @@
-// Boxes, cylinders and balls, seen from the camera, from the light or from above.
+// Boxes, cylinders, balls and facets, seen from the camera, from the light or from above.
 #include "stage.glsl"
 #include "instance.glsl"
 
@@ -9,6 +9,11 @@ out vec2 heights;                 // lowest and highest point of the body above 
 flat out vec3 bodyNormal, half_B, centre, colour;
 flat out vec4 turnBody;
 flat out float alpha, present;
+#ifdef FACETS
+layout(location = 8) in vec3 cornerToEdge;
+out vec3 smoothNormal, toEdge;
+flat out float thickness;
+#endif
 uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below, 0 all
 uniform float layer;              // depth by which each body lies before the one drawn before it
 
@@ -39,6 +44,11 @@ void main() {
   turnBody = turn;
   bodyNormal = cornerNormal;
   bodyPoint = corner * half_B;
+#ifdef FACETS
+  smoothNormal = cornerNormal;
+  toEdge = cornerToEdge * half_B.x;
+  thickness = albedo.w;
+#endif
 #ifdef BALL
   worldPoint = ballCorner(centre, half_B.x);
   float rise = half_B.x * sqrt(max(0.0, 1.0 - dot(corner, corner)));
