@@ -1,7 +1,6 @@
 #include "sim/neighbours.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <vector>
 
@@ -11,13 +10,6 @@
 
 namespace tumble {
 namespace {
-
-/// Six digits, the same in every locale.
-std::string shortNumber(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
-  return {text, end.ptr};
-}
 
 std::string bodyPath(int body, const char* field) {
   return "bodies[" + std::to_string(body) + "]" + field;
@@ -34,23 +26,15 @@ std::vector<int> kindsOf(const Model& model, SameKind same) {
   return kinds;
 }
 
-/// Refuses shapes that could meet and that the table of shape pairs does not know.
-void checkShapes(const Model& model) {
-  const std::vector<int> kinds = kindsOf(model, [&](int a, int b) {
-    return model.shapes[a].index() == model.shapes[b].index() && model.fixed(a) == model.fixed(b);
-  });
-  for (const int a : model.solid) {
-    for (const int b : kinds) {
-      if (b >= a) break;
-      const Shape &shapeA = model.shapes[a], &shapeB = model.shapes[b];
-      if ((model.fixed(a) && model.fixed(b)) || canCollide(shapeA, shapeB)) continue;
-      throw Refusal(bodyPath(a, ".shape"),
-                    "\"" + model.def.bodies[a].name + "\" (" + std::string(shapeName(shapeA)) +
-                        ") and \"" + model.def.bodies[b].name + "\" (" +
-                        std::string(shapeName(shapeB)) +
-                        ") could meet, and there is no contact rule for these two shapes");
-    }
-  }
+/// Refuses bodies that stand so near that they could meet without a contact rule.
+void checkRule(const Model& model, int a, int b) {
+  const Shape &shapeA = model.shapes[a], &shapeB = model.shapes[b];
+  if (canCollide(shapeA, shapeB)) return;
+  throw Refusal(bodyPath(a, ".shape"),
+                "\"" + model.def.bodies[a].name + "\" (" + std::string(shapeName(shapeA)) +
+                    ") stands so near \"" + model.def.bodies[b].name + "\" (" +
+                    std::string(shapeName(shapeB)) +
+                    ") that they could meet, and there is no contact rule for these two shapes");
 }
 
 /// Refuses bodies that overlap.
@@ -64,6 +48,7 @@ void checkOverlaps(const Model& model, std::span<const RigidBody> bodies) {
   for (const auto& [i, j] : near.pairs()) {
     const int b = model.solid[i], a = model.solid[j];
     if (model.fixed(a) && model.fixed(b)) continue;
+    checkRule(model, a, b);
     const double gap =
         separation(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose());
     if (gap >= -touch) continue;
@@ -76,7 +61,6 @@ void checkOverlaps(const Model& model, std::span<const RigidBody> bodies) {
 }  // namespace
 
 void checkNeighbours(const Model& model, std::span<const RigidBody> bodies) {
-  checkShapes(model);
   checkOverlaps(model, bodies);
 }
 

@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// Holds the start of a world against two rules: any two shapes that could meet have a contact
-/// rule, and no two bodies overlap. Bodies that touch to rounding are fine.
+/// Holds the start of a world against two rules: no two bodies overlap, and two whose shapes have
+/// no contact rule stand apart with the boxes around them. Bodies that touch to rounding are fine.
 /// @param bodies  at the start, in the order of the model
 /// @throws Refusal with the names of the first pair that breaks a rule, and the depth.
 void checkNeighbours(const Model& model, std::span<const RigidBody> bodies);

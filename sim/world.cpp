@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "sim/collide/overlap.h"
 #include "sim/contact/impact.h"
 #include "sim/method/method.h"
 #include "sim/neighbours.h"
@@ -19,20 +20,31 @@ void need(bool holds, const std::string& where, const std::string& what) {
   if (!holds) throw Refusal(where, what);
 }
 
+/// What the inertia method of a body finds.
+template <class Find>
+auto byMethod(const BodyDef& def, std::size_t i, Find find) {
+  need(findInertiaMethod(def.inertiaBy), bodyPath(i, ".inertia_by"),
+       "no inertia method is called \"" + def.inertiaBy + "\"");
+  need(def.samples > 0, bodyPath(i, ".samples"), "samples must be 1 or more");
+  try {
+    return find(def);
+  } catch (const std::invalid_argument& reason) {
+    throw Refusal(bodyPath(i, ".samples"), "\"" + def.name + "\": " + reason.what());
+  }
+}
+
 /// Mass and inertia as the author wants them; mass wins over density, inertia over the shape's.
-MassProperties massOf(const BodyDef& def, std::size_t i) {
+MassProperties checkedMass(const BodyDef& def, std::size_t i) {
   need(def.mass || def.density, bodyPath(i),
        "body \"" + def.name + "\" moves, so it needs a mass or a material with a density");
-  const double mass = def.mass ? *def.mass : *def.density * volume(def.shape);
+  const double mass = bodyMass(def);
   need(mass > 0.0 && std::isfinite(mass), bodyPath(i, ".mass"),
        "the mass of \"" + def.name + "\" must be a positive number of kg");
-  MassProperties properties = solidMass(def.shape, mass);
   if (def.inertia) {
     need(def.inertia->allFinite() && def.inertia->minCoeff() > 0.0, bodyPath(i, ".inertia"),
          "the inertia of \"" + def.name + "\" must be three positive numbers in kg m²");
-    properties.inertia = def.inertia->asDiagonal();
   }
-  return properties;
+  return byMethod(def, i, massOf);
 }
 
 /// A particle has a mass of its own, and nothing that turns.
@@ -76,7 +88,7 @@ RigidBody bodyOf(const BodyDef& def, std::size_t i) {
   }
   if (def.fixed) return makeFixedBody(pose, def.velocity, def.angularVelocity);
   if (std::holds_alternative<Particle>(def.shape)) return particleOf(def, i);
-  RigidBody body = makeBody(massOf(def, i));
+  RigidBody body = makeBody(checkedMass(def, i));
   body.x = pose.x;
   body.q = pose.q;
   updateDerived(body);
@@ -98,9 +110,21 @@ void checkShape(const Shape& shape, std::size_t i) {
           return std::abs(s.n.norm() - 1.0) < 1e-9 && std::isfinite(s.d);
         if constexpr (std::is_same_v<S, Particle>)
           return s.radius >= 0.0 && std::isfinite(s.radius);
+        if constexpr (std::is_same_v<S, Mesh>) return s.solid != nullptr;
+        if constexpr (std::is_same_v<S, Compound>) return !s.parts.empty();
       },
       shape);
   need(sound, bodyPath(i, ".shape"), "lengths of a shape must be positive, a plane's normal unit");
+}
+
+/// The parts of a compound share no volume, or it would be weighed twice.
+void checkParts(const BodyDef& def, std::size_t i) {
+  const Compound* compound = std::get_if<Compound>(&def.shape);
+  if (!compound) return;
+  const auto [a, b] = overlappingParts(*compound);
+  need(a < 0, bodyPath(i, ".shape"),
+       "parts " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " of \"" + def.name +
+           "\" overlap; the parts of a compound may touch at most");
 }
 
 /// The bodies that forces name exist.
@@ -173,7 +197,8 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   need(!def.bodies.empty(), "bodies", "a scene needs at least one body");
   for (std::size_t i = 0; i < def.bodies.size(); ++i) {
     checkShape(def.bodies[i].shape, i);
-    model.shapes.push_back(contactShape(def.bodies[i].shape));
+    checkParts(def.bodies[i], i);
+    model.shapes.push_back(contactShape(byMethod(def.bodies[i], i, centredShape)));
     if (touchesAnything(def.bodies[i].shape)) model.solid.push_back(static_cast<int>(i));
     state.bodies.push_back(bodyOf(def.bodies[i], i));
   }

@@ -5,6 +5,10 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
+
+#include "sim/body/mass_surface.h"
+#include "sim/math/rotation.h"
 
 namespace tumble {
 namespace {
@@ -29,6 +33,15 @@ double volumeOf(const Cylinder& c) {
 }
 double volumeOf(const HalfSpace&) {
   return kInfinity;
+}
+double volumeOf(const Mesh& mesh) {
+  return integrate(*mesh.solid).volume;
+}
+double volumeOf(const Compound& compound) {
+  double sum = 0.0;
+  for (const Part& part : compound.parts)
+    sum += std::visit([](const auto& s) { return volumeOf(s); }, part.solid);
+  return sum;
 }
 
 double volumeOf(const Particle&) {
@@ -60,6 +73,40 @@ Vec3 momentsOf(const Particle&) {
   return Vec3::Zero();
 }
 
+/// Shapes whose body axes are principal and meet at their centre of mass.
+template <class S>
+MassProperties weigh(const S& shape, double mass) {
+  return {mass, (mass * momentsOf(shape)).asDiagonal()};
+}
+
+MassProperties weigh(const Mesh& mesh, double mass) {
+  const VolumeIntegrals integrals = integrate(*mesh.solid);
+  return {mass, (mass / integrals.volume) * integrals.inertia, integrals.centre};
+}
+
+/// Inertia of a mass at a point that is d away [m].
+Mat3 steiner(double mass, const Vec3& d) {
+  return mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+}
+
+MassProperties weigh(const Compound& compound, double mass) {
+  const double density = mass / volumeOf(compound);
+  std::vector<MassProperties> parts;
+  MassProperties sum{mass, Mat3::Zero()};
+  for (const Part& part : compound.parts) {
+    parts.push_back(solidMass(shapeOf(part), density * volume(shapeOf(part))));
+    sum.centre += parts.back().mass / mass * part.pose.x;
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Mat3 R = rotationMatrix(compound.parts[i].pose.q);
+    sum.inertia += R * parts[i].inertia * R.transpose() +
+                   steiner(parts[i].mass, compound.parts[i].pose.x - sum.centre);
+  }
+  // Rounding of the products must not make the tensor lopsided.
+  sum.inertia = 0.5 * (sum.inertia + sum.inertia.transpose()).eval();
+  return sum;
+}
+
 /// Symmetric and positive definite.
 bool isInertia(const Mat3& I) {
   return I.allFinite() && I.isApprox(I.transpose()) && Eigen::LLT<Mat3>(I).info() == Eigen::Success;
@@ -78,8 +125,7 @@ double volume(const Shape& shape) {
 
 MassProperties solidMass(const Shape& shape, double mass) {
   requireMass(mass);
-  const Vec3 moments = std::visit([](const auto& s) { return momentsOf(s); }, shape);
-  return {mass, (mass * moments).asDiagonal()};
+  return std::visit([&](const auto& s) { return weigh(s, mass); }, shape);
 }
 
 RigidBody makeBody(const MassProperties& mass) {

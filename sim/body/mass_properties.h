@@ -6,19 +6,21 @@
 
 namespace tumble {
 
-/// Mass and inertia tensor about the centre of mass, body frame (slides SD19–SD20).
+/// Mass, inertia tensor about the centre of mass, and where that centre is (slides SD19–SD20).
 /// The slide's Ixx carries M/V in front of the integral, not M.
 struct MassProperties {
   double mass = 1.0;                ///< [kg]
-  Mat3 inertia = Mat3::Identity();  ///< [kg m²]
+  Mat3 inertia = Mat3::Identity();  ///< [kg m²] body axes; Ixy = −∫ ρ x y dV
+  Vec3 centre = Vec3::Zero();       ///< [m] in the frame in which the shape was given
 };
 
 /// Volume [m³] of a shape; infinity for a half-space, 0 for a particle.
 double volume(const Shape& shape);
 
-/// Closed forms for a solid of uniform density with the given mass [kg] > 0:
+/// A solid of uniform density with the given mass [kg] > 0, in closed form:
 ///   sphere 2/5 m r²;  box m/12 (b² + c²), full edges;  cylinder ½ m r² about Y, m/12 (3r² + h²)
-///   across;  particle 0.
+///   across;  mesh: `integrate`;  compound: Σ Rᵢ Iᵢ Rᵢᵀ + mᵢ (dᵢ² 1 − dᵢ dᵢᵀ), Steiner, with dᵢ
+///   from the common centre of mass to the part's;  particle 0.
 /// @throws std::invalid_argument for a half-space, or if mass is not a positive finite number.
 MassProperties solidMass(const Shape& shape, double mass);
 

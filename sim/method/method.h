@@ -32,6 +32,11 @@ const Method* findMethod(std::string_view name);
 std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
                                            std::span<const Aabb> boxes);
 
+/// Stops a run before two bodies meet whose shapes have no contact rule: as soon as their boxes
+/// overlap. True if it did.
+bool stopAtUnknownPair(const Model& model, std::span<const std::pair<int, int>> near,
+                       Report& report);
+
 /// Boxes that hold each body of model.solid during the next `h` seconds at its present velocity,
 /// grown by the way a constant acceleration of size `acceleration` [m/s²] goes, and by `margin`
 /// [m].

@@ -12,6 +12,34 @@ std::string shortNumber(double value) {
   return {text, end.ptr};
 }
 
+namespace {
+
+const InertiaMethod& methodOf(const BodyDef& body) {
+  const InertiaMethod* method = findInertiaMethod(body.inertiaBy);
+  if (!method)
+    throw std::invalid_argument("no inertia method is called \"" + body.inertiaBy + "\"");
+  return *method;
+}
+
+}  // namespace
+
+double bodyMass(const BodyDef& body) {
+  return body.mass ? *body.mass : body.density.value_or(0.0) * volume(body.shape);
+}
+
+MassProperties massOf(const BodyDef& body) {
+  MassProperties properties = methodOf(body).weigh(body.shape, bodyMass(body), body.samples, 0);
+  if (body.inertia) properties.inertia = body.inertia->asDiagonal();
+  return properties;
+}
+
+Shape centredShape(const BodyDef& body) {
+  const bool anywhere =
+      std::holds_alternative<Mesh>(body.shape) || std::holds_alternative<Compound>(body.shape);
+  if (!anywhere) return body.shape;
+  return withOrigin(body.shape, methodOf(body).weigh(body.shape, 1.0, body.samples, 0).centre);
+}
+
 Surface Model::surface(int a, int b) const {
   const BodyDef &p = def.bodies[a], &q = def.bodies[b];
   Surface s{std::max(p.restitution, q.restitution), std::sqrt(p.friction * q.friction)};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/body/force.h"
-#include "sim/body/mass_properties.h"
+#include "sim/body/inertia_method.h"
 #include "sim/body/pivot.h"
 #include "sim/shape/shape.h"
 
@@ -18,9 +18,11 @@ namespace tumble {
 struct BodyDef {
   std::string name;
   Shape shape = Sphere{};
-  std::optional<double> density;  ///< [kg/m³]
-  std::optional<double> mass;     ///< [kg]
-  std::optional<Vec3> inertia;    ///< [kg m²] principal
+  std::optional<double> density;      ///< [kg/m³]
+  std::optional<double> mass;         ///< [kg]
+  std::optional<Vec3> inertia;        ///< [kg m²] principal
+  std::string inertiaBy = "surface";  ///< a row of the table of inertia methods
+  int samples = 10'000;               ///< points, if that row takes some
   double restitution = 0.0, friction = 0.0;
   std::string material;          ///< for the pairs table; may be empty
   Vec3 position = Vec3::Zero();  ///< [m]
@@ -31,6 +33,19 @@ struct BodyDef {
   /// Body point [m, body frame, from the centre of mass] that stays where it is at the start.
   std::optional<Vec3> pivot_B;
 };
+
+/// Mass [kg] of a body: its own, or its density times the volume of its shape; 0 without either.
+double bodyMass(const BodyDef& body);
+
+/// That mass with the inertia [kg m²] that the body is given, or that its method finds for its
+/// shape.
+/// @throws std::invalid_argument if the mass is not positive or the method cannot tell.
+MassProperties massOf(const BodyDef& body);
+
+/// The shape as the body carries it: with the body origin at the centre of mass that its method
+/// finds.
+/// @throws std::invalid_argument if the method cannot tell.
+Shape centredShape(const BodyDef& body);
 
 /// What replaces the mixing rule for two materials.
 struct PairDef {

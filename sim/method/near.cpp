@@ -15,6 +15,20 @@ std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
   return near;
 }
 
+bool stopAtUnknownPair(const Model& model, std::span<const std::pair<int, int>> near,
+                       Report& report) {
+  for (const auto& [b, a] : near) {
+    if (canCollide(model.shapes[a], model.shapes[b])) continue;
+    report.stopped = true;
+    report.reason = "\"" + model.def.bodies[a].name + "\" comes near \"" +
+                    model.def.bodies[b].name + "\", and there is no contact rule for " +
+                    std::string(shapeName(model.shapes[a])) + " and " +
+                    std::string(shapeName(model.shapes[b])) + "; keep them apart";
+    return true;
+  }
+  return false;
+}
+
 void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
                 double acceleration, double margin, std::vector<Aabb>& boxes) {
   boxes.clear();

@@ -1,6 +1,7 @@
 // Chapter 2, shape: names, boxes and balls around shapes.
 #include "sim/shape/shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,33 @@ Vec3 halfWidths(const Particle& p, const Mat3&) {
   return Vec3::Constant(p.radius);
 }
 
+// Of points and parts that need not stand about the origin there is a box, not half a width.
+template <class S>
+Aabb boxOf(const S& shape, const Mat3& R) {
+  const Vec3 width = halfWidths(shape, R);
+  return {-width, width};
+}
+
+Aabb boxOf(const Mesh& mesh, const Mat3& R) {
+  Aabb box{Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+  for (const Vec3& point : mesh.solid->points) {
+    const Vec3 p = R * (point - mesh.origin);
+    box = {box.lo.cwiseMin(p), box.hi.cwiseMax(p)};
+  }
+  return box;
+}
+
+Aabb boxOf(const Compound& compound, const Mat3& R) {
+  Aabb box{Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
+  for (const Part& part : compound.parts) {
+    const Vec3 x = R * (part.pose.x - compound.origin);
+    const Mat3 turn = R * part.pose.q.toRotationMatrix();
+    const Vec3 width = std::visit([&](const auto& s) { return halfWidths(s, turn); }, part.solid);
+    box = {box.lo.cwiseMin(x - width), box.hi.cwiseMax(x + width)};
+  }
+  return box;
+}
+
 double radius(const Sphere& s) {
   return s.r;
 }
@@ -48,6 +76,20 @@ double radius(const HalfSpace&) {
 }
 double radius(const Particle& p) {
   return p.radius;
+}
+
+double radius(const Mesh& mesh) {
+  double square = 0.0;
+  for (const Vec3& point : mesh.solid->points)
+    square = std::max(square, (point - mesh.origin).squaredNorm());
+  return std::sqrt(square);
+}
+double radius(const Compound& compound) {
+  double far = 0.0;
+  for (const Part& part : compound.parts)
+    far = std::max(far, (part.pose.x - compound.origin).norm() +
+                            std::visit([](const auto& s) { return radius(s); }, part.solid));
+  return far;
 }
 
 std::string_view name(const Sphere&) {
@@ -66,6 +108,13 @@ std::string_view name(const Particle&) {
   return "particle";
 }
 
+std::string_view name(const Mesh&) {
+  return "mesh";
+}
+std::string_view name(const Compound&) {
+  return "compound";
+}
+
 }  // namespace
 
 std::string_view shapeName(const Shape& shape) {
@@ -74,9 +123,9 @@ std::string_view shapeName(const Shape& shape) {
 
 Aabb boundingBox(const Shape& shape, const Pose& pose, double margin) {
   const Mat3 R = pose.q.toRotationMatrix();
-  const Vec3 width = std::visit([&](const auto& s) { return halfWidths(s, R); }, shape);
-  const Vec3 reach = width + Vec3::Constant(margin);
-  return {pose.x - reach, pose.x + reach};
+  const Aabb box = std::visit([&](const auto& s) { return boxOf(s, R); }, shape);
+  const Vec3 more = Vec3::Constant(margin);
+  return {pose.x + (box.lo - more), pose.x + (box.hi + more)};
 }
 
 Shape contactShape(const Shape& shape) {
@@ -91,6 +140,26 @@ bool touchesAnything(const Shape& shape) {
 
 double boundingRadius(const Shape& shape) {
   return std::visit([](const auto& s) { return radius(s); }, shape);
+}
+
+Shape withOrigin(Shape shape, const Vec3& origin) {
+  if (Mesh* mesh = std::get_if<Mesh>(&shape)) mesh->origin = origin;
+  if (Compound* compound = std::get_if<Compound>(&shape)) compound->origin = origin;
+  return shape;
+}
+
+Vec3 originOf(const Shape& shape) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->origin;
+  if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->origin;
+  return Vec3::Zero();
+}
+
+Shape shapeOf(const Part& part) {
+  return std::visit([](const auto& solid) { return Shape(solid); }, part.solid);
+}
+
+Pose poseInBody(const Compound& compound, const Part& part) {
+  return {part.pose.x - compound.origin, part.pose.q};
 }
 
 }  // namespace tumble

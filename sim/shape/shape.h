@@ -1,10 +1,13 @@
 // Chapter 2, shape: what bodies are made of.
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "sim/math/vec.h"
+#include "sim/shape/polyhedron.h"
 
 namespace tumble {
 
@@ -35,7 +38,25 @@ struct Particle {
   double radius = 0.0;
 };
 
-using Shape = std::variant<Sphere, Box, Cylinder, HalfSpace, Particle>;
+/// A polyhedron, shared by all bodies that are made of it.
+struct Mesh {
+  std::shared_ptr<const Polyhedron> solid;  ///< checked by `makePolyhedron`
+  Vec3 origin = Vec3::Zero();               ///< [m] the body origin, in the polyhedron's frame
+};
+
+/// A convex piece of a compound, in the compound's frame.
+struct Part {
+  std::variant<Sphere, Box, Cylinder> solid;
+  Pose pose;
+};
+
+/// The union of convex parts that touch at most.
+struct Compound {
+  std::vector<Part> parts;
+  Vec3 origin = Vec3::Zero();  ///< [m] the body origin, in the parts' frame
+};
+
+using Shape = std::variant<Sphere, Box, Cylinder, HalfSpace, Particle, Mesh, Compound>;
 
 /// Axis-aligned box in the world frame [m].
 struct Aabb {
@@ -45,8 +66,19 @@ struct Aabb {
   }
 };
 
-/// "sphere", "box", "cylinder", "half-space" or "particle".
+/// "sphere", "box", "cylinder", "half-space", "particle", "mesh" or "compound".
 std::string_view shapeName(const Shape& shape);
+
+/// The shape with its body origin at a point [m] of the frame in which it was given; others than
+/// meshes and compounds are symmetric about their origin and stay as they are.
+Shape withOrigin(Shape shape, const Vec3& origin);
+
+/// The body origin [m] in the frame in which the shape was given.
+Vec3 originOf(const Shape& shape);
+
+/// A part as a shape of its own, and where it stands in the body frame.
+Shape shapeOf(const Part& part);
+Pose poseInBody(const Compound& compound, const Part& part);
 
 /// Smallest axis-aligned box around a posed shape, grown by `margin` [m] on every side.
 /// A half-space has none: ±infinity.

@@ -116,6 +116,7 @@ void Course::findNear() {
   std::vector<Aabb> boxes;
   sweptBoxes(model_, state_.bodies, h, accelerationScale(), tolerance_.touch, boxes);
   state_.near = nearPairs(model_, state_, boxes);
+  stopAtUnknownPair(model_, state_.near, report_);
 }
 
 void Course::findTouching() {

@@ -77,6 +77,7 @@ void Stepping::findNear(double h) {
   const double g = model_.def.gravity.norm();
   sweptBoxes(model_, state_.bodies, h, g, tolerance_.touch, boxes);
   state_.near = nearPairs(model_, state_, boxes);
+  if (stopAtUnknownPair(model_, state_.near, report_)) return;
   contacts_.clear();
   for (const auto& pair : state_.near) {
     // As far as the two surfaces can come towards each other within the step.
