@@ -65,7 +65,7 @@ std::vector<ClaimRow> bounceApexRows(const Scene& scene, const Recording& record
   std::vector<ClaimRow> rows;
   for (const Fall& fall : fallsOf(scene)) {
     WorstRow worst(scene.world.bodies[fall.body].name + ": worst apex / m", 1e-6);
-    const double mass = massOf(scene.world.bodies[fall.body]).mass;
+    const double mass = bodyMass(scene.world.bodies[fall.body]);
     seeImpulses(fall, recording, mass, scene.world.duration, worst);
     seeSamples(fall, scene, recording, worst);
     rows.push_back(worst.row());

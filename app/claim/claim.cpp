@@ -21,6 +21,8 @@ constexpr Check kChecks[] = {
     {"orbit", "in a circular field, radius and phase of the exact orbit", orbitRows, orbitPaths},
     {"tower-forces", "contact forces carry the weight above; nothing drifts or sinks", towerRows,
      nullptr},
+    {"weight", "inertia and centre of mass by the chosen method, and turning by them", weightRows,
+     nullptr},
 };
 
 }  // namespace

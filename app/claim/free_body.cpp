@@ -1,6 +1,8 @@
 #include "app/claim/free_body.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 
@@ -8,15 +10,8 @@ bool moves(const BodyDef& body) {
   return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
 }
 
-MassProperties massOf(const BodyDef& body) {
-  const double mass = body.mass ? *body.mass : body.density.value_or(0.0) * volume(body.shape);
-  MassProperties properties = solidMass(body.shape, mass);
-  if (body.inertia) properties.inertia = body.inertia->asDiagonal();
-  return properties;
-}
-
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body) {
-  const double mass = massOf(world.bodies[body]).mass;
+  const double mass = bodyMass(world.bodies[body]);
   Vec3 acceleration = world.gravity;
   for (const Force& force : world.forces) {
     if (const UniformWind* wind = std::get_if<UniformWind>(&force)) {
@@ -43,6 +38,19 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n) {
   if (const Particle* particle = std::get_if<Particle>(&shape)) return particle->radius;
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
     return 0.5 * cylinder->h * std::abs(n_B.y()) + cylinder->r * std::hypot(n_B.x(), n_B.z());
+  double far = -std::numeric_limits<double>::infinity();
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) {
+    for (const Vec3& point : mesh->solid->points)
+      far = std::max(far, n_B.dot(point - mesh->origin));
+    return far;
+  }
+  if (const Compound* compound = std::get_if<Compound>(&shape)) {
+    for (const Part& part : compound->parts) {
+      const Pose pose = poseInBody(*compound, part);
+      far = std::max(far, n_B.dot(pose.x) + reach(shapeOf(part), pose.q, n_B));
+    }
+    return far;
+  }
   return 0.0;
 }
 

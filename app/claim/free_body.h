@@ -11,9 +11,6 @@ namespace tumble {
 /// Whether forces move the body: neither fixed nor a half-space.
 bool moves(const BodyDef& body);
 
-/// Mass [kg] and inertia [kg m²] about the centre of mass, body axes, as the definition says.
-MassProperties massOf(const BodyDef& body);
-
 /// Acceleration [m/s²] of the centre of mass in free flight: gravity + Σ uniform forces / mass.
 /// Empty if a drag, a spring or a force off the centre acts, whose motion has no parabola.
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body);

@@ -14,5 +14,6 @@ std::vector<Curve> arcPaths(const Scene&, const Recording&);
 std::vector<ClaimRow> orbitRows(const Scene&, const Recording&);
 std::vector<Curve> orbitPaths(const Scene&, const Recording&);
 std::vector<ClaimRow> towerRows(const Scene&, const Recording&);
+std::vector<ClaimRow> weightRows(const Scene&, const Recording&);
 
 }  // namespace tumble

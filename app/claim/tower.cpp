@@ -56,7 +56,7 @@ ClaimRow weightRow(const Scene& scene, const Recording& recording, const Tower& 
   const std::span<const int> above = std::span(tower).subspan(level);
   Vec3 weight = Vec3::Zero();
   for (const int body : above) {
-    const double mass = massOf(scene.world.bodies[body]).mass;
+    const double mass = bodyMass(scene.world.bodies[body]);
     weight += mass * freeAcceleration(scene.world, body).value_or(scene.world.gravity);
   }
   WorstRow worst(scene.world.bodies[tower[level]].name + ": force from below / N", 1e-6);

@@ -14,7 +14,7 @@ constexpr double kDot = 0.003;
 }  // namespace
 
 Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
-                    const Vec3& near, double extent) {
+                    const Vec3& near, double extent, const std::shared_ptr<const Facets>& facets) {
   Instance instance;
   instance.position = x;
   instance.orientation = q;
@@ -39,6 +39,9 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
     instance.scale = {0.5 * extent, 0.5 * thickness, 0.5 * extent};
     instance.position = foot - 0.5 * thickness * plane->n;
     instance.orientation = Quat::FromTwoVectors(Vec3::UnitY(), plane->n);
+  } else if (facets) {
+    instance.form = Form::Facets;
+    instance.facets = facets;
   }
   return instance;
 }

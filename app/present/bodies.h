@@ -10,8 +10,10 @@ namespace tumble {
 
 /// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide,
 /// a particle without a radius a dot of a small share of it.
+/// @param facets  of a mesh or a compound, `facetsOf` its shape
 Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
-                    const Vec3& near, double extent);
+                    const Vec3& near, double extent,
+                    const std::shared_ptr<const Facets>& facets = nullptr);
 
 /// A half-space that looks up (n·Y > 0.9999) and so is drawn as the floor of the page.
 bool isFloor(const BodyDef& body);

@@ -29,7 +29,7 @@ std::string labelOf(const Scene& scene, int index) {
   replaceAll(text, "{restitution}", fmt::format("{:.3g}", body.restitution));
   replaceAll(text, "{friction}", fmt::format("{:.3g}", body.friction));
   if (body.density) replaceAll(text, "{density}", fmt::format("{:.4g}", *body.density));
-  if (moves(body)) replaceAll(text, "{mass}", fmt::format("{:.4g}", massOf(body).mass));
+  if (moves(body)) replaceAll(text, "{mass}", fmt::format("{:.4g}", bodyMass(body)));
   return text;
 }
 

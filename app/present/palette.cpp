@@ -28,7 +28,7 @@ std::string arrayOf(const std::string& name) {
 }
 
 double massIfMoving(const BodyDef& body) {
-  return moves(body) ? massOf(body).mass : 0.0;
+  return moves(body) ? bodyMass(body) : 0.0;
 }
 
 // Where each body of an array stands in [0, 1] by the first quantity that varies within it.

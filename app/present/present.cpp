@@ -9,10 +9,12 @@
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
 #include "app/present/boxes.h"
+#include "app/present/facets.h"
 #include "app/present/labels.h"
 #include "app/present/marks.h"
 #include "app/present/palette.h"
 #include "app/present/paths.h"
+#include "app/present/samples.h"
 
 namespace tumble {
 
@@ -57,6 +59,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording)
 
 Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
     : scene_(scene), recording_(recording), colours_(bodyColours(scene)), framing_(framing) {
+  for (const BodyDef& body : scene.world.bodies) facets_.push_back(facetsOf(body.shape));
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
     const Check* check = findCheck(name);
@@ -129,7 +132,7 @@ void Presenter::addBodies(const Sample& sample, Picture& picture) const {
     if (isFloor(body)) continue;
     const Colour colour = byTime && moves(body) ? timeStops().back() : colours_[i];
     Instance instance = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
-                                   framing_.centre, 3.0 * framing_.radius);
+                                   framing_.centre, 3.0 * framing_.radius, facets_[i]);
     if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
     picture.instances.push_back(instance);
   }
@@ -148,7 +151,7 @@ void Presenter::addGhosts(Picture& picture) const {
       if (!moves(body)) continue;
       const Colour colour = single ? ramp(timeStops(), u) : colours_[i];
       Instance ghost = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
-                                  framing_.centre, 3.0 * framing_.radius);
+                                  framing_.centre, 3.0 * framing_.radius, facets_[i]);
       ghost.finish = Finish::Ghost;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);
@@ -182,6 +185,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
     addForceLadder(scene_, sample, aspectOf(scene_), picture);
   }
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);
+  if (show.samples) addSamplePoints(scene_, sample, picture);
   if (show.normals) addNormals(sample, length, picture);
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
   if (show.forces) addForces(scene_, sample, height, picture);

@@ -1,6 +1,7 @@
 // Recording + Scene → Picture: what is drawn of a run, and from where.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,7 @@ class Presenter {
   const Scene& scene_;
   const Recording& recording_;
   std::vector<Colour> colours_;
+  std::vector<std::shared_ptr<const Facets>> facets_;  // per body; null for simple shapes
   std::vector<Curve> theory_;
   Framing framing_;
 };

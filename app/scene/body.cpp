@@ -1,5 +1,8 @@
 #include "app/scene/body.h"
 
+#include <algorithm>
+
+#include "app/scene/choices.h"
 #include "app/scene/settings.h"
 #include "app/scene/shape.h"
 
@@ -9,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostBodies = 100'000;
 constexpr std::size_t kLongestLabel = 200;
+constexpr int kMostSamples = 10'000'000;
 
 void readMass(Section& section, BodyDef& def) {
   section.read("mass", def.mass, positive("kg"));
@@ -17,6 +21,24 @@ void readMass(Section& section, BodyDef& def) {
   const Vec3& I = *def.inertia;
   if (2.0 * I.maxCoeff() > I.sum() * (1.0 + 1e-12))
     section.complain("inertia", "no body has these: one is larger than the sum of the other two");
+}
+
+// How the inertia is found, and the centre of mass with it.
+void readInertiaMethod(Section& section, BodyDef& def) {
+  section.read("inertia_by", def.inertiaBy, inertiaChoices());
+  section.read("samples", def.samples, 1, kMostSamples);
+  const InertiaMethod* method = findInertiaMethod(def.inertiaBy);
+  if (section.find("samples") && method && !method->spread)
+    section.complain("samples", "only read when inertia_by is grid, random or quasi");
+}
+
+// The shape with its origin at the centre of mass.
+void centre(Section& section, BodyDef& def) {
+  try {
+    def.shape = centredShape(def);
+  } catch (const std::invalid_argument& reason) {
+    section.complain("samples", reason.what());
+  }
 }
 
 void readMotion(Section& section, BodyDef& def) {
@@ -30,6 +52,32 @@ void readMotion(Section& section, BodyDef& def) {
   if (section.find("angular_velocity"))
     section.complain("angular_velocity_body", "angular_velocity is given too; keep one");
   def.angularVelocity = def.orientation * omega_B;
+}
+
+// kick = { impulse = [x, y, z], point = [x, y, z] }: the world-frame impulse that the body gets at
+// a point of its own frame before time begins, on top of its velocities.
+void readKick(Section& section, BodyDef& def) {
+  const Node* node = section.find("kick");
+  if (!node) return;
+  Section kick(*node, section.path("kick"), section.findings());
+  Vec3 impulse = Vec3::Zero(), point_B = Vec3::Zero();
+  kick.read("impulse", impulse, any("N s"));
+  kick.read("point", point_B, any("m"));
+  kick.finish();
+  if (!section.good()) return;
+  if (def.fixed) return section.complain("kick", "the body is fixed");
+  RigidBody body;
+  try {
+    body = makeBody(massOf(def));
+  } catch (const std::invalid_argument& reason) {
+    return section.complain("kick", reason.what());
+  }
+  body.x = def.position;
+  body.q = def.orientation;
+  setVelocity(body, def.velocity, def.angularVelocity);
+  applyImpulse(body, toWorld(body.pose(), point_B), impulse);
+  def.velocity = body.v;
+  def.angularVelocity = body.omega;
 }
 
 // A half-space is fixed and stands where its n and d say.
@@ -76,6 +124,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   section.read("fixed", def.fixed);
   section.read("pivot_body", def.pivot_B, any("m"));
   readMass(section, def);
+  readInertiaMethod(section, def);
   readMotion(section, def);
   if (const std::optional<Shape> shape = readShape(section)) {
     def.shape = *shape;
@@ -85,6 +134,8 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
       section.complain("mass",
                        "missing; a moving body needs a mass, or a density of its own or its "
                        "material's");
+    if (section.good()) centre(section, def);
+    readKick(section, def);
   }
   return entry;
 }
@@ -99,7 +150,22 @@ void Bodies::add(BodyEntry entry, Spot spot, Section& section) {
                                 "there is a body " + quoted(name) + " already");
   scene_.colours.push_back(entry.colour);
   scene_.labels.push_back(std::move(entry.label));
+  share(entry.def.shape);
   scene_.world.bodies.push_back(std::move(entry.def));
+}
+
+// Copies of one mesh share its points.
+void Bodies::share(Shape& shape) {
+  Mesh* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh) return;
+  const auto same = [&](const std::shared_ptr<const Polyhedron>& other) {
+    return other->points == mesh->solid->points && other->faces == mesh->solid->faces;
+  };
+  const auto found = std::find_if(meshes_.begin(), meshes_.end(), same);
+  if (found == meshes_.end())
+    meshes_.push_back(mesh->solid);
+  else
+    mesh->solid = *found;
 }
 
 bool Bodies::full(Spot spot, Findings& findings) const {

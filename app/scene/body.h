@@ -37,8 +37,11 @@ class Bodies {
   std::vector<int> group(Section& section, std::string_view key) const;
 
  private:
+  void share(Shape& shape);
+
   Scene& scene_;
   std::map<std::string, int> indices_;
+  std::vector<std::shared_ptr<const Polyhedron>> meshes_;
 };
 
 /// Reads [[body]].

@@ -1,5 +1,6 @@
 #include "app/scene/choices.h"
 
+#include "sim/body/inertia_method.h"
 #include "sim/contact/impact.h"
 #include "sim/ode/integrator.h"
 #include "sim/problem/problem.h"
@@ -32,6 +33,9 @@ std::vector<std::string> solverChoices() {
 }
 std::vector<std::string> attitudeChoices() {
   return {"quaternion", "matrix"};
+}
+std::vector<std::string> inertiaChoices() {
+  return namesOf(inertiaMethods());
 }
 std::vector<std::string> planChoices() {
   return {"backstep"};

@@ -22,6 +22,9 @@ class Findings {
   /// Remembers the first place of a path into the world ("bodies[3].mass").
   void note(const std::string& where, Spot spot) { places_.emplace(where, place(spot)); }
 
+  /// The scene file.
+  const std::string& file() const { return sources_[0]; }
+
   std::size_t count() const { return diagnostics_.size(); }
   std::map<std::string, Place> takePlaces() { return std::move(places_); }
 

@@ -63,6 +63,7 @@ struct ShowFlags {
   bool impacts = false;  ///< rings at impacts with t and j
   bool labels = false;   ///< names of bodies
   bool boxes = false;    ///< bounding boxes
+  bool samples = false;  ///< the points inside that bodies are weighed by
   bool planes = false;   ///< separating planes (accepted; drawn where known)
   bool energy = false;   ///< energy in the subtitle
   bool glass = false;    ///< see-through bodies

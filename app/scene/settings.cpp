@@ -120,6 +120,7 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("impacts", show.impacts);
   section.read("labels", show.labels);
   section.read("boxes", show.boxes);
+  section.read("samples", show.samples);
   section.read("planes", show.planes);
   section.read("energy", show.energy);
   section.read("glass", show.glass);

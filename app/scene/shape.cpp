@@ -2,7 +2,9 @@
 #include "app/scene/shape.h"
 
 #include <array>
+#include <string>
 
+#include "app/scene/mesh_file.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -49,12 +51,72 @@ std::optional<Shape> readPlane(Section& shape) {
   return HalfSpace{n / length, p[3] / length};
 }
 
+std::optional<Shape> readMeshFile(Section& shape) {
+  std::string name;
+  shape.read("mesh", name);
+  if (!shape.good()) return {};
+  try {
+    return Mesh{readMesh(meshPath(name, shape.findings().file()))};
+  } catch (const MeshError& reason) {
+    shape.complain("mesh", reason.what());
+    return {};
+  }
+}
+
+std::optional<Shape> readCompound(Section& shape);
+
 struct ShapeRow {
   const char* name;
   std::optional<Shape> (*read)(Section&);
+  bool convex;  // and finite: it can be a part of a compound
 };
-constexpr std::array<ShapeRow, 4> kShapes = {
-    {{"sphere", readSphere}, {"box", readBox}, {"cylinder", readCylinder}, {"plane", readPlane}}};
+constexpr std::array<ShapeRow, 6> kShapes = {{{"sphere", readSphere, true},
+                                              {"box", readBox, true},
+                                              {"cylinder", readCylinder, true},
+                                              {"plane", readPlane, false},
+                                              {"mesh", readMeshFile, false},
+                                              {"compound", readCompound, false}}};
+
+// The one shape that a table names.
+std::optional<Shape> readOne(Section& section, bool part) {
+  std::optional<Shape> shape;
+  std::string names;
+  int given = 0;
+  for (const ShapeRow& row : kShapes) {
+    if (part && !row.convex) continue;
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+    if (!section.find(row.name)) continue;
+    shape = row.read(section);
+    ++given;
+  }
+  if (given == 1 || !section.good()) return shape;
+  section.findings().complain(
+      section.spot(), section.key(),
+      "expected one of " + names + ", found " + std::to_string(given) + " of them");
+  return {};
+}
+
+std::optional<Shape> readCompound(Section& shape) {
+  Compound compound;
+  int number = 0;
+  for (const Node& node : shape.tables("compound")) {
+    Section section(node, shape.path("compound." + std::to_string(number++)), shape.findings());
+    Part part;
+    section.read("position", part.pose.x, any("m"));
+    readOrientation(section, part.pose.q);
+    const std::optional<Shape> solid = readOne(section, true);
+    section.finish();
+    if (!section.good() || !solid) continue;
+    if (const Sphere* sphere = std::get_if<Sphere>(&*solid)) part.solid = *sphere;
+    if (const Box* box = std::get_if<Box>(&*solid)) part.solid = *box;
+    if (const Cylinder* cylinder = std::get_if<Cylinder>(&*solid)) part.solid = *cylinder;
+    compound.parts.push_back(part);
+  }
+  if (shape.good() && compound.parts.empty())
+    shape.complain("compound", "expected a list of parts like [{ box = [1, 1, 1] }, …]");
+  if (!shape.good()) return {};
+  return compound;
+}
 
 }  // namespace
 
@@ -70,20 +132,9 @@ std::optional<Shape> readShape(Section& body) {
     return {};
   }
   Section section(*node, body.path("shape"), body.findings());
-  std::optional<Shape> shape;
-  int given = 0;
-  for (const ShapeRow& row : kShapes) {
-    if (!section.find(row.name)) continue;
-    shape = row.read(section);
-    ++given;
-  }
+  const std::optional<Shape> shape = readOne(section, false);
   section.finish();
   if (!section.good()) return {};
-  if (given != 1) {
-    body.complain("shape", "expected one of sphere, box, cylinder, plane, found " +
-                               std::to_string(given) + " of them");
-    return {};
-  }
   return shape;
 }
 

@@ -45,7 +45,7 @@ std::string tableOf(const std::string& name) {
 }
 
 std::string shapeText(const Shape& shape, double factor) {
-  char text[160] = "";
+  char text[320] = "";
   if (const Sphere* sphere = std::get_if<Sphere>(&shape))
     std::snprintf(text, sizeof text, "{ sphere = %.17g }", factor * sphere->r);
   if (const Box* box = std::get_if<Box>(&shape))
@@ -55,6 +55,21 @@ std::string shapeText(const Shape& shape, double factor) {
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
     std::snprintf(text, sizeof text, "{ cylinder = [%.17g, %.17g] }", factor * cylinder->r,
                   factor * cylinder->h);
+  if (const Compound* compound = std::get_if<Compound>(&shape)) {
+    std::string parts;
+    for (const Part& part : compound->parts) {
+      const Vec3 x = factor * part.pose.x;
+      const Quat& q = part.pose.q;
+      std::string piece = shapeText(shapeOf(part), factor);
+      piece.resize(piece.size() - 2);  // without its closing brace
+      std::snprintf(text, sizeof text,
+                    ", position = [%.17g, %.17g, %.17g], orientation = [%.17g, %.17g, %.17g, "
+                    "%.17g] }",
+                    x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z());
+      parts += (parts.empty() ? "" : ", ") + piece + text;
+    }
+    return "{ compound = [" + parts + "] }";
+  }
   return text;
 }
 
@@ -64,6 +79,7 @@ std::vector<std::string> resized(const Scene& scene, double factor) {
   std::vector<std::string> overrides;
   for (const BodyDef& body : scene.world.bodies) {
     if (!moves(body) || !seen.insert(tableOf(body.name)).second) continue;
+    if (std::holds_alternative<Mesh>(body.shape)) continue;  // as large as its file says
     overrides.push_back(tableOf(body.name) + ".shape=" + shapeText(body.shape, factor));
   }
   return overrides;

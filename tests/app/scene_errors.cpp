@@ -110,7 +110,7 @@ TEST_CASE("a wrong second body is named by its number until it has a name") {
       {"[[body]]\nshape = { plane = [0, 1, 0, 0] }\nposition = [0, 1, 0]", "10:12",
        "body.1.position: a plane stands where"},
       {"[[body]]\nshape = { sphere = 1, box = [1, 1, 1] }\nmass = 1", "9:9",
-       "expected one of sphere, box, cylinder, plane, found 2 of them"},
+       "expected one of sphere, box, cylinder, plane, mesh, compound, found 2 of them"},
       {"[[body]]\nshape = {}\nmass = 1", "9:9", "found 0 of them"},
       {"[[body]]\nshape = { spere = 1 }\nmass = 1", "9:11", "did you mean 'sphere'?"},
       {"[[body]]\nshape = { hull = [[0, 0, 0]] }\nmass = 1", "9:11",

@@ -1,0 +1,96 @@
+#include "app/scene/mesh_file.h"
+
+#define TINYOBJLOADER_IMPLEMENTATION
+#define TINYOBJLOADER_USE_DOUBLE
+#include <tiny_obj_loader.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "app/command/data.h"
+#include "app/record/file.h"
+
+namespace tumble {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostPoints = 1'000'000;
+
+struct Raw {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces;
+};
+
+void addPoint(void* raw, double x, double y, double z, double) {
+  static_cast<Raw*>(raw)->points.emplace_back(x, y, z);
+}
+
+// A file counts points from 1, or backwards from the latest by negative numbers.
+void addFace(void* target, tinyobj::index_t* indices, int count) {
+  Raw& raw = *static_cast<Raw*>(target);
+  std::vector<int> face;
+  for (int k = 0; k < count; ++k) {
+    const int i = indices[k].vertex_index;
+    face.push_back(i < 0 ? static_cast<int>(raw.points.size()) + i : i - 1);
+  }
+  raw.faces.push_back(std::move(face));
+}
+
+// Line, counted from 1, on which face number `face` stands; 0 for none.
+int lineOf(const std::string& text, int face) {
+  std::istringstream lines(text);
+  std::string line;
+  int number = 0, seen = -1;
+  while (std::getline(lines, line)) {
+    ++number;
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string::npos || line.compare(first, 1, "f") != 0) continue;
+    const char next = first + 1 < line.size() ? line[first + 1] : '\0';
+    if ((next == ' ' || next == '\t') && ++seen == face) return number;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::shared_ptr<const Polyhedron> parseMesh(const std::string& text, const std::string& file) {
+  Raw raw;
+  tinyobj::callback_t callbacks;
+  callbacks.vertex_cb = addPoint;
+  callbacks.index_cb = addFace;
+  std::istringstream in(text);
+  std::string warnings, errors;
+  if (!tinyobj::LoadObjWithCallback(in, callbacks, &raw, nullptr, &warnings, &errors))
+    throw MeshError(file + ": not an OBJ file: " + errors);
+  if (raw.points.size() > kMostPoints) throw MeshError(file + ": more than a million points");
+  try {
+    return std::make_shared<const Polyhedron>(
+        makePolyhedron(std::move(raw.points), std::move(raw.faces)));
+  } catch (const NotASolid& reason) {
+    const int line = reason.face() < 0 ? 0 : lineOf(text, reason.face());
+    throw MeshError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + reason.what());
+  }
+}
+
+std::shared_ptr<const Polyhedron> readMesh(const std::string& path) {
+  std::string text;
+  try {
+    text = readFile(path);
+  } catch (const FileError& reason) {
+    throw MeshError(reason.what());
+  }
+  return parseMesh(text, fs::path(path).filename().string());
+}
+
+std::string meshPath(const std::string& mesh, const std::string& sceneFile) {
+  const fs::path places[] = {fs::path(sceneFile).parent_path() / mesh,
+                             fs::path(dataFolder("meshes")) / mesh};
+  std::error_code ignored;
+  for (const fs::path& place : places)
+    if (fs::is_regular_file(place, ignored)) return place.string();
+  throw MeshError("no file '" + places[0].string() + "' or '" + places[1].string() + "'");
+}
+
+}  // namespace tumble

@@ -1,0 +1,29 @@
+// Meshes from Wavefront OBJ files.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "sim/shape/polyhedron.h"
+
+namespace tumble {
+
+/// A mesh file that is refused: "dumbbell.obj:31: the edge from …".
+class MeshError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads points (`v x y z` [m]) and faces (`f 1 2 3 …`) of an OBJ file, all groups as one solid;
+/// everything else in it is passed over.
+/// @throws MeshError with file and line if the file cannot be read or bounds no solid.
+std::shared_ptr<const Polyhedron> readMesh(const std::string& path);
+
+/// The same from text; `file` is the name that complaints use.
+std::shared_ptr<const Polyhedron> parseMesh(const std::string& text, const std::string& file);
+
+/// Path of a mesh that a scene names: beside the scene, else among the program's own meshes.
+/// @throws MeshError naming the places that were tried.
+std::string meshPath(const std::string& mesh, const std::string& sceneFile);
+
+}  // namespace tumble

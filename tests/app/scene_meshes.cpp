@@ -1,0 +1,165 @@
+// Meshes, compounds and how bodies are weighed, as a scene file says it.
+#include <algorithm>
+
+#include "app/present/facets.h"
+#include "app/present/present.h"
+#include "app/record/recording.h"
+#include "app/scene/mesh_file.h"
+#include "app/scene/scene.h"
+#include "sim/world.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+std::string bodyWith(const std::string& keys) {
+  return "[world]\ngravity = [0, 0, 0]\nduration = 1\n[[body]]\nname = \"b\"\nmass = 3.0\n" + keys +
+         "\n";
+}
+
+BodyDef read(const std::string& keys) {
+  return parseScene(bodyWith(keys), "s.toml").world.bodies.at(0);
+}
+
+std::string refusalOf(const std::string& keys) {
+  try {
+    const Scene scene = parseScene(bodyWith(keys), "s.toml");
+    try {
+      World world(scene.world);
+    } catch (const Refusal& refusal) {
+      return format(locate(scene, refusal));
+    }
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool says(const std::string& text, const char* part) {
+  INFO(text);
+  return text.find(part) != std::string::npos;
+}
+
+const char* kEll =
+    "shape = { compound = [ { box = [1, 1, 1], position = [10.5, 0.5, 0.5] },"
+    " { box = [1, 1, 1], position = [11.5, 0.5, 0.5], orientation = [0, 1, 0, 0] },"
+    " { box = [1, 1, 1], position = [10.5, 1.5, 0.5] } ] }";
+
+}  // namespace
+
+// Oracle: the L of three cubes by hand.
+TEST_CASE("a compound stands on its centre of mass and weighs what its parts do") {
+  const BodyDef ell = read(kEll);
+  CHECK((originOf(ell.shape) - Vec3(10.0 + 5.0 / 6.0, 5.0 / 6.0, 0.5)).norm() < 1e-14);
+  CHECK(massOf(ell).inertia(0, 1) == Approx(1.0 / 3.0).epsilon(1e-13));
+  CHECK(volume(ell.shape) == Approx(3.0));
+  const Aabb box = boundingBox(ell.shape, Pose{});
+  CHECK((box.hi - Vec3(7.0 / 6.0, 7.0 / 6.0, 0.5)).norm() < 1e-14);
+}
+
+// Oracle: the same L, from the program's own mesh.
+TEST_CASE("a mesh is read from a file and stands on its centre of mass") {
+  const BodyDef mesh = read("shape = { mesh = \"ell.obj\" }"), parts = read(kEll);
+  CHECK((massOf(mesh).inertia - massOf(parts).inertia).norm() < 1e-14);
+  const Aabb a = boundingBox(mesh.shape, Pose{}), b = boundingBox(parts.shape, Pose{});
+  CHECK((a.lo - b.lo).norm() + (a.hi - b.hi).norm() < 1e-14);
+}
+
+// Oracle: D6 by hand: the box of the L is 2 m by 2 m by 1 m, 0.236 m beside its centre of mass.
+TEST_CASE("a body is weighed as inertia_by says") {
+  const std::string mesh = "shape = { mesh = \"ell.obj\" }\ninertia_by = ";
+  const BodyDef exact = read(mesh + "\"surface\""), box = read(mesh + "\"box\"");
+  CHECK(massOf(box).inertia(2, 2) == Approx(2.0).epsilon(1e-14));
+  CHECK((originOf(box.shape) - originOf(exact.shape)).norm() ==
+        Approx(std::sqrt(2.0) / 6.0).epsilon(1e-14));
+  const BodyDef few = read(mesh + "\"quasi\"\nsamples = 100");
+  const BodyDef many = read(mesh + "\"quasi\"\nsamples = 100000");
+  const auto error = [&](const BodyDef& body) {
+    return (massOf(body).inertia - massOf(exact).inertia).norm();
+  };
+  CHECK(error(many) < 0.1 * error(few));
+}
+
+// Oracle: the laws of momentum:  v = J/m,  ω = I⁻¹ (r × J).
+TEST_CASE("a kick sets a body moving and turning") {
+  const BodyDef ell =
+      read(std::string(kEll) + "\nkick = { impulse = [0, 0, 6], point = [0.5, 0, 0] }\n" +
+           "velocity = [1, 0, 0]");
+  CHECK((ell.velocity - Vec3(1.0, 0.0, 2.0)).norm() < 1e-14);
+  CHECK((massOf(ell).inertia * ell.angularVelocity - Vec3(0.0, -3.0, 0.0)).norm() < 1e-14);
+  CHECK(says(refusalOf("fixed = true\nshape = { sphere = 1 }\nkick = { impulse = [1, 0, 0] }"),
+             "b.kick: the body is fixed"));
+}
+
+TEST_CASE("what cannot be weighed is refused where it is written") {
+  CHECK(says(refusalOf("shape = { mesh = \"missing.obj\" }"),
+             "s.toml:7:18: error: body.b.shape.mesh: no file 'missing.obj' or '"));
+  CHECK(says(refusalOf("shape = { compound = [] }"), "expected a list of parts"));
+  CHECK(says(refusalOf("shape = { compound = [ { plane = [0, 1, 0, 0] } ] }"), "plane"));
+  CHECK(says(refusalOf("shape = { compound = [ { box = [1, 1, 1], sphere = 1 } ] }"),
+             "expected one of sphere, box, cylinder, found 2 of them"));
+  CHECK(says(refusalOf("shape = { compound = [ { box = [1, 1, 1] }, { sphere = 0.6 } ] }"),
+             "parts 1 and 2 of \"b\" overlap"));
+  CHECK(says(refusalOf("shape = { sphere = 1 }\ninertia_by = \"quasy\""), "did you mean 'quasi'?"));
+  CHECK(says(refusalOf("shape = { sphere = 1 }\nsamples = 100"), "only read when inertia_by is"));
+  CHECK(says(refusalOf("shape = { mesh = \"dumbbell.obj\" }\ninertia_by = \"grid\"\nsamples = 1"),
+             "lie on a line"));
+}
+
+TEST_CASE("a mesh file that bounds no solid is refused with its line") {
+  const auto why = [](const std::string& text) -> std::string {
+    try {
+      parseMesh(text, "m.obj");
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string points = "# a tetrahedron\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  CHECK(why(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n").empty());
+  CHECK(why(points + "f 1/1/1 3//2 2\nf -4 -3 -1\ng other\nf 1 4 3\nf 2 3 4\n").empty());
+  CHECK(says(why(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\n"),
+             "m.obj:7: the edge from point 2 (1, 0, 0) to point 4 (0, 0, 1) has a face on one"));
+  CHECK(says(why(points + "f 1 3 2\n\n# turned\nf 1 4 2\nf 1 4 3\nf 2 3 4\n"), "m.obj:9: "));
+  CHECK(says(why(points), "no faces"));
+}
+
+// Oracle: the parts' own areas; cosines of smooth and sharp edges.
+TEST_CASE("facets close around a compound, with lines where it is sharp") {
+  const std::shared_ptr<const Facets> facets = facetsOf(read(kEll).shape);
+  double area = 0.0;
+  for (std::size_t k = 0; k < facets->corners.size(); k += 3) {
+    const Eigen::Vector3f a = facets->corners[k].position, b = facets->corners[k + 1].position,
+                          c = facets->corners[k + 2].position;
+    const Eigen::Vector3f n = (b - a).cross(c - a);
+    area += 0.5 * n.norm();
+    CHECK(n.normalized().dot(facets->corners[k].normal) > 0.999f);
+  }
+  CHECK(area == Approx(18.0).epsilon(1e-6));  // three cubes whole
+  const auto lines = [](const Facets& drawn) {
+    return std::count_if(drawn.corners.begin(), drawn.corners.end(),
+                         [](const Facets::Corner& c) { return c.toEdge.minCoeff() < 1e5f; });
+  };
+  CHECK(lines(*facets) == 3 * 36);
+  CHECK(lines(*facetsOf(read("shape = { mesh = \"torus.obj\" }").shape)) == 0);
+  CHECK(facetsOf(Box{}) == nullptr);
+}
+
+// Oracle: the points themselves, and the share of the L in its box.
+TEST_CASE("the points by which a body is weighed are drawn inside it") {
+  const Scene scene =
+      parseScene(bodyWith("shape = { mesh = \"ell.obj\" }\ninertia_by = \"grid\"\nsamples = 500\n"
+                          "position = [5, 0, 0]\n[show]\nsamples = true"),
+                 "s.toml");
+  const Recording recording = record(scene, 1.0);
+  const Picture picture = Presenter(scene, recording).image(0);
+  int dots = 0;
+  for (const Instance& instance : picture.instances) {
+    if (instance.form != Form::Sphere) continue;
+    ++dots;
+    CHECK((instance.position - Vec3(5.0, 0.0, 0.0)).norm() <
+          boundingRadius(scene.world.bodies[0].shape));
+  }
+  CHECK(dots == Approx(375).margin(40));
+}
