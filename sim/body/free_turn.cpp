@@ -1,9 +1,10 @@
 #include "sim/body/free_turn.h"
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "sim/body/principal_axes.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -19,26 +20,20 @@ void turnAbout(int axis, double excess, const Vec3& L, double h, Quat& q) {
 }  // namespace
 
 FreeTurn::FreeTurn(const Mat3& IbodyInv) {
-  Vec3 inverse = IbodyInv.diagonal();
-  if (!IbodyInv.isDiagonal(0.0)) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(IbodyInv);
-    Mat3 axes = solver.eigenvectors();
-    if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
-    axes_ = Quat(axes).normalized();
-    inverse = solver.eigenvalues();
-  }
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const double gap = std::abs(inverse[j] - inverse[i]);
-    if (gap >= nearest) continue;
-    nearest = gap;
-    restAxis_ = j;
-    topAxis_ = k;
-    round_ = inverse[i];
-    top_ = inverse[k] - inverse[i];
-    rest_ = inverse[j] - inverse[i];
-  }
+  const PrincipalAxes principal = principalAxes(IbodyInv);
+  const Vec3& inverse = principal.moments;
+  axes_ = Quat(principal.axes);
+  // The middle moment belongs to the symmetric body, and the one nearer to it is what is taken for
+  // equal.
+  int order[] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int i, int j) { return inverse[i] < inverse[j]; });
+  const auto [low, middle, high] = order;
+  const bool below = inverse[middle] - inverse[low] <= inverse[high] - inverse[middle];
+  restAxis_ = below ? low : high;
+  topAxis_ = below ? high : low;
+  round_ = inverse[middle];
+  top_ = inverse[topAxis_] - round_;
+  rest_ = inverse[restAxis_] - round_;
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * inverse.maxCoeff();
   if (std::abs(rest_) <= rounding) rest_ = 0.0;
 }

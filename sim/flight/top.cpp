@@ -1,10 +1,10 @@
 #include "sim/flight/top.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "sim/body/principal_axes.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -59,11 +59,12 @@ HeavyTop::HeavyTop(const RigidBody& start, const Pivot& pivot, const Vec3& gravi
       q_(start.q.w(), start.q.x(), start.q.y(), start.q.z()),
       H_B_(start.R.transpose() * momentumAbout(pivot, start)),
       end_(t0) {
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(pivot.Ibody).eigenvalues();
+  const Vec3 moments = principalAxes(pivot.Ibody).moments;
+  const double least = moments.minCoeff();
   const double torque = weight_ * pivot.c_B.norm();
   const double energy = 0.5 * H_B_.dot(pivot.IbodyInv * H_B_) + 2.0 * torque;
-  const double omega2 = 2.0 * energy / moments[0];
-  bound_ = omega2 + (torque + (moments[2] - moments[0]) * omega2) / moments[0];
+  const double omega2 = 2.0 * energy / least;
+  bound_ = omega2 + (torque + (moments.maxCoeff() - least) * omega2) / least;
 }
 
 bool HeavyTop::addArc() {

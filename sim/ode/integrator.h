@@ -54,6 +54,11 @@ struct Integrator {
   }
 };
 
+/// True if the system, as it is now, offers what the row needs.
+inline bool suits(const Integrator& row, const System& system) {
+  return missing(system.offers(), row.needs).empty();
+}
+
 /// The highest order that a row of any order takes.
 inline constexpr int kHighestOrder = 40;
 

@@ -53,6 +53,8 @@ void check(const std::string& text, const Wrong& wrong) {
 TEST_CASE("a wrong value of a body is named with its place and what was expected") {
   const std::vector<Wrong> table = {
       {"mass = 0", "8:8", "body.ball.mass: expected a number [kg] > 0, found 0"},
+      {"pivot_body = [0, 1]", "8:14", "body.ball.pivot_body: expected a list of 3 numbers [m]"},
+      {"pivot_body = 0.1", "8:14", "body.ball.pivot_body: expected"},
       {"mass = -2.5", "8:8", "body.ball.mass: expected a number [kg] > 0, found -2.5"},
       {"mass = nan", "8:8", "body.ball.mass: expected a number [kg] > 0, found nan"},
       {"mass = inf", "8:8", "body.ball.mass: expected a number [kg] > 0, found inf"},
@@ -139,6 +141,9 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[course]\nstep = 0", "9:8", "course.step: expected a number [s] in (0, 1e+06], found 0"},
       {"[course]\nintegrator = \"rk5\"", "9:14",
        "unknown value 'rk5', did you mean 'rk4'? Valid: "},
+      {"[course]\norder = 0", "9:9", "course.order: expected a whole number from 1 to 40"},
+      {"[course]\norder = 2.5", "9:9", "course.order: expected a whole number from 1 to 40"},
+      {"[course]\nattitude = \"matrx\"", "9:12", "unknown value 'matrx', did you mean 'matrix'?"},
       {"[course]\nplan = \"gradual\"", "9:8", "unknown value 'gradual'; valid: backstep"},
       {"[course]\ncontact = \"penalty\"", "9:11", "unknown value 'penalty'; valid: constraint"},
       {"[stepping]\nsolver = \"newtn\"", "9:10", "stepping.solver: unknown value 'newtn'"},

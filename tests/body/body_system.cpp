@@ -26,10 +26,6 @@ void run(std::string_view integrator, BodySystem& system, double h, int steps) {
   system.fromArray(y);
 }
 
-bool suits(const Integrator& row, const System& system) {
-  return missing(system.offers(), row.needs).empty();
-}
-
 }  // namespace
 
 // Oracle: bit equality. (An adaptive step is chosen by the worst body, so its row is left out.)

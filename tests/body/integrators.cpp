@@ -17,10 +17,6 @@ namespace {
 
 const Vec3 kGravity(0.0, -9.81, 0.0);
 
-bool suits(const Integrator& row, const System& system) {
-  return missing(system.offers(), row.needs).empty();
-}
-
 /// Y after `steps` equal steps to time `end`.
 template <class SomeSystem>
 VecX carried(const Integrator& row, SomeSystem system, double end, int steps, int order = 0) {
@@ -32,14 +28,8 @@ VecX carried(const Integrator& row, SomeSystem system, double end, int steps, in
   return y;
 }
 
-/// A particle of mass m.
 RigidBody particle(double m, const Vec3& x, const Vec3& v) {
-  RigidBody body;
-  body.particle = true;
-  body.M = m;
-  body.invM = 1.0 / m;
-  body.Ibody.setZero();
-  body.IbodyInv.setZero();
+  RigidBody body = makeParticle(m);
   body.x = x;
   setVelocity(body, v, Vec3::Zero());
   return body;

@@ -181,11 +181,6 @@ class Given : public System {
   F f_;
 };
 
-/// True if the system offers what the row needs.
-inline bool suits(const Integrator& row, const System& system) {
-  return missing(system.offers(), row.needs).empty();
-}
-
 /// Carries y through `steps` equal steps from 0 to `duration`.
 /// @param order  for a row of any order, 0 = its own
 inline void run(const Integrator& row, const System& system, double duration, int steps,

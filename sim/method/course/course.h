@@ -24,7 +24,7 @@ class CourseSteppers {
   /// The one for a system as it is now.
   Stepper& of(const System& system) { return *(stands(system) ? standIn_ : chosen_); }
   /// True if the other one stands in.
-  bool stands(const System& system) const { return !missing(system.offers(), row_.needs).empty(); }
+  bool stands(const System& system) const { return !suits(row_, system); }
 
  private:
   const Integrator& row_;
