@@ -1,7 +1,5 @@
 #include "sim/flight/flight.h"
 
-#include <cmath>
-
 namespace tumble {
 namespace {
 
@@ -17,10 +15,10 @@ Flight::Flight(const RigidBody& start, const Vec3& acceleration, double t0)
       P0_(start.P),
       force_(unlessFixed(start, start.M * acceleration)),
       L_(start.L) {
-  // A fixed body turns steadily; one without inertia does not turn.
+  // A fixed body turns steadily, a particle not at all.
   if (start.fixed()) {
     rotor_ = Rotor(start.q, start.omega);
-  } else if (start.IbodyInv.isZero(0.0)) {
+  } else if (start.particle) {
     rotor_ = Rotor(start.q, Vec3::Zero());
   } else {
     rotor_ = Rotor(start.Ibody, start.q, start.L);

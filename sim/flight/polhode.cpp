@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "sim/math/double_double.h"
@@ -56,49 +57,67 @@ Vec3 rounded(const Triple& a) {
   return {a[0].hi, a[1].hi, a[2].hi};
 }
 
+/// Which body axes are 1, 2, 3, and  d₃ L₃² − d₁ L₁² ≥ 0.
+struct Order {
+  std::array<int, 3> axis = {0, 1, 2};
+  double excess = 0.0;
+};
+
+/// Axis 3 is the one, of those with the least and the greatest moment, that holds the spin.
+Order jacobiOrder(const Vec3& I, const Triple& L) {
+  Order order;
+  auto& [first, middle, third] = order.axis;
+  std::sort(order.axis.begin(), order.axis.end(), [&](int i, int j) { return I[i] < I[j]; });
+  const DoubleDouble hold1 = hold(I[middle], I[first], I[third], L[first]);
+  const DoubleDouble hold3 = hold(I[middle], I[third], I[first], L[third]);
+  order.excess = (hold3 - hold1).hi;
+  const bool closer = I[middle] - I[first] > I[third] - I[middle];
+  if (order.excess < 0.0 || (order.excess == 0.0 && closer)) {
+    std::swap(first, third);
+    order.excess = -order.excess;
+  }
+  return order;
+}
+
 }  // namespace
 
 Polhode::Polhode(const Mat3& Ibody, const Quat& q, const Vec3& momentum) : L(momentum.norm()) {
   // The angular momentum along the principal axes.
-  const std::pair<Vec3, Mat3> frame = principal(Ibody);
-  const Vec3& moments = frame.first;
-  const Mat3& axes = frame.second;
+  std::tie(I, axes_B) = principal(Ibody);
   Triple L_P = inBody(q, momentum);
   if (!Ibody.isDiagonal(0.0)) {
-    const Vec3 turned = axes.transpose() * rounded(L_P);
+    const Vec3 turned = axes_B.transpose() * rounded(L_P);
     for (int i = 0; i < 3; ++i) L_P[i] = {turned[i], 0.0};
   }
   const double length = rounded(L_P).norm();
-  axes_B = axes;
-  I = moments;
   if (!(length > kNothing)) {
     L = 0.0;
     return;
   }
 
-  // Axis 3 is the one, of those with the least and the greatest moment, that holds the spin.
-  std::array<int, 3> order = {0, 1, 2};
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return moments[i] < moments[j]; });
-  auto [first, middle, third] = order;
-  const double I2 = moments[middle];
-  DoubleDouble hold1 = hold(I2, moments[first], moments[third], L_P[first]);
-  DoubleDouble hold3 = hold(I2, moments[third], moments[first], L_P[third]);
-  const double excess = (hold3 - hold1).hi;
-  const bool closer = I2 - moments[first] > moments[third] - I2;
-  if (excess < 0.0 || (excess == 0.0 && closer)) {
-    std::swap(first, third);
-    std::swap(hold1, hold3);
-  }
-  I = Vec3(moments[first], I2, moments[third]);
+  const Order order = jacobiOrder(I, L_P);
+  layAxes(order.axis, rounded(L_P) / length);
+  measure(std::sqrt(order.excess) / length);
+}
+
+void Polhode::layAxes(const std::array<int, 3>& axis, const Vec3& direction) {
+  const Mat3 axes = axes_B;
+  const Vec3 moments = I;
+  for (int i = 0; i < 3; ++i) I[i] = moments[axis[i]];
   sense = I[0] < I[2] ? 1.0 : -1.0;
 
   // Axes 1 and 3 are turned so that L leans towards them.
-  axes_B.col(0) = (L_P[first].hi < 0.0 ? -1.0 : 1.0) * axes.col(first);
-  axes_B.col(2) = (L_P[third].hi < 0.0 ? -1.0 : 1.0) * axes.col(third);
+  for (const int i : {0, 2}) {
+    const double turn = direction[axis[i]] < 0.0 ? -1.0 : 1.0;
+    axes_B.col(i) = turn * axes.col(axis[i]);
+    l[i] = turn * direction[axis[i]];
+  }
   axes_B.col(1) = axes_B.col(2).cross(axes_B.col(0));
-  const double turn = axes_B.col(1).dot(axes.col(middle)) < 0.0 ? -1.0 : 1.0;
-  l = Vec3(std::abs(L_P[first].hi), turn * L_P[middle].hi, std::abs(L_P[third].hi)) / length;
+  const double turn = axes_B.col(1).dot(axes.col(axis[1])) < 0.0 ? -1.0 : 1.0;
+  l[1] = turn * direction[axis[1]];
+}
 
+void Polhode::measure(double excess) {
   d1 = I[2] * std::abs(I[1] - I[0]);
   d3 = I[0] * std::abs(I[2] - I[1]);
   d = I[1] * std::abs(I[2] - I[0]);
@@ -112,9 +131,9 @@ Polhode::Polhode(const Mat3& Ibody, const Quat& q, const Vec3& momentum) : L(mom
   a2 = std::sqrt(squares[1] + squares[0] * (d / d3));
   a3 = std::sqrt(squares[2] + squares[1] * (d1 / d));
   const double volume = I[0] * I[1] * I[2];
+  s = std::sqrt(d) * excess / volume;
   s1 = std::sqrt(d1 * (d * squares[0] + d3 * squares[1])) / volume;
   s3 = std::sqrt(d3 * (d * squares[2] + d1 * squares[1])) / volume;
-  s = std::sqrt(d * (hold3 - hold1).hi) / (length * volume);
 }
 
 double Polhode::turning() const {

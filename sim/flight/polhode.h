@@ -1,6 +1,8 @@
 // Chapter 4, flight: the path of the angular momentum in a body that turns freely.
 #pragma once
 
+#include <array>
+
 #include "sim/math/vec.h"
 
 namespace tumble {
@@ -49,6 +51,10 @@ struct Polhode {
   ///   |a| ≤ ½ ω² + √(¼ ω⁴ + |ω̇|²).
   /// Along the curve ω² is linear in sn² u and ω̇² quadratic: their greatest values are at hand.
   double turning() const;
+
+ private:
+  void layAxes(const std::array<int, 3>& axis, const Vec3& direction);
+  void measure(double excess);
 };
 
 }  // namespace tumble
