@@ -1,12 +1,11 @@
 #include "sim/flight/polhode.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
+#include "sim/body/principal_axes.h"
 #include "sim/math/double_double.h"
 
 namespace tumble {
@@ -45,14 +44,6 @@ DoubleDouble hold(double I2, double Ik, double Iother, const DoubleDouble& Lk) {
   return Iother * difference * (Lk * Lk);
 }
 
-/// Principal moments and axes (columns) of a symmetric tensor; the axes of the frame if it is
-/// diagonal.
-std::pair<Vec3, Mat3> principal(const Mat3& I) {
-  if (I.isDiagonal(0.0)) return {I.diagonal(), Mat3::Identity()};
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(I);
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
 Vec3 rounded(const Triple& a) {
   return {a[0].hi, a[1].hi, a[2].hi};
 }
@@ -83,7 +74,9 @@ Order jacobiOrder(const Vec3& I, const Triple& L) {
 
 Polhode::Polhode(const Mat3& Ibody, const Quat& q, const Vec3& momentum) : L(momentum.norm()) {
   // The angular momentum along the principal axes.
-  std::tie(I, axes_B) = principal(Ibody);
+  const PrincipalAxes frame = principalAxes(Ibody);
+  I = frame.moments;
+  axes_B = frame.axes;
   Triple L_P = inBody(q, momentum);
   if (!Ibody.isDiagonal(0.0)) {
     const Vec3 turned = axes_B.transpose() * rounded(L_P);
