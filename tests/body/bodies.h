@@ -24,6 +24,14 @@ inline RigidBody tumblingCylinder() {
   return body;
 }
 
+/// A body of these moments, turned by q, that spins with omega_B in its own frame.
+inline RigidBody spinning(const Vec3& moments, const Quat& q, const Vec3& omega_B) {
+  RigidBody body = makeBody({1.0, moments.asDiagonal()});
+  body.q = q;
+  setVelocity(body, Vec3::Zero(), q * omega_B);
+  return body;
+}
+
 /// A turntable: fixed, at (0, 0, 0), carried along and turning.
 inline RigidBody turntable() {
   return makeFixedBody({Vec3::Zero(), fromAxisAngle({0.0, 1.0, 0.0}, 0.3)}, {0.2, 0.0, -0.1},

@@ -30,13 +30,6 @@ struct Draw {
   }
 };
 
-RigidBody spinning(const Vec3& moments, const Quat& q, const Vec3& omega_B) {
-  RigidBody body = makeBody({1.0, moments.asDiagonal()});
-  body.q = q;
-  setVelocity(body, Vec3::Zero(), q * omega_B);
-  return body;
-}
-
 /// A body whose extents are spread evenly over three decades, so that its moments differ by up to
 /// 1e6; turned and spinning anyhow at up to 100 rad/s.
 RigidBody randomBody(Draw& draw) {

@@ -18,14 +18,6 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 const Quat kTurned = fromAxisAngle({1.0, 2.0, -0.5}, 0.8);
 
-/// A body of these moments, turned by q, that spins with omega_B in its own frame.
-RigidBody spinning(const Vec3& moments, const Quat& q, const Vec3& omega_B) {
-  RigidBody body = makeBody({1.0, moments.asDiagonal()});
-  body.q = q;
-  setVelocity(body, Vec3::Zero(), q * omega_B);
-  return body;
-}
-
 RigidBody flown(const RigidBody& start, double t) {
   RigidBody body = start;
   Flight(start, Vec3::Zero(), 0.0).at(t, body);
