@@ -19,7 +19,10 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
   instance.position = x;
   instance.orientation = q;
   instance.colour = colour;
-  if (const Sphere* sphere = std::get_if<Sphere>(&body.shape)) {
+  if (facets) {
+    instance.form = Form::Facets;
+    instance.facets = facets;
+  } else if (const Sphere* sphere = std::get_if<Sphere>(&body.shape)) {
     instance.form = Form::Sphere;
     instance.scale.setConstant(sphere->r);
   } else if (const Box* box = std::get_if<Box>(&body.shape)) {
@@ -39,9 +42,6 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
     instance.scale = {0.5 * extent, 0.5 * thickness, 0.5 * extent};
     instance.position = foot - 0.5 * thickness * plane->n;
     instance.orientation = Quat::FromTwoVectors(Vec3::UnitY(), plane->n);
-  } else if (facets) {
-    instance.form = Form::Facets;
-    instance.facets = facets;
   }
   return instance;
 }

@@ -10,7 +10,7 @@ namespace tumble {
 
 /// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide,
 /// a particle without a radius a dot of a small share of it.
-/// @param facets  of a mesh or a compound, `facetsOf` its shape
+/// @param facets  drawn in place of the shape: of a mesh, a compound or a body that has sheared
 Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Colour& colour,
                     const Vec3& near, double extent,
                     const std::shared_ptr<const Facets>& facets = nullptr);

@@ -147,21 +147,43 @@ void measure(Facets& facets) {
   facets.thickness = 0.5 * static_cast<double>((hi - lo).minCoeff());
 }
 
+// Calls act(solid, pose in the body frame) for each solid of a shape that has a surface of its own.
+template <class Action>
+void forEachSolid(const Shape& shape, Action act) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) {
+    act(*mesh->solid, Pose{-mesh->origin, Quat::Identity()});
+  } else if (const Compound* compound = std::get_if<Compound>(&shape)) {
+    for (const Part& part : compound->parts)
+      act(std::visit([](const auto& piece) { return solidOf(piece); }, part.solid),
+          poseInBody(*compound, part));
+  } else if (const Box* box = std::get_if<Box>(&shape)) {
+    act(solidOf(*box), Pose{});
+  } else if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
+    act(solidOf(*sphere), Pose{});
+  } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape)) {
+    act(solidOf(*cylinder), Pose{});
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Facets> facetsOf(const Shape& shape) {
-  auto facets = std::make_shared<Facets>();
-  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) {
-    addSolid(*mesh->solid, {-mesh->origin, Quat::Identity()}, *facets);
-  } else if (const Compound* compound = std::get_if<Compound>(&shape)) {
-    for (const Part& part : compound->parts) {
-      const Polyhedron solid =
-          std::visit([](const auto& piece) { return solidOf(piece); }, part.solid);
-      addSolid(solid, poseInBody(*compound, part), *facets);
-    }
-  } else {
+  if (!std::holds_alternative<Mesh>(shape) && !std::holds_alternative<Compound>(shape))
     return nullptr;
-  }
+  auto facets = std::make_shared<Facets>();
+  forEachSolid(shape,
+               [&](const Polyhedron& solid, const Pose& pose) { addSolid(solid, pose, *facets); });
+  measure(*facets);
+  return facets;
+}
+
+std::shared_ptr<const Facets> facetsOf(const Shape& shape, const Mat3& stretch) {
+  auto facets = std::make_shared<Facets>();
+  forEachSolid(shape, [&](Polyhedron solid, const Pose& pose) {
+    for (Vec3& p : solid.points) p = stretch * toWorld(pose, p);
+    addSolid(solid, {}, *facets);
+  });
+  if (facets->corners.empty()) return nullptr;
   measure(*facets);
   return facets;
 }

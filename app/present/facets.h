@@ -13,4 +13,8 @@ namespace tumble {
 /// parts of a compound are drawn whole, balls and cylinders in 48 sides.
 std::shared_ptr<const Facets> facetsOf(const Shape& shape);
 
+/// The same for any solid whose points stand at stretch · p in the body frame, as those of a body
+/// whose matrix is no rotation; null for a half-space and a particle.
+std::shared_ptr<const Facets> facetsOf(const Shape& shape, const Mat3& stretch);
+
 }  // namespace tumble

@@ -15,6 +15,7 @@
 #include "app/present/palette.h"
 #include "app/present/paths.h"
 #include "app/present/samples.h"
+#include "sim/math/rotation.h"
 
 namespace tumble {
 
@@ -125,14 +126,22 @@ Picture Presenter::blank() const {
   return picture;
 }
 
+// The surface to draw a body by, if its shape alone does not say: one whose attitude is a matrix is
+// drawn as the matrix has it.
+std::shared_ptr<const Facets> Presenter::surfaceOf(std::size_t i, const BodySample& body) const {
+  if (!body.R) return facets_[i];
+  return facetsOf(scene_.world.bodies[i].shape, rotationMatrix(body.q).transpose() * *body.R);
+}
+
 void Presenter::addBodies(const Sample& sample, Picture& picture) const {
   const bool byTime = picture.bar.has_value();
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
     const BodyDef& body = scene_.world.bodies[i];
     if (isFloor(body)) continue;
     const Colour colour = byTime && moves(body) ? timeStops().back() : colours_[i];
-    Instance instance = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
-                                   framing_.centre, 3.0 * framing_.radius, facets_[i]);
+    Instance instance =
+        instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
+                   3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
     if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
     picture.instances.push_back(instance);
   }
@@ -150,8 +159,9 @@ void Presenter::addGhosts(Picture& picture) const {
       const BodyDef& body = scene_.world.bodies[i];
       if (!moves(body)) continue;
       const Colour colour = single ? ramp(timeStops(), u) : colours_[i];
-      Instance ghost = instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour,
-                                  framing_.centre, 3.0 * framing_.radius, facets_[i]);
+      Instance ghost =
+          instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
+                     3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
       ghost.finish = Finish::Ghost;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);

@@ -42,6 +42,7 @@ class Presenter {
 
  private:
   Picture blank() const;
+  std::shared_ptr<const Facets> surfaceOf(std::size_t i, const BodySample& body) const;
   void addBodies(const Sample& sample, Picture& picture) const;
   void addGhosts(Picture& picture) const;
   void addTheory(Picture& picture) const;

@@ -30,8 +30,8 @@ struct BodySeries {
 /// Euler and Poisson of the heavy top.
 class BodyJet {
  public:
-  /// True if every force has its recurrence: wind, drag, point forces, springs and fields do; on a body
-  /// with a pivot only wind and point forces.
+  /// True if every force has its recurrence: wind, drag, point forces, springs and fields do; on a
+  /// body with a pivot only wind and point forces.
   static bool covers(std::span<const Force> forces, std::span<const RigidBody> bodies,
                      std::span<const int> pivotOf);
 
