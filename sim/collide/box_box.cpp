@@ -68,6 +68,20 @@ double separation(const Box& a, const Pose& poseA, const Box& b, const Pose& pos
   return box_box::widestAxis(seenFromB(a, poseA, b, poseB), 0.0).gap;
 }
 
+ContactPoint separatingPlane(const Box& a, const Pose& poseA, const Box& b, const Pose& poseB) {
+  const BoxPair pair = seenFromB(a, poseA, b, poseB);
+  const Axis axis = box_box::widestAxis(pair, 0.0);
+  ContactPoint c;
+  c.n = poseB.q * box_box::direction(pair, axis);
+  c.separation = axis.gap;
+  c.tie = axis.tie;
+  if (c.tie == NormalTie::Edges) {
+    c.ea = poseA.q * Vec3::Unit(axis.i);
+    c.eb = poseB.q * Vec3::Unit(axis.j);
+  }
+  return c;
+}
+
 void collide(const Box& a, const Pose& poseA, const Box& b, const Pose& poseB, double margin,
              Manifold& out) {
   const BoxPair pair = seenFromB(a, poseA, b, poseB);

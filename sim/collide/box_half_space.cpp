@@ -29,6 +29,15 @@ double separation(const Box& a, const Pose& poseA, const HalfSpace& b, const Pos
   return vertexHeight(h, -1.0, -1.0, -1.0);
 }
 
+ContactPoint separatingPlane(const Box& a, const Pose& poseA, const HalfSpace& b,
+                             const Pose& poseB) {
+  ContactPoint c;
+  c.n = b.n;
+  c.separation = separation(a, poseA, b, poseB);
+  c.tie = NormalTie::FaceOfB;
+  return c;
+}
+
 void collide(const Box& a, const Pose& poseA, const HalfSpace& b, const Pose&, double margin,
              Manifold& out) {
   const Mat3 R = poseA.q.toRotationMatrix();

@@ -26,6 +26,7 @@ constexpr std::size_t indexOf() {
 struct PairRow {
   std::size_t kindA, kindB;
   double (*separation)(const Shape&, const Pose&, const Shape&, const Pose&);
+  ContactPoint (*separatingPlane)(const Shape&, const Pose&, const Shape&, const Pose&);
   void (*collide)(const Shape&, const Pose&, const Shape&, const Pose&, double, Manifold&);
 };
 
@@ -34,6 +35,9 @@ constexpr PairRow row() {
   return {indexOf<A>(), indexOf<B>(),
           [](const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
             return pairs::separation(*std::get_if<A>(&a), poseA, *std::get_if<B>(&b), poseB);
+          },
+          [](const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
+            return pairs::separatingPlane(*std::get_if<A>(&a), poseA, *std::get_if<B>(&b), poseB);
           },
           [](const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
              Manifold& out) {
@@ -97,6 +101,17 @@ double separation(const Shape& a, const Pose& poseA, const Shape& b, const Pose&
   if (!entry.row) return std::numeric_limits<double>::infinity();
   return entry.swapped ? entry.row->separation(b, poseB, a, poseA)
                        : entry.row->separation(a, poseA, b, poseB);
+}
+
+ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
+  const Entry entry = kLookup[a.index()][b.index()];
+  ContactPoint plane;
+  plane.separation = std::numeric_limits<double>::infinity();
+  if (!entry.row) return plane;
+  if (!entry.swapped) return entry.row->separatingPlane(a, poseA, b, poseB);
+  plane = entry.row->separatingPlane(b, poseB, a, poseA);
+  mirror(plane);
+  return plane;
 }
 
 void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,

@@ -14,6 +14,12 @@ bool canCollide(const Shape& a, const Shape& b);
 /// depth over the candidate planes). Continuous in the poses; its sign is exact up to rounding.
 double separation(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB);
 
+/// The widest plane found between two posed shapes, as a contact point of which n, separation, tie
+/// and the edges that the tie names are set; of a ball, the material points and radii too. The gap
+/// of the shapes along n is at least `separation` (then > 0), and no wider plane was found.
+/// Lecture on collision: separating planes (slides SH24–SH26).
+ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB);
+
 /// Writes all contact points of a pair whose separation is at most `margin` [m] into `out`
 /// (cleared first): the full manifold, clipped, with one normal. Order and features depend on the
 /// poses alone.

@@ -1,6 +1,6 @@
 // Chapter 5, collide: the shape pairs, one file each. Only the table in collide.cpp calls them.
 //
-// Every pair gives the two functions of collide.h for its own two types, in one order; the table
+// Every pair gives the three functions of collide.h for its own two types, in one order; the table
 // swaps. `collide` appends its points to `out`.
 #pragma once
 
@@ -10,22 +10,28 @@
 namespace tumble::pairs {
 
 double separation(const Sphere& a, const Pose& poseA, const Sphere& b, const Pose& poseB);
+ContactPoint separatingPlane(const Sphere& a, const Pose& poseA, const Sphere& b,
+                             const Pose& poseB);
 void collide(const Sphere& a, const Pose& poseA, const Sphere& b, const Pose& poseB, double margin,
              Manifold& out);
 
 double separation(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB);
+ContactPoint separatingPlane(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB);
 void collide(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB, double margin,
              Manifold& out);
 
 double separation(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose&);
+ContactPoint separatingPlane(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose&);
 void collide(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose&, double margin,
              Manifold& out);
 
 double separation(const Box& a, const Pose& poseA, const Box& b, const Pose& poseB);
+ContactPoint separatingPlane(const Box& a, const Pose& poseA, const Box& b, const Pose& poseB);
 void collide(const Box& a, const Pose& poseA, const Box& b, const Pose& poseB, double margin,
              Manifold& out);
 
 double separation(const Box& a, const Pose& poseA, const HalfSpace& b, const Pose&);
+ContactPoint separatingPlane(const Box& a, const Pose& poseA, const HalfSpace& b, const Pose&);
 void collide(const Box& a, const Pose& poseA, const HalfSpace& b, const Pose&, double margin,
              Manifold& out);
 

@@ -12,12 +12,9 @@ double separation(const Sphere& a, const Pose& poseA, const Box& b, const Pose& 
   return (inside > 0.0 ? beyond.cwiseMax(0.0).norm() : inside) - a.r;
 }
 
-void collide(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB, double margin,
-             Manifold& out) {
+ContactPoint separatingPlane(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB) {
   const NearestOnBox nearest = nearestOnBox(toBody(poseB, poseA.x), b.half);
   const double gap = nearest.gap - a.r;
-  if (gap > margin) return;
-
   ContactPoint c;
   c.n = poseB.q * nearest.normal;
   c.separation = gap;
@@ -28,7 +25,13 @@ void collide(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB
   c.ra = a.r;
   if (c.tie == NormalTie::EdgeOfB) c.eb = poseB.q * Vec3::Unit(nearest.edgeAxis);
   c.p = c.pb + 0.5 * gap * c.n;
-  out.push_back(c);
+  return c;
+}
+
+void collide(const Sphere& a, const Pose& poseA, const Box& b, const Pose& poseB, double margin,
+             Manifold& out) {
+  const ContactPoint c = separatingPlane(a, poseA, b, poseB);
+  if (c.separation <= margin) out.push_back(c);
 }
 
 }  // namespace tumble::pairs

@@ -8,12 +8,9 @@ double separation(const Sphere& a, const Pose& poseA, const HalfSpace& b, const 
   return b.n.dot(poseA.x) - b.d - a.r;
 }
 
-void collide(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose&, double margin,
-             Manifold& out) {
+ContactPoint separatingPlane(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose&) {
   const double height = b.n.dot(poseA.x) - b.d;
   const double gap = height - a.r;
-  if (gap > margin) return;
-
   ContactPoint c;
   c.n = b.n;
   c.separation = gap;
@@ -23,7 +20,13 @@ void collide(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose&
   c.pb = poseA.x - height * b.n;
   c.ra = a.r;
   c.p = c.pb + 0.5 * gap * b.n;
-  out.push_back(c);
+  return c;
+}
+
+void collide(const Sphere& a, const Pose& poseA, const HalfSpace& b, const Pose& poseB,
+             double margin, Manifold& out) {
+  const ContactPoint c = separatingPlane(a, poseA, b, poseB);
+  if (c.separation <= margin) out.push_back(c);
 }
 
 }  // namespace tumble::pairs

@@ -15,23 +15,26 @@ double separation(const Sphere& a, const Pose& poseA, const Sphere& b, const Pos
 }
 
 // n runs along the line of centres; concentric balls get the world's Y.
-void collide(const Sphere& a, const Pose& poseA, const Sphere& b, const Pose& poseB, double margin,
-             Manifold& out) {
+ContactPoint separatingPlane(const Sphere& a, const Pose& poseA, const Sphere& b,
+                             const Pose& poseB) {
   const Vec3 d = poseA.x - poseB.x;
   const double distance = d.norm();
-  const double gap = distance - (a.r + b.r);
-  if (gap > margin) return;
-
   ContactPoint c;
   c.n = distance > kConcentric ? Vec3(d / distance) : Vec3::UnitY();
-  c.separation = gap;
+  c.separation = distance - (a.r + b.r);
   c.tie = NormalTie::Points;
   c.pa = poseA.x;
   c.pb = poseB.x;
   c.ra = a.r;
   c.rb = b.r;
-  c.p = c.pb + (b.r + 0.5 * gap) * c.n;
-  out.push_back(c);
+  c.p = c.pb + (b.r + 0.5 * c.separation) * c.n;
+  return c;
+}
+
+void collide(const Sphere& a, const Pose& poseA, const Sphere& b, const Pose& poseB, double margin,
+             Manifold& out) {
+  const ContactPoint c = separatingPlane(a, poseA, b, poseB);
+  if (c.separation <= margin) out.push_back(c);
 }
 
 }  // namespace tumble::pairs
