@@ -182,6 +182,8 @@ struct World::Parts {
   Report report;
   const Method* method = nullptr;
   double lastAdvance = 0.0;
+  std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
+  std::vector<Contact> seenContacts;
 };
 
 World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
@@ -227,11 +229,12 @@ void World::advance(double t) {
 }
 
 Sample World::sample(double t) const {
-  std::vector<RigidBody> bodies;
-  std::vector<Contact> contacts;
+  std::vector<RigidBody>& bodies = parts_->seen;
+  std::vector<Contact>& contacts = parts_->seenContacts;
   parts_->method->look(parts_->model, parts_->state, t, bodies, contacts);
   Sample sample;
   sample.t = t;
+  sample.bodies.reserve(bodies.size());
   const WorldDef& def = parts_->model.def;
   const bool matrix = def.method == "course" && def.course.attitude == "matrix";
   for (const RigidBody& body : bodies)
@@ -265,9 +268,10 @@ std::vector<std::string> World::features(bool used) const {
     if (here == used) list.emplace_back(name);
   };
   add(!model.def.gravity.isZero(0.0), "gravity");
-  add(model.solid.size() > 1, "contact");
-  add(anyBody([](const BodyDef& b) { return b.restitution > 0.0; }), "restitution");
-  add(anyFriction(model), "friction");
+  const bool contact = model.solid.size() > 1 && parts_->method->contact;
+  add(contact, "contact");
+  add(contact && anyBody([](const BodyDef& b) { return b.restitution > 0.0; }), "restitution");
+  add(contact && anyFriction(model), "friction");
   add(anyBody([](const BodyDef& b) {
         return b.fixed && !(b.velocity.isZero(0.0) && b.angularVelocity.isZero(0.0));
       }),

@@ -21,6 +21,7 @@ struct Method {
   /// The bodies at time t inside the trail, and their lasting contacts with forces.
   void (*look)(const Model&, const State&, double t, std::vector<RigidBody>&,
                std::vector<Contact>&);
+  bool contact;  ///< bodies may touch and go on
 };
 
 /// All methods. To add one: write `sim/method/<name>/` and add its row in methods.cpp.

@@ -1,5 +1,6 @@
 // The table of methods.
 #include "sim/method/course/course.h"
+#include "sim/method/exact/exact.h"
 #include "sim/method/method.h"
 #include "sim/method/stepping/stepping.h"
 
@@ -8,9 +9,11 @@ namespace {
 
 constexpr Method kMethods[] = {
     {"course", "the notes: ODE black box, back up to the collision, impulses, resting forces",
-     checkCourse, advanceCourse, lookCourse},
+     checkCourse, advanceCourse, lookCourse, true},
+    {"exact", "closed-form flight for bodies that never meet; stops where two touch", checkExact,
+     advanceExact, lookExact, false},
     {"stepping", "one velocity-level contact problem per step, for stacks and piles", checkStepping,
-     advanceStepping, lookStepping},
+     advanceStepping, lookStepping, true},
 };
 
 }  // namespace

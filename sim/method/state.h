@@ -4,12 +4,15 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "sim/body/rigid_body.h"
 #include "sim/collide/broad_phase.h"
 #include "sim/contact/contact.h"
+#include "sim/flight/flight.h"
+#include "sim/flight/top.h"
 
 namespace tumble {
 
@@ -20,6 +23,7 @@ struct Segment {
   std::vector<RigidBody> end;  ///< the bodies at t1, before its events; only if the method needs it
   std::vector<Contact>
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
+  std::vector<Flight> flights = {};  ///< of `exact`: how each body gets from start to any instant
 };
 
 /// Time, bodies, and what a method remembers from step to step.
@@ -59,6 +63,18 @@ struct State {
   int recentBackUps = 0;  ///< stretches that ended before the step did
   int backUpsSpent = 0;   ///< of the store that every whole step refills
   int stalled = 0;        ///< events in a row that moved time by nothing
+
+  // What only `exact` remembers: the way of each centre, how far to look ahead, what lies there.
+  std::vector<Parabola> paths;
+  std::vector<HeavyTop> tops;  ///< in place of the flights of bodies with pivots, as Model::pivots
+  double lookedAt = 0.0;       ///< [s] end of the advance before this one
+  std::vector<Shape> hulls;    ///< what stands for each body when it is watched: never smaller
+  double window = 0.0;         ///< [s]
+  struct Touch {
+    double t = 0.0;  ///< [s]
+    int a = 0, b = 0;
+  };
+  std::optional<Touch> touch;  ///< at state.t; the motion is not known beyond
 };
 
 }  // namespace tumble

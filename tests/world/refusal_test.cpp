@@ -55,7 +55,7 @@ TEST_CASE("impossible worlds are refused where they are wrong") {
   def.forces = {PointForce{7, Vec3::Zero(), Vec3::UnitX()}};
   CHECK(refusedAt(def) == "forces[0]");
   def = sound();
-  def.method = "exact";
+  def.method = "auto";
   CHECK(refusedAt(def) == "method");
   def = sound();
   def.course.integrator = "rk5";
