@@ -208,3 +208,16 @@ TEST_CASE("a corner that dips in and out within a step is caught at its entry") 
   const double entry = (lead - std::acos((radius - below) / radius)) / spin;
   CHECK(impacts(world)[0].t == Approx(entry).margin(1e-9));  // measured 3e-11
 }
+
+// Oracle: the definition of a step; 1 rad each.
+TEST_CASE("where nothing can be met, the author's step is taken however fast a body spins") {
+  WorldDef def;
+  def.gravity.setZero();
+  def.duration = 1.0;
+  def.course.step = 0.01;
+  def.bodies = {box("top", {0.1, 0.2, 0.3}, Vec3::Zero())};
+  def.bodies[0].angularVelocity = {0.0, 0.0, 100.0};
+  World world(def);
+  world.advance(1.0);
+  CHECK(world.report().certificate.steps == 100);
+}

@@ -34,6 +34,7 @@ double Course::foresee(double span) const {
   constexpr double kTurn = 0.1;  // [rad] of a body in one stretch: integrators lose a larger one
   const double shortest = 1e-3 * span;  // no pair may slow the others down for ever
   double safe = span;
+  if (state_.near.empty()) return safe;  // nothing can be met: the step is the author's
   for (const RigidBody& body : state_.bodies)
     if (const double spin = body.omega.norm(); spin * safe > kTurn && !body.fixed())
       safe = std::max(shortest, kTurn / spin);
