@@ -68,7 +68,7 @@ TEST_CASE("what a world cannot integrate or hold is told at its key") {
 }
 
 // Oracle: R itself. The corners of what is drawn are where the matrix has them, to the single
-// precision of pictures; the nearest rotation alone would miss by 7 cm. Measured 3e-8 m.
+// precision of pictures; the nearest rotation alone would miss by more than a millimetre.
 TEST_CASE("a body that has sheared is drawn sheared") {
   const Scene scene = parseScene(kScene, "s.toml");
   const Recording recording = record(scene, 10.0);
