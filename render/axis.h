@@ -1,0 +1,45 @@
+// Axes of a chart: which numbers stand along them, and where a value lies.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+struct Axis {
+  std::string caption;  ///< "error", "time / s"
+  bool logarithmic = false;
+};
+
+/// A number along an axis; on a logarithmic one the power of ten.
+struct Tick {
+  double value = 0.0;
+  bool labelled = true;  ///< else only a fainter line
+};
+
+/// The range of an axis, rounded outwards to ticks, and the pixels that it covers.
+class Scale {
+ public:
+  /// @param values  what has to lie in the range; on a logarithmic axis only numbers > 0 count
+  /// @param from, to  [px] of the ends; more ticks are labelled where there is more room
+  /// @param room  [px] that a labelled tick needs
+  Scale(const Axis& axis, std::span<const double> values, double from, double to, double room);
+
+  /// Whether the value has a place: finite, and on a logarithmic axis > 0.
+  bool holds(double value) const;
+  /// [px]
+  double at(double value) const;
+  const std::vector<Tick>& ticks() const { return ticks_; }
+  /// Difference of labelled ticks, to know how many digits they need; 1 on a logarithmic axis.
+  double step() const { return step_; }
+  bool logarithmic() const { return logarithmic_; }
+
+ private:
+  bool logarithmic_;
+  double low_ = 0.0, high_ = 1.0;  // of the value, or of its logarithm
+  double from_, to_, step_ = 1.0;
+  std::vector<Tick> ticks_;
+};
+
+}  // namespace tumble

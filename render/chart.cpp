@@ -1,0 +1,225 @@
+#include "render/chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/canvas.h"
+#include "render/overlay.h"
+
+namespace tumble {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr Colour kGrid = {0.886f, 0.894f, 0.910f}, kFaintGrid = {0.935f, 0.940f, 0.948f};
+constexpr double kLegendGap = 28.0, kLegendStep = 42.0, kMark = 4.2;
+
+const Canvas::TextStyle kTick{13.0, Face::Regular, Align::Left, ink::secondary};
+const Canvas::TextStyle kPower{9.5, Face::Regular, Align::Left, ink::secondary};
+const Canvas::TextStyle kCaption{14.0, Face::Regular, Align::Left, ink::text};
+const Canvas::TextStyle kLabel{14.0, Face::Bold, Align::Left, ink::text};
+const Canvas::TextStyle kNote{12.5, Face::Regular, Align::Left, ink::secondary};
+
+Canvas::TextStyle aligned(Canvas::TextStyle style, Align align) {
+  style.align = align;
+  return style;
+}
+
+/// A number of an axis; on a logarithmic one "10" with its exponent raised.
+class TickText {
+ public:
+  TickText(const Tick& tick, const Scale& scale) {
+    if (!scale.logarithmic())
+      base_ = formatTick(tick.value, scale.step());
+    else if (tick.value == 0.0 || tick.value == 1.0)
+      base_ = tick.value == 0.0 ? "1" : "10";
+    else {
+      base_ = "10";
+      exponent_ = formatTick(tick.value, 1.0);
+    }
+  }
+
+  double width(Canvas& canvas) const {
+    return canvas.textWidth(base_, kTick) +
+           (exponent_.empty() ? 0.0 : 1.0 + canvas.textWidth(exponent_, kPower));
+  }
+  void draw(Vector2d pen, Canvas& canvas) const {
+    canvas.text(pen, base_, kTick);
+    if (exponent_.empty()) return;
+    pen += Vector2d(canvas.textWidth(base_, kTick) + 1.0, -5.5);
+    canvas.text(pen, exponent_, kPower);
+  }
+
+ private:
+  std::string base_, exponent_;
+};
+
+/// The value that a tick stands for.
+double valueOf(const Tick& tick, const Scale& scale) {
+  return scale.logarithmic() ? std::pow(10.0, tick.value) : tick.value;
+}
+
+void drawDashed(const Vector2d& from, const Vector2d& to, const Colour& colour, Canvas& canvas) {
+  constexpr double kDash = 7.0, kPeriod = 12.0;
+  const double length = (to - from).norm();
+  for (double done = 0.0; done < length; done += kPeriod)
+    canvas.stroke(from + done / length * (to - from),
+                  from + std::min(done + kDash, length) / length * (to - from), 1.4, colour);
+}
+
+/// Shapes that stay apart where colours do not.
+void drawMark(std::size_t shape, const Vector2d& at, const Colour& colour, Canvas& canvas) {
+  const double r = kMark;
+  const auto diamond = [&](const Vector2d& a, const Vector2d& b) {
+    canvas.triangle(at + a, at + b, at - a, colour);
+    canvas.triangle(at + a, at - b, at - a, colour);
+  };
+  canvas.disc(at, r + 1.6, ink::page);
+  switch (shape % 6) {
+    case 0:
+      return canvas.disc(at, r, colour);
+    case 1:
+      return canvas.fill(at - Vector2d(r, r) * 0.86, Vector2d(r, r) * 1.72, colour);
+    case 2:
+      return diamond({0.0, 1.25 * r}, {1.25 * r, 0.0});
+    case 3:
+      return canvas.triangle(at + Vector2d(0.0, -1.2 * r), at + Vector2d(1.15 * r, 0.8 * r),
+                             at + Vector2d(-1.15 * r, 0.8 * r), colour);
+    case 4:
+      return canvas.ring(at, 0.82 * r, 1.8, colour);
+    default:
+      return canvas.triangle(at + Vector2d(0.0, 1.2 * r), at + Vector2d(-1.15 * r, -0.8 * r),
+                             at + Vector2d(1.15 * r, -0.8 * r), colour);
+  }
+}
+
+/// Where everything of one chart stands, and the canvas that it is drawn on.
+class Plot {
+ public:
+  Plot(const Chart& chart, Canvas& canvas)
+      : chart_(chart),
+        canvas_(canvas),
+        legend_(legendWidth()),
+        left_(64.0),
+        right_(canvas.width() - (legend_ > 0.0 ? legend_ + 2.0 * kLegendGap : 32.0)),
+        top_(chart.title.empty() ? 48.0 : 120.0),
+        bottom_(canvas.height() - 58.0),
+        x_(chart.x, valuesOf(0), left_, right_, 64.0),
+        y_(chart.y, valuesOf(1), bottom_, top_, 40.0) {}
+
+  void draw() {
+    canvas_.fill({0.0, 0.0}, {canvas_.width(), canvas_.height()}, ink::page);
+    drawGrid();
+    for (const Guide& guide : chart_.guides) drawGuide(guide);
+    for (const ChartCurve& curve : chart_.curves) drawLine(curve);
+    for (std::size_t i = 0; i < chart_.curves.size(); ++i) drawMarks(i);
+    drawLegend();
+    canvas_.text({32.0, 46.0}, chart_.title, {22.0, Face::Bold, Align::Left, ink::text});
+    canvas_.text({32.0, 70.0}, chart_.subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
+  }
+
+ private:
+  std::vector<double> valuesOf(int axis) const {
+    std::vector<double> values;
+    for (const ChartCurve& curve : chart_.curves)
+      for (const Vector2d& point : curve.points) values.push_back(point[axis]);
+    for (const Guide& guide : chart_.guides)
+      if (guide.upright == (axis == 0)) values.push_back(guide.at);
+    return values;
+  }
+
+  double legendWidth() {
+    double width = 0.0;
+    for (const ChartCurve& curve : chart_.curves)
+      width = std::max(
+          {width, canvas_.textWidth(curve.label, kLabel), canvas_.textWidth(curve.note, kNote)});
+    return width;
+  }
+
+  void drawGrid() {
+    for (const Tick& tick : x_.ticks()) {
+      const double x = x_.at(valueOf(tick, x_));
+      canvas_.stroke({x, top_}, {x, bottom_}, 1.0, tick.labelled ? kGrid : kFaintGrid);
+    }
+    for (const Tick& tick : y_.ticks()) {
+      const double y = y_.at(valueOf(tick, y_));
+      canvas_.stroke({left_, y}, {right_, y}, 1.0, tick.labelled ? kGrid : kFaintGrid);
+    }
+    canvas_.stroke({left_, bottom_}, {right_, bottom_}, 1.4, ink::secondary);
+    canvas_.stroke({left_, top_}, {left_, bottom_}, 1.4, ink::secondary);
+    for (const Tick& tick : x_.ticks()) {
+      const double x = x_.at(valueOf(tick, x_));
+      canvas_.stroke({x, bottom_}, {x, bottom_ + (tick.labelled ? 5.0 : 3.0)}, 1.2, ink::secondary);
+      const TickText text(tick, x_);
+      if (tick.labelled) text.draw({x - 0.5 * text.width(canvas_), bottom_ + 20.0}, canvas_);
+    }
+    for (const Tick& tick : y_.ticks()) {
+      const double y = y_.at(valueOf(tick, y_));
+      canvas_.stroke({left_ - (tick.labelled ? 5.0 : 3.0), y}, {left_, y}, 1.2, ink::secondary);
+      const TickText text(tick, y_);
+      if (tick.labelled) text.draw({left_ - 10.0 - text.width(canvas_), y + 4.5}, canvas_);
+    }
+    canvas_.text({left_ - 32.0, top_ - 16.0}, chart_.y.caption, kCaption);
+    canvas_.text({right_, bottom_ + 42.0}, chart_.x.caption, aligned(kCaption, Align::Right));
+  }
+
+  void drawGuide(const Guide& guide) {
+    const Scale& scale = guide.upright ? x_ : y_;
+    if (!scale.holds(guide.at)) return;
+    const double at = scale.at(guide.at);
+    if (guide.upright) {
+      drawDashed({at, bottom_}, {at, top_}, ink::secondary, canvas_);
+      canvas_.text({at + 7.0, bottom_ - 8.0}, guide.label, kNote);
+    } else {
+      drawDashed({left_, at}, {right_, at}, ink::secondary, canvas_);
+      canvas_.text({right_ - 4.0, at - 6.0}, guide.label, aligned(kNote, Align::Right));
+    }
+  }
+
+  bool holds(const Vector2d& point) const { return x_.holds(point.x()) && y_.holds(point.y()); }
+  Vector2d at(const Vector2d& point) const { return {x_.at(point.x()), y_.at(point.y())}; }
+
+  void drawLine(const ChartCurve& curve) {
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
+      if (holds(curve.points[i]) && holds(curve.points[i + 1]))
+        canvas_.stroke(at(curve.points[i]), at(curve.points[i + 1]), 2.0, curve.colour);
+  }
+
+  void drawMarks(std::size_t index) {
+    const ChartCurve& curve = chart_.curves[index];
+    if (!curve.marked) return;
+    for (const Vector2d& point : curve.points)
+      if (holds(point)) drawMark(index, at(point), curve.colour, canvas_);
+  }
+
+  void drawLegend() {
+    const double x = right_ + kLegendGap;
+    double y = top_ + 10.0;
+    for (std::size_t i = 0; i < chart_.curves.size(); ++i, y += kLegendStep) {
+      const ChartCurve& curve = chart_.curves[i];
+      if (curve.label.empty()) continue;
+      canvas_.stroke({x - 12.0, y}, {x + 10.0, y}, 2.0, curve.colour);
+      if (curve.marked) drawMark(i, {x - 1.0, y}, curve.colour, canvas_);
+      canvas_.text({x + 18.0, y + 5.0}, curve.label, kLabel);
+      canvas_.text({x + 18.0, y + 22.0}, curve.note, kNote);
+    }
+  }
+
+  const Chart& chart_;
+  Canvas& canvas_;
+  double legend_, left_, right_, top_, bottom_;
+  Scale x_, y_;
+};
+
+}  // namespace
+
+Image drawChart(const Chart& chart, int width, int height, double scale, Fonts& fonts) {
+  Image image{width, height, {}};
+  image.rgb.resize(3u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  Canvas canvas(image, fonts, scale);
+  canvas.setPaper(ink::page);
+  Plot(chart, canvas).draw();
+  return image;
+}
+
+}  // namespace tumble
