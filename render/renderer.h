@@ -16,7 +16,9 @@ struct RenderOptions {
   int width = 1280, height = 720;
   AntiAlias antialias = AntiAlias::Msaa4;
   int shadowMapSize = 1024;
-  double lightScale = 1.0;  ///< [1] multiplies the key light
+  double lightScale = 1.0;    ///< [1] multiplies the key light
+  double pageHeight = 720.0;  ///< [px] that the sizes of a picture are meant for: less draws text,
+                              ///< lines and arrows larger
 };
 
 /// Owns shaders, meshes, fonts and framebuffers of one context.

@@ -18,7 +18,7 @@ struct Stage {
   Stage(const Picture& picture, const RenderOptions& options);
 
   int width, height;       ///< [px] that OpenGL draws: twice the image with 2×2 supersampling
-  double scale;            ///< such pixels per pixel of a page 720 high
+  double scale;            ///< such pixels per pixel of the page
   Projection projection;   ///< of world points onto them
   Eigen::Vector3d origin;  ///< world [m]
   Eigen::Vector3d light;   ///< unit, towards the key light: 38° left of the onlooker, 52° high

@@ -42,6 +42,11 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
   shown.plates = {{name + "/strobe.png", "the whole motion"},
                   {name + "/still.png", "one instant"},
                   {name + "/sheet.png", "twelve instants"}};
+  const std::vector<std::string> panels = shoot.panels();
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    shown.plates.push_back(
+        i == 0 ? Plate{name + "/panels.png", "panels"}
+               : Plate{name + panels[i].substr(folder.size()), scene.charts[i - 1].variant.title});
   if (options.all) {
     shoot.sequence({0, shoot.count()});
     shoot.video(folder + "/film.mp4", {0, shoot.count()});
@@ -50,7 +55,7 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
   shown.verdict = judge(scene, shoot.recording());
   int code = std::max(exitOf(shoot.recording()), shown.verdict.failed > 0 ? +kFailed : +kOk);
   if (scene.sweep) {
-    code = std::max(code, runSweep(named, scene, folder, {0, 1}, studio).code);
+    code = std::max(code, runSweep(scene, folder, {0, 1}, studio).code);
     shown.plates.push_back({name + "/sweep.png", "for each " + scene.sweep->parameter});
   }
   return code;

@@ -18,13 +18,14 @@ struct Options {
   std::string folder, frames, size, video;
   double rate = 0.0;
   std::optional<double> still;
-  bool strobe = false, sheet = false;
+  bool strobe = false, sheet = false, panels = false;
 };
 
 bool readOptions(int argc, char** argv, Options& options) {
   CommandLine app("render", "Draws a scene.",
                   {"path-of-brick                  # out/path-of-brick/image-000000.png …",
                    "path-of-brick --strobe --sheet # strobe.png and sheet.png instead",
+                   "my-scene.toml --panels         # its [[panel]] and [[chart]] on one page",
                    "path-of-brick --still 1.2 --size 1920x1080",
                    "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
                    "path-of-brick --video brick.mp4",
@@ -37,6 +38,7 @@ bool readOptions(int argc, char** argv, Options& options) {
   app.add_option("--still", options.still, "one image, at this time")->type_name("SECONDS");
   app.add_flag("--strobe", options.strobe, "one image of the whole motion");
   app.add_flag("--sheet", options.sheet, "twelve stills on one page");
+  app.add_flag("--panels", options.panels, "the scene's panels and charts");
   app.add_option("--video", options.video, "a film, by ffmpeg")->type_name("FILE");
   return app.read(argc, argv);
 }
@@ -66,14 +68,20 @@ int render(int argc, char** argv) {
     throw UsageError(fmt::format("--still {:g}: the scene lasts from 0 to {:g} s", *options.still,
                                  scene.world.duration));
 
+  if (options.panels && scene.panels.empty() && scene.charts.empty())
+    throw UsageError(fmt::format("{} has neither [[panel]] nor [[chart]]", scene.file));
+
   Studio studio;
   Shoot shoot(scene, options.folder, studio);
   const std::pair<int, int> range = rangeOf(options, shoot.count());
-  const bool single = options.still || options.strobe || options.sheet || !options.video.empty();
+  const bool single =
+      options.still || options.strobe || options.sheet || options.panels || !options.video.empty();
   std::vector<std::string> written;
   if (options.still) written.push_back(shoot.still(*options.still));
   if (options.strobe) written.push_back(shoot.strobe());
   if (options.sheet) written.push_back(shoot.sheet());
+  if (options.panels)
+    for (const std::string& path : shoot.panels()) written.push_back(path);
   if (!options.video.empty()) {
     const std::filesystem::path parent = std::filesystem::path(options.video).parent_path();
     if (!parent.empty()) makeFolder(parent.string());

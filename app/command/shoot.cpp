@@ -10,6 +10,7 @@
 #include "app/command/run.h"
 #include "app/command/stamp.h"
 #include "app/command/video.h"
+#include "app/panel/page.h"
 #include "app/record/file.h"
 #include "render/png_writer.h"
 #include "render/sheet.h"
@@ -73,6 +74,40 @@ std::string Shoot::sheet() {
   writePng(path, drawSheet(panels, kColumns, scene_.title, scene_.subtitle, studio_.fonts()),
            stampOf(scene_, what));
   return path;
+}
+
+std::vector<std::string> Shoot::panels() {
+  const std::size_t total = runsOf(scene_);
+  std::vector<std::string> paths;
+  if (total == 0) return paths;
+  paths.push_back(folder_ + "/panels.png");
+  for (std::size_t i = 0; i < scene_.charts.size(); ++i)
+    paths.push_back(folder_ + "/" + chartName(i) + ".png");
+  if (std::all_of(paths.begin(), paths.end(),
+                  [this](const std::string& path) { return finished(path, "panels"); }))
+    return paths;
+
+  std::size_t count = 0;
+  Progress progress("simulating panels");
+  const PageRuns runs =
+      runPage(scene_, [&] { progress.show(static_cast<double>(++count) / total); });
+  ImageFormat format = scene_.image;
+  format.width = kSheetPanel;
+  format.height = panelHeight(scene_, kSheetPanel);
+  const auto draw = [&](const Picture& picture) {
+    return studio_.draw(picture, format, panelPage(scene_));
+  };
+  for (std::size_t i = 0; i < scene_.charts.size(); ++i) {
+    const ChartDef& chart = scene_.charts[i];
+    writeFile(folder_ + "/" + chartName(i) + ".csv", chartCsv(chart, runs.charts[i]));
+    writePng(paths[i + 1],
+             drawChart(chartOf(chart, runs.charts[i]), scene_.image.width, scene_.image.height,
+                       scene_.image.height / 720.0, studio_.fonts()),
+             stampOf(scene_, "panels"));
+  }
+  writePng(paths.front(), drawPage(scene_, runs, kSheetPanel, draw, studio_.fonts()),
+           stampOf(scene_, "panels"));
+  return paths;
 }
 
 std::string Shoot::sequence(std::pair<int, int> range) {

@@ -4,11 +4,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/command/studio.h"
 #include "app/present/present.h"
 
 namespace tumble {
+
+inline constexpr int kSheetPanel = 640;  ///< [px] width of a panel on a sheet of variants
 
 /// Simulates when the first image is needed. An image that is there already, whole and made from
 /// the same scene, is kept.
@@ -22,6 +25,9 @@ class Shoot {
   std::string still(double t);  ///< still.png, the sample nearest to t [s]
   std::string strobe();         ///< strobe.png
   std::string sheet();          ///< sheet.png: the motion in twelve stills
+  /// panels.png with all panels and charts of the scene, and chart.png, chart.csv, chart-2.png … of
+  /// each chart alone. Nothing for a scene without them.
+  std::vector<std::string> panels();
   /// image-000000.png …: images [first, last) of the sequence, one per sample.
   std::string sequence(std::pair<int, int> range);
   /// The images of the range as a film.

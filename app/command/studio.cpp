@@ -18,10 +18,11 @@ Studio::Studio()
       renderer_(*context_, dataFolder("shaders"), dataFolder("fonts")),
       fonts_(dataFolder("fonts")) {}
 
-Image Studio::draw(const Picture& picture, const ImageFormat& format) {
+Image Studio::draw(const Picture& picture, const ImageFormat& format, double pageHeight) {
   RenderOptions options;
   options.width = format.width;
   options.height = format.height;
+  options.pageHeight = pageHeight;
   options.antialias = antiAliasOf(format.antialias);
   return renderer_.draw(picture, options);
 }

@@ -16,7 +16,8 @@ class Studio {
   Studio();
 
   /// Draws in the given format; width and height may be replaced.
-  Image draw(const Picture& picture, const ImageFormat& format);
+  /// @param pageHeight  as in RenderOptions
+  Image draw(const Picture& picture, const ImageFormat& format, double pageHeight = 720.0);
   Fonts& fonts() { return fonts_; }
 
  private:

@@ -29,7 +29,7 @@ int sweep(int argc, char** argv) {
   makeFolder(folder);
 
   Studio studio;
-  const SweepResult result = runSweep(options, scene, folder, part, studio);
+  const SweepResult result = runSweep(scene, folder, part, studio);
   for (const std::string& path : result.files) fmt::print("{}\n", path);
   return result.code;
 }

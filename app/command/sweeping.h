@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/command/options.h"
 #include "app/command/studio.h"
 
 namespace tumble {
@@ -19,7 +18,7 @@ struct SweepResult {
 /// sweep-<k>/strobe.png for each, a row per value in sweep.csv (sweep-<I>-of-<N>.csv for a part)
 /// and, for all values together, sweep.png with the strobes side by side, seen by one camera.
 /// @throws SceneError if a value is refused; FileError
-SweepResult runSweep(const SceneOptions& options, const Scene& scene, const std::string& folder,
-                     std::pair<int, int> part, Studio& studio);
+SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<int, int> part,
+                     Studio& studio);
 
 }  // namespace tumble

@@ -26,12 +26,15 @@ void requireKnownChecks(const Scene& scene) {
   std::vector<std::string> known;
   for (const Check& check : checks()) known.emplace_back(check.name);
   std::vector<Diagnostic> diagnostics;
-  for (const std::string& name : scene.checks) {
-    if (findCheck(name)) continue;
-    const auto place = scene.places.find("checks");
+  const auto require = [&](const std::string& name, const std::string& where) {
+    if (findCheck(name)) return;
+    const auto place = scene.places.find(where);
     diagnostics.push_back({place != scene.places.end() ? place->second : Place{scene.file},
-                           "checks: unknown check '" + name + "'" + hint(name, known)});
-  }
+                           where + ": unknown check '" + name + "'" + hint(name, known)});
+  };
+  for (const std::string& name : scene.checks) require(name, "checks");
+  for (std::size_t i = 0; i < scene.charts.size(); ++i)
+    require(scene.charts[i].error, "chart[" + std::to_string(i) + "].error");
   if (!diagnostics.empty()) throw SceneError(std::move(diagnostics));
 }
 

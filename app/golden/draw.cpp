@@ -1,6 +1,7 @@
 #include "app/golden/draw.h"
 
 #include "app/command/data.h"
+#include "app/panel/page.h"
 #include "app/present/present.h"
 #include "app/record/output.h"
 #include "app/viewer/snapshot.h"
@@ -10,7 +11,8 @@ namespace tumble {
 namespace {
 
 constexpr RenderOptions kSmall = {.width = 480, .height = 270};
-constexpr int kRows = 20;  // intervals between the instants that numbers are kept of
+constexpr int kSmallPanel = 360;  // [px] width of a panel
+constexpr int kRows = 20;         // intervals between the instants that numbers are kept of
 
 // A ball flies at a wall: bodies of two forms that fill the image and shade each other.
 constexpr const char* kWindowScene = R"toml(
@@ -59,7 +61,21 @@ Recording thinned(const Recording& recording) {
 Golden drawWindow(Renderer& renderer) {
   const Scene scene = windowScene();
   return {
-      std::string(kWindowSubject), {{"page", viewerSnapshot(renderer, scene, 0.5, 960, 540)}}, ""};
+      std::string(kWindowSubject), {{"page", viewerSnapshot(renderer, scene, 0.5, 960, 540)}}, {}};
+}
+
+// The page of panels and charts, and the numbers that every machine finds for the charts.
+void addPage(const Scene& scene, Renderer& renderer, Golden& golden) {
+  if (runsOf(scene) == 0) return;
+  const PageRuns runs = runPage(scene);
+  Fonts fonts(dataFolder("fonts"));
+  const RenderOptions options{.width = kSmallPanel,
+                              .height = panelHeight(scene, kSmallPanel),
+                              .pageHeight = panelPage(scene)};
+  const auto draw = [&](const Picture& picture) { return renderer.draw(picture, options); };
+  golden.images.push_back({"panels", drawPage(scene, runs, kSmallPanel, draw, fonts)});
+  for (std::size_t i = 0; i < runs.charts.size(); ++i)
+    golden.tables.push_back({chartName(i), chartCsv(scene.charts[i], runs.charts[i])});
 }
 
 Golden drawDemo(const std::string& name, Renderer& renderer) {
@@ -75,7 +91,11 @@ Golden drawDemo(const std::string& name, Renderer& renderer) {
   draw("end", presenter.image(last));
   draw("middle", presenter.image(last / 3));
   draw("start", presenter.image(0));
-  return {name, distinctImages(std::move(images)), trajectoryCsv(thinned(recording), scene)};
+  Golden golden{name,
+                distinctImages(std::move(images)),
+                {{"numbers", trajectoryCsv(thinned(recording), scene)}}};
+  addPage(scene, renderer, golden);
+  return golden;
 }
 
 }  // namespace

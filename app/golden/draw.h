@@ -17,7 +17,8 @@ inline constexpr std::string_view kWindowSubject = "viewer";
 Scene windowScene();
 
 /// Draws a demo's start, instants and strobe, 480×270, and writes down its motion at 21 instants;
-/// or the window. Images that show nothing new are left out.
+/// its page of panels and charts with the charts' numbers; or the window. Images that show nothing
+/// new are left out.
 /// @throws SceneError, NoContext
 Golden drawGolden(const std::string& subject, Renderer& renderer);
 

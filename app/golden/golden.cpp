@@ -57,12 +57,12 @@ Finding compareImage(const Golden& now, const NamedImage& drawn, const Manifest&
   return finding;
 }
 
-Finding compareTable(const Golden& now, const fs::path& folder) {
-  Finding finding{.subject = now.subject, .name = "numbers"};
-  const fs::path file = folder / now.subject / "numbers.csv";
+Finding compareTable(const Golden& now, const NamedTable& table, const fs::path& folder) {
+  Finding finding{.subject = now.subject, .name = table.name};
+  const fs::path file = folder / now.subject / (table.name + ".csv");
   finding.numbers = NumberDifference{};
   if (fs::exists(file))
-    finding.numbers = compareNumbers(readFile(file.string()), now.numbers);
+    finding.numbers = compareNumbers(readFile(file.string()), table.csv);
   else
     finding.remark = "there are no golden numbers";
   return finding;
@@ -80,7 +80,7 @@ std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
   std::vector<Finding> findings;
   for (const NamedImage& drawn : now.images)
     findings.push_back(compareImage(now, drawn, manifest, folder));
-  if (!now.numbers.empty()) findings.push_back(compareTable(now, folder));
+  for (const NamedTable& table : now.tables) findings.push_back(compareTable(now, table, folder));
 
   // An image of the manifest that is drawn no more is a loss, too.
   const auto known = manifest.images.find(now.subject);
@@ -101,7 +101,8 @@ void storeGolden(const Golden& now, Manifest& manifest, const std::string& folde
     writePng((place / (drawn.name + ".png")).string(), drawn.image);
     manifest.images[now.subject][drawn.name] = pixelHash(drawn.image);
   }
-  if (!now.numbers.empty()) writeFile((place / "numbers.csv").string(), now.numbers);
+  for (const NamedTable& table : now.tables)
+    writeFile((place / (table.name + ".csv")).string(), table.csv);
 }
 
 std::vector<NamedImage> distinctImages(std::vector<NamedImage> candidates) {

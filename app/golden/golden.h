@@ -18,11 +18,17 @@ struct NamedImage {
   Image image;
 };
 
+/// Numbers with the name of their file, without ending.
+struct NamedTable {
+  std::string name;
+  std::string csv;  ///< 17 digits
+};
+
 /// What one subject – a demo, or the window – looks like now.
 struct Golden {
   std::string subject;
   std::vector<NamedImage> images;
-  std::string numbers;  ///< CSV, 17 digits; empty for a subject without motion
+  std::vector<NamedTable> tables;
 };
 
 /// One comparison. An image without an expected one is missing, and fails.
@@ -38,7 +44,7 @@ struct Finding {
   std::string verdict() const;
 };
 
-/// Holds what is drawn now against folder/<subject>/*.png and numbers.csv.
+/// Holds what is drawn now against folder/<subject>/*.png and *.csv.
 /// @throws FileError if a golden that is there cannot be read.
 std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
                                    const std::string& folder);

@@ -19,12 +19,19 @@ constexpr std::array kCividis = {hex(0x00224E), hex(0x123570), hex(0x3B496C),
                                  hex(0x575D6D), hex(0x707173), hex(0x8A8678),
                                  hex(0xA59C74), hex(0xC3B369), hex(0xE1CC55)};
 
+constexpr std::array kSeries = {hex(0x3A6FA8), hex(0xD5401A), hex(0x3F9C8C), hex(0x4B3F78),
+                                hex(0xBA9846), hex(0xB5485D), hex(0x8A9099), hex(0x2B2F36)};
+
 // "ball" for "ball.3"; empty for a name without a number behind a dot.
 std::string arrayOf(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos || dot + 1 == name.size()) return {};
   const bool number = name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
   return number ? name.substr(0, dot) : std::string();
+}
+
+Colour single(const Rgb& rgb) {
+  return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
 
 double massIfMoving(const BodyDef& body) {
@@ -81,6 +88,20 @@ Colour shade(const Colour& colour, float factor) {
   return {colour[0] * factor, colour[1] * factor, colour[2] * factor};
 }
 
+Colour seriesColour(std::size_t i) {
+  return kSeries[i % kSeries.size()];
+}
+
+std::optional<Colour> backOf(const Scene& scene, std::size_t i) {
+  if (i >= scene.backs.size() || !scene.backs[i]) return {};
+  return single(*scene.backs[i]);
+}
+
+bool anyBack(const Scene& scene) {
+  return std::any_of(scene.backs.begin(), scene.backs.end(),
+                     [](const std::optional<Rgb>& back) { return back.has_value(); });
+}
+
 std::vector<Colour> bodyColours(const Scene& scene) {
   std::vector<Colour> colours;
   std::vector<std::string> kinds;
@@ -88,9 +109,7 @@ std::vector<Colour> bodyColours(const Scene& scene) {
   for (std::size_t i = 0; i < scene.world.bodies.size(); ++i) {
     const BodyDef& body = scene.world.bodies[i];
     if (i < scene.colours.size() && scene.colours[i]) {
-      const Rgb& rgb = *scene.colours[i];
-      colours.push_back(
-          {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
+      colours.push_back(single(*scene.colours[i]));
       continue;
     }
     if (!moves(body)) {

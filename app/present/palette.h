@@ -20,6 +20,7 @@ inline constexpr Colour kForce = hex(0xD5401A);     ///< forces and theory
 inline constexpr Colour kVelocity = hex(0x0A63B0);  ///< velocities and momenta
 inline constexpr Colour kInk = hex(0x2B2F36);       ///< normals, paths, text
 inline constexpr Colour kQuiet = hex(0x5C636E);     ///< secondary text
+inline constexpr Colour kAngular = hex(0xB15FD6);   ///< angular velocities and momenta
 inline constexpr Colour kFixed = hex(0xB4BBC4);     ///< bodies that do not move
 }  // namespace colour
 
@@ -31,6 +32,13 @@ std::span<const Colour> cividisStops();
 Colour ramp(std::span<const Colour> stops, double u);
 /// Every channel times a factor.
 Colour shade(const Colour& colour, float factor);
+
+/// Colour of the i-th curve of a chart, dark enough for a thin line on paper.
+Colour seriesColour(std::size_t i);
+
+/// The colour of the half of body i with z < 0 in its frame, if it has one of its own.
+std::optional<Colour> backOf(const Scene& scene, std::size_t i);
+bool anyBack(const Scene& scene);
 
 /// A colour for every body: the scene's own; else by material in order of first use; fixed ones
 /// grey.

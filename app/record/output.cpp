@@ -31,6 +31,12 @@ bool moves(const BodyDef& body) {
 
 }  // namespace
 
+std::string csvQuoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 std::string trajectoryCsv(const Recording& recording, const Scene& scene) {
   std::string out = "t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
   for (const Sample& sample : recording.samples) {

@@ -20,6 +20,9 @@ std::string contactsCsv(const Recording& recording, const Scene& scene);
 /// The certificate as JSON with flat keys.
 std::string summaryJson(const Recording& recording, const Scene& scene);
 
+/// A text as a field of a CSV file, in quotes (RFC 4180).
+std::string csvQuoted(const std::string& text);
+
 /// Writes trajectory.csv, events.csv, contacts.csv and summary.json into the folder, making it if
 /// need be.
 /// @throws FileError

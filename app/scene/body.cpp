@@ -118,6 +118,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   def.restitution = surface.restitution;
   def.friction = surface.friction;
   entry.colour = surface.colour;
+  entry.back = surface.back;
   section.read("label", entry.label);
   if (entry.label.size() > kLongestLabel) section.complain("label", "longer than 200 bytes");
 
@@ -149,6 +150,7 @@ void Bodies::add(BodyEntry entry, Spot spot, Section& section) {
     section.findings().complain(spot, section.path("name"),
                                 "there is a body " + quoted(name) + " already");
   scene_.colours.push_back(entry.colour);
+  scene_.backs.push_back(entry.back);
   scene_.labels.push_back(std::move(entry.label));
   share(entry.def.shape);
   scene_.world.bodies.push_back(std::move(entry.def));

@@ -8,7 +8,7 @@ namespace tumble {
 /// A body with what is drawn of it.
 struct BodyEntry {
   BodyDef def;
-  std::optional<Rgb> colour;
+  std::optional<Rgb> colour, back;
   std::string label;
 };
 

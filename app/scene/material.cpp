@@ -8,7 +8,8 @@ void Material::read(Section& section) {
   section.read("density", density, positive("kg/m³"));
   section.read("restitution", restitution, kShare);
   section.read("friction", friction, notNegative({}));
-  readColour(section, colour);
+  readColour(section, "colour", colour);
+  readColour(section, "colour_back", back);
 }
 
 Materials readMaterials(Section& root) {

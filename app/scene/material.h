@@ -12,6 +12,7 @@ struct Material {
   std::optional<double> density;  ///< [kg/m³]
   double restitution = 0.0, friction = 0.0;
   std::optional<Rgb> colour;
+  std::optional<Rgb> back;  ///< of the half with z < 0 in the body frame
 
   /// Reads the keys that a material has and that a body may have too.
   void read(Section& section);

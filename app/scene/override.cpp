@@ -78,19 +78,21 @@ std::vector<std::string> keysOf(const Table& table) {
 
 }  // namespace
 
+bool isKeyPath(const std::string& text) {
+  return !text.empty() && text.front() != '.' && text.back() != '.' &&
+         text.find("..") == std::string::npos && text.find('=') == std::string::npos;
+}
+
 Override splitOverride(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
-  const bool holes =
-      key.empty() || key.front() == '.' || key.back() == '.' || key.find("..") != std::string::npos;
-  if (equals == std::string::npos || holes)
+  if (equals == std::string::npos || !isKeyPath(key))
     throw UsageError("--set " + text +
                      ": expected KEY=VALUE, for example world.gravity=[0,-1.62,0]");
   return {key, text.substr(equals + 1)};
 }
 
-void apply(const Override& override, int source, Node& root, Findings& findings) {
-  const Spot spot{source, 0, 0};
+void apply(const Override& override, Spot spot, Node& root, Findings& findings) {
   std::string_view path = override.key;
   const auto refuse = [&](const std::string& what) { findings.complain(spot, override.key, what); };
 
@@ -122,7 +124,7 @@ void apply(const Override& override, int source, Node& root, Findings& findings)
   }
 
   // The value, as TOML or as it stands.
-  std::optional<Node> value = parseTomlValue(override.value, source);
+  std::optional<Node> value = parseTomlValue(override.value, spot);
   *node = value ? std::move(*value) : Node{spot, override.value};
 }
 

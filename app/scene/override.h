@@ -10,12 +10,15 @@ struct Override {
   std::string key, value;
 };
 
-/// @throws UsageError if there is no '=' or a part of the key is empty.
+/// Whether the text can stand before the '=': parts between dots, none of them empty.
+bool isKeyPath(const std::string& text);
+
+/// @throws UsageError if there is no '=' or what stands before it is no key path.
 Override splitOverride(const std::string& text);
 
 /// Replaces the value at the key, or makes it. Elements of an array of tables are addressed by
 /// their `name` or by number from 0; a name with dots is found too. The value is TOML, or else a
-/// string. Complains about an element or material that is not there. `source` counts from 1.
-void apply(const Override& override, int source, Node& root, Findings& findings);
+/// string. Complains about an element or material that is not there, at the spot.
+void apply(const Override& override, Spot spot, Node& root, Findings& findings);
 
 }  // namespace tumble

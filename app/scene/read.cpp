@@ -1,12 +1,16 @@
 // Scene files: text to tree, tree to scene.
 #include "app/scene/scene.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 
 #include "app/scene/array.h"
 #include "app/scene/force.h"
+#include "app/scene/node.h"
 #include "app/scene/override.h"
+#include "app/scene/panel.h"
 #include "app/scene/settings.h"
 #include "app/scene/toml.h"
 
@@ -46,25 +50,73 @@ Scene readTree(const Node& tree, Findings& findings) {
   readCamera(root, scene.camera);
   readImage(root, scene.image);
   readShow(root, scene.show);
+  const std::vector<std::string> parts = partNames(tree);
   readSweep(root, scene.sweep);
+  readPanels(root, parts, scene);
+  readCharts(root, parts, scene);
   root.finish();
   findings.raise();
   scene.places = findings.takePlaces();
   return scene;
 }
 
-// A sweep's parameter has to be a key that the scene understands: try its first value.
-void trySweep(const Sweep& sweep, Node tree, std::vector<std::string> sources) {
-  sources.push_back(sources[0] + ": [sweep] " + sweep.parameter + "=" + sweep.values[0]);
-  Findings findings(sources);
-  apply({sweep.parameter, sweep.values[0]}, static_cast<int>(sources.size()) - 1, tree, findings);
-  readTree(tree, findings);
-}
+// Sweep, panels and charts have to set keys that the scene understands: reads what each would run,
+// of many values the first.
+class Trial {
+ public:
+  Trial(const Node& tree, const std::vector<std::string>& sources)
+      : tree_(tree), sources_(sources) {}
+
+  void run(const Scene& scene) {
+    if (const auto& sweep = scene.sweep) tryVariant({"", {sweep->setting(0)}, {}}, "[sweep]");
+    for (const PanelDef& panel : scene.panels) {
+      const auto duration =
+          tryVariant(panel.variant, "[[panel]] " + tumble::quoted(panel.variant.title));
+      // A run cut short by --set takes its last instant instead.
+      if (duration && panel.at > *duration && sources_.size() == 1)
+        complain(panel.spot, fmt::format("at: the panel's scene lasts from 0 to {:g} s, and not "
+                                         "until the still at {:g} s",
+                                         *duration, panel.at));
+    }
+    for (const ChartDef& chart : scene.charts)
+      for (const CurveDef& curve : chart.curves) {
+        Variant variant = joined(chart.variant, curve.variant);
+        variant.set.push_back(chart.along.setting(0));
+        tryVariant(variant, "[[chart]] " + tumble::quoted(curve.variant.title));
+      }
+    if (!diagnostics_.empty()) throw SceneError(std::move(diagnostics_));
+  }
+
+ private:
+  // The duration [s] of the variant's scene, if it is one.
+  std::optional<double> tryVariant(const Variant& variant, const std::string& what) {
+    Findings findings(sources_);
+    Node changed = tree_;
+    try {
+      apply(variant, changed, findings);
+      return readTree(changed, findings).world.duration;
+    } catch (const SceneError& error) {
+      for (Diagnostic diagnostic : error.diagnostics()) {
+        diagnostic.message += " (as set in " + what + ")";
+        diagnostics_.push_back(std::move(diagnostic));
+      }
+      return {};
+    }
+  }
+
+  void complain(Spot spot, const std::string& what) {
+    diagnostics_.push_back({{sources_[spot.source], spot.line, spot.column}, what});
+  }
+
+  const Node& tree_;
+  const std::vector<std::string>& sources_;
+  std::vector<Diagnostic> diagnostics_;
+};
 
 }  // namespace
 
 Scene parseScene(const std::string& text, const std::string& file,
-                 const std::vector<std::string>& overrides) {
+                 const std::vector<std::string>& overrides, const Variant* variant) {
   // The text as a tree, changed by each --set.
   if (text.size() > kLargestFile)
     throw refusal(file, "larger than 4 MiB; use [[array]] for many bodies");
@@ -83,19 +135,25 @@ Scene parseScene(const std::string& text, const std::string& file,
     findings.raise();
   }
   for (std::size_t i = 0; i < changes.size(); ++i)
-    apply(changes[i], static_cast<int>(i) + 1, tree, findings);
+    apply(changes[i], {static_cast<int>(i) + 1, 0, 0}, tree, findings);
+  if (variant) apply(*variant, tree, findings);
 
   // The tree as a scene.
   Scene scene = readTree(tree, findings);
-  if (scene.sweep) trySweep(*scene.sweep, tree, sources);
+  Trial(tree, sources).run(scene);
   scene.file = file;
   scene.name = fs::path(file).stem().string();
+  scene.overrides = overrides;
   scene.line = scene.name;
   for (const std::string& override : overrides) scene.line += " " + override;
+  if (!variant) return scene;
+  for (const Setting& setting : variant->set) scene.line += " " + setting.text;
+  for (const std::string& name : variant->bodies) scene.line += " with " + name;
   return scene;
 }
 
-Scene readScene(const std::string& path, const std::vector<std::string>& overrides) {
+Scene readScene(const std::string& path, const std::vector<std::string>& overrides,
+                const Variant* variant) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) throw refusal(path, "is a folder, not a scene file");
   if (!fs::exists(path, ignored)) throw refusal(path, "there is no such file");
@@ -104,7 +162,7 @@ Scene readScene(const std::string& path, const std::vector<std::string>& overrid
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad() || (in.fail() && !in.eof())) throw refusal(path, "cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
-  return parseScene(text, path, overrides);
+  return parseScene(text, path, overrides, variant);
 }
 
 }  // namespace tumble

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/variant.h"
 #include "sim/method/model.h"
 
 namespace tumble {
@@ -59,48 +60,54 @@ struct ShowFlags {
   bool contact_forces = false;
   bool normals = false;
   bool velocities = false;
-  bool forces = false;   ///< arrows of wind and point forces
-  bool impacts = false;  ///< rings at impacts with t and j
-  bool labels = false;   ///< names of bodies
-  bool boxes = false;    ///< bounding boxes
-  bool samples = false;  ///< the points inside that bodies are weighed by
-  bool planes = false;   ///< separating planes (accepted; drawn where known)
-  bool energy = false;   ///< energy in the subtitle
-  bool glass = false;    ///< see-through bodies
-  double strobe = 0.1;   ///< [s] between ghosts of a strobe image
-};
-
-struct Sweep {
-  std::string parameter;            ///< key path, as for --set
-  std::vector<std::string> values;  ///< TOML values as text
+  bool forces = false;     ///< arrows of wind and point forces
+  bool impacts = false;    ///< rings at impacts with t and j
+  bool labels = false;     ///< names of bodies
+  bool boxes = false;      ///< bounding boxes
+  bool samples = false;    ///< the points inside that bodies are weighed by
+  bool planes = false;     ///< separating planes (accepted; drawn where known)
+  bool energy = false;     ///< energy in the subtitle
+  bool glass = false;      ///< see-through bodies
+  bool ellipsoid = false;  ///< the solid ellipsoid that weighs and turns like each body
+  bool polhode = false;    ///< Poinsot's ellipsoid with the way of the angular velocity on it
+  bool body_box = false;   ///< bounding boxes that turn with the bodies
+  bool speed = false;      ///< bodies coloured by their speed
+  bool momenta = false;    ///< arrows of linear and angular momentum and angular velocity
+  double strobe = 0.1;     ///< [s] between ghosts of a strobe image
 };
 
 struct Scene {
   std::string name;  ///< file name without folder and ending
   std::string file;  ///< path it was read from
   std::string line;  ///< "name key=value …": what made it, for the PNG text chunk
+  std::vector<std::string> overrides;  ///< "key.path=value" that it was read with
   std::string title, subtitle, chapter, claim;
   std::vector<std::string> checks;
   WorldDef world;
   std::uint64_t seed = 42;
   std::vector<std::optional<Rgb>> colours;  ///< per body; empty = by palette
+  std::vector<std::optional<Rgb>> backs;    ///< per body; of the half with z < 0 in its frame
   std::vector<std::string> labels;          ///< per body; text drawn beside it, or ""
   CameraView camera;
   ImageFormat image;
   ShowFlags show;
   std::optional<Sweep> sweep;
+  std::vector<PanelDef> panels;
+  std::vector<ChartDef> charts;
   std::map<std::string, Place>
       places;  ///< path into the world ("bodies[3].mass") → where it was written
 };
 
 /// Reads a scene from a file. Overrides are "key.path=value" with a TOML value; a value that is not
 /// TOML is taken as a string. Arrays of tables are addressed by name or number: "body.brick.mass".
+/// A variant is put on top; it has no panels, charts or sweep of its own.
 /// @throws SceneError with every complaint of the file, or if it cannot be read.
-Scene readScene(const std::string& path, const std::vector<std::string>& overrides = {});
+Scene readScene(const std::string& path, const std::vector<std::string>& overrides = {},
+                const Variant* variant = nullptr);
 
 /// The same from text, for tests; `file` is the name that complaints use.
 Scene parseScene(const std::string& text, const std::string& file,
-                 const std::vector<std::string>& overrides = {});
+                 const std::vector<std::string>& overrides = {}, const Variant* variant = nullptr);
 
 /// A complaint about the world itself, placed where the scene says it was written.
 Diagnostic locate(const Scene& scene, const Refusal& refusal);

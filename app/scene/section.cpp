@@ -131,6 +131,17 @@ void Section::read(std::string_view key, std::string& out,
     complain(key, "unknown value " + quoted(word) + hint(word, choices));
 }
 
+void Section::read(std::string_view key, std::vector<std::string>& out) {
+  const Node* node = find(key);
+  if (!node) return;
+  const Array* list = node->as<Array>();
+  if (!list) return complain(key, "expected a list of strings, found " + describe(*node));
+  for (const Node& element : *list) {
+    std::string text;
+    if (readText(element, path(key), findings_, text)) out.push_back(std::move(text));
+  }
+}
+
 const Array& Section::tables(std::string_view key) {
   static const Array none;
   const Node* node = find(key);

@@ -50,6 +50,8 @@ class Section {
   void read(std::string_view key, std::string& out);
   /// Only one of the listed words.
   void read(std::string_view key, std::string& out, const std::vector<std::string>& choices);
+  /// A list of strings.
+  void read(std::string_view key, std::vector<std::string>& out);
   /// A list of exactly `count` numbers.
   void read(std::string_view key, double* out, std::size_t count, const Range& range);
 

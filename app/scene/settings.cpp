@@ -9,8 +9,7 @@ namespace tumble {
 
 namespace {
 
-constexpr double kLongest = 1e6;             // [s] of a run
-constexpr std::size_t kMostValues = 10'000;  // of a sweep
+constexpr double kLongest = 1e6;  // [s] of a run
 
 constexpr Range kStep{0.0, kLongest, true, "s"};
 
@@ -21,14 +20,7 @@ void readTexts(Section& root, Scene& scene) {
   root.read("subtitle", scene.subtitle);
   root.read("chapter", scene.chapter);
   root.read("claim", scene.claim);
-  const Node* checks = root.find("checks");
-  if (!checks) return;
-  const Array* names = checks->as<Array>();
-  if (!names) return root.complain("checks", "expected a list of strings");
-  for (const Node& name : *names) {
-    std::string text;
-    if (readText(name, "checks", root.findings(), text)) scene.checks.push_back(text);
-  }
+  root.read("checks", scene.checks);
 }
 
 void readWorld(Section& root, Scene& scene) {
@@ -124,33 +116,19 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("planes", show.planes);
   section.read("energy", show.energy);
   section.read("glass", show.glass);
+  section.read("ellipsoid", show.ellipsoid);
+  section.read("polhode", show.polhode);
+  section.read("body_box", show.body_box);
+  section.read("speed", show.speed);
+  section.read("momenta", show.momenta);
   section.read("strobe", show.strobe, positive("s"));
   section.finish();
 }
 
-void readSweep(Section& root, std::optional<Sweep>& sweep) {
-  const Node* node = root.find("sweep");
-  if (!node) return;
-  Section section(*node, "sweep", root.findings());
-  Sweep read;
-  section.read("parameter", read.parameter);
-  if (read.parameter.empty())
-    section.complain("parameter", "expected a key, for example \"materials.rubber.restitution\"");
-  const Node* values = section.find("values");
-  const Array* list = values ? values->as<Array>() : nullptr;
-  if (!list || list->empty() || list->size() > kMostValues)
-    section.complain("values", "expected a list of 1 to 10000 values" +
-                                   (values ? ", found " + describe(*values) : ""));
-  section.finish();
-  if (!section.good()) return;
-  for (const Node& value : *list) read.values.push_back(toToml(value));
-  sweep = read;
-}
-
-void readColour(Section& section, std::optional<Rgb>& colour) {
-  if (!section.find("colour")) return;
+void readColour(Section& section, std::string_view key, std::optional<Rgb>& colour) {
+  if (!section.find(key)) return;
   Rgb rgb{-1.0, 0.0, 0.0};
-  section.read("colour", rgb.data(), 3, kShare);
+  section.read(key, rgb.data(), 3, kShare);
   if (rgb[0] >= 0.0) colour = rgb;
 }
 

@@ -13,9 +13,8 @@ void readStepping(Section& root, SteppingSettings& stepping);
 void readCamera(Section& root, CameraView& camera);
 void readImage(Section& root, ImageFormat& image);
 void readShow(Section& root, ShowFlags& show);
-void readSweep(Section& root, std::optional<Sweep>& sweep);
 
-/// A colour, sRGB in [0, 1].
-void readColour(Section& section, std::optional<Rgb>& colour);
+/// The colour at a key, sRGB in [0, 1].
+void readColour(Section& section, std::string_view key, std::optional<Rgb>& colour);
 
 }  // namespace tumble

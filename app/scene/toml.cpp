@@ -67,31 +67,31 @@ class KeyDepth {
   bool triple_ = false, comment_ = false;
 };
 
-// Lines and columns say nothing about a --set.
-Spot spotOf(const toml::source_region& region, int source) {
-  if (source != 0) return {source, 0, 0};
-  return {source, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+// The place that the library names, or, for what does not stand in the file, the one it has there.
+Spot spotOf(const toml::source_region& region, const Spot* whole) {
+  if (whole) return *whole;
+  return {0, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-Node convert(const toml::node& from, Spot above, int source);
+Node convert(const toml::node& from, Spot above, const Spot* whole);
 
-Node convertTable(const toml::table& from, Spot spot, int source) {
+Node convertTable(const toml::table& from, Spot spot, const Spot* whole) {
   Table table;
   for (const auto& [key, value] : from) {
-    const Spot place = key.source().begin ? spotOf(key.source(), source) : spot;
-    table.entries.push_back({std::string(key.str()), place, convert(value, place, source)});
+    const Spot place = key.source().begin ? spotOf(key.source(), whole) : spot;
+    table.entries.push_back({std::string(key.str()), place, convert(value, place, whole)});
   }
   return {spot, std::move(table)};
 }
 
 // `above` is the place to name for a value that the library gives none.
-Node convert(const toml::node& from, Spot above, int source) {
-  const Spot spot = from.source().begin ? spotOf(from.source(), source) : above;
-  if (const toml::table* table = from.as_table()) return convertTable(*table, spot, source);
+Node convert(const toml::node& from, Spot above, const Spot* whole) {
+  const Spot spot = from.source().begin ? spotOf(from.source(), whole) : above;
+  if (const toml::table* table = from.as_table()) return convertTable(*table, spot, whole);
   if (const toml::array* list = from.as_array()) {
     Array array;
     array.reserve(list->size());
-    for (const toml::node& element : *list) array.push_back(convert(element, spot, source));
+    for (const toml::node& element : *list) array.push_back(convert(element, spot, whole));
     return {spot, std::move(array)};
   }
   if (const auto* text = from.as_string()) return {spot, text->get()};
@@ -101,27 +101,27 @@ Node convert(const toml::node& from, Spot above, int source) {
   return {spot, Moment{}};
 }
 
-Node parse(std::string_view text, int source) {
+Node parse(std::string_view text, const Spot* whole) {
   try {
     KeyDepth().check(text);
     const toml::table table = toml::parse(text);
-    return convertTable(table, source == 0 ? Spot{0, 1, 1} : Spot{source, 0, 0}, source);
+    return convertTable(table, whole ? *whole : Spot{0, 1, 1}, whole);
   } catch (const toml::parse_error& error) {
-    throw TomlError(spotOf(error.source(), source), std::string(error.description()));
+    throw TomlError(spotOf(error.source(), whole), std::string(error.description()));
   }
 }
 
 }  // namespace
 
 Node parseToml(std::string_view text) {
-  return parse(text, 0);
+  return parse(text, nullptr);
 }
 
-std::optional<Node> parseTomlValue(std::string_view text, int source) {
+std::optional<Node> parseTomlValue(std::string_view text, Spot spot) {
   try {
     // A line break would let a value smuggle in further keys.
     if (text.find_first_of("\r\n") != std::string_view::npos) return {};
-    Node document = parse("value = " + std::string(text), source);
+    Node document = parse("value = " + std::string(text), &spot);
     Table& table = *document.as<Table>();
     return std::move(table.entries.front().node);
   } catch (const TomlError&) {

@@ -19,7 +19,8 @@ struct TomlError : std::runtime_error {
 /// @throws TomlError at its first mistake, or if keys nest deeper than any scene does.
 Node parseToml(std::string_view text);
 
-/// A single TOML value, such as `[0, -9.81, 0]`; nothing if the text is not one.
-std::optional<Node> parseTomlValue(std::string_view text, int source);
+/// A single TOML value, such as `[0, -9.81, 0]`, all of it at one spot; nothing if the text is not
+/// one.
+std::optional<Node> parseTomlValue(std::string_view text, Spot spot);
 
 }  // namespace tumble

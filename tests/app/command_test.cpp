@@ -130,7 +130,7 @@ TEST_CASE("the shards of a sweep write the rows of the whole") {
   const SceneOptions options{file, {}};
   const Scene scene = load(options);
   Studio studio;
-  const SweepResult whole = runSweep(options, scene, folder / "all", {0, 1}, studio);
+  const SweepResult whole = runSweep(scene, folder / "all", {0, 1}, studio);
   CHECK(whole.code == kOk);
   const std::vector<std::string> rows = lines(folder / "all/sweep.csv");
   REQUIRE(rows.size() == 4);
@@ -138,8 +138,8 @@ TEST_CASE("the shards of a sweep write the rows of the whole") {
   const Image page = readPng(folder / "all/sweep.png");
   CHECK(page.width > 3 * 640);
 
-  runSweep(options, scene, folder / "parts", {0, 2}, studio);
-  runSweep(options, scene, folder / "parts", {1, 2}, studio);
+  runSweep(scene, folder / "parts", {0, 2}, studio);
+  runSweep(scene, folder / "parts", {1, 2}, studio);
   CHECK_FALSE(fs::exists(folder / "parts/sweep.png"));
   const std::vector<std::string> even = lines(folder / "parts/sweep-0-of-2.csv");
   const std::vector<std::string> odd = lines(folder / "parts/sweep-1-of-2.csv");

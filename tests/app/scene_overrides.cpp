@@ -138,7 +138,7 @@ TEST_CASE("a sweep's parameter is tried before anything runs") {
   CHECK(scene.sweep->values == std::vector<std::string>{"0", "0.1", "1"});
 
   CHECK(complaint({"sweep.parameter=world.gravty", "sweep.values=[1]"})
-            .find("s.toml: [sweep] world.gravty=1: error: world.gravty: unknown key") == 0);
+            .find("--set sweep.parameter=world.gravty: error: world.gravty: unknown key") == 0);
 }
 
 TEST_CASE("every value of a sweep is an override that says the same as the file would") {

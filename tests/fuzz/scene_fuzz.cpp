@@ -21,7 +21,8 @@ void need(bool holds) {
 void check(const Scene& scene) {
   const WorldDef& world = scene.world;
   need(!world.bodies.empty() && world.bodies.size() <= 100'000);
-  need(scene.colours.size() == world.bodies.size() && scene.labels.size() == world.bodies.size());
+  need(scene.colours.size() == world.bodies.size() && scene.labels.size() == world.bodies.size() &&
+       scene.backs.size() == world.bodies.size());
   need(world.gravity.allFinite() && world.duration > 0.0 && std::isfinite(world.duration));
   need(world.course.step > 0.0 && world.stepping.step > 0.0);
   for (const BodyDef& body : world.bodies) {

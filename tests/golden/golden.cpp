@@ -29,7 +29,7 @@ struct Scratch {
 };
 
 Golden sample() {
-  return {"drop", {{"start", plain(40)}, {"end", plain(90)}}, "t,y\n0,2\n1,0.5\n"};
+  return {"drop", {{"start", plain(40)}, {"end", plain(90)}}, {{"numbers", "t,y\n0,2\n1,0.5\n"}}};
 }
 
 bool allPass(const std::vector<Finding>& findings) {

@@ -1,0 +1,37 @@
+// A chart of a scene: its runs, their numbers, and the plot of them.
+#pragma once
+
+#include "app/panel/variant_run.h"
+#include "render/chart.h"
+
+namespace tumble {
+
+/// One run of a chart.
+struct ChartPoint {
+  std::string value;   ///< of the chart's key, as TOML
+  double error = 0.0;  ///< largest of the check's rows; infinite where the physics could not go on
+  long evaluations = 0;   ///< of derivatives
+  double cpuShare = 0.0;  ///< CPU seconds for each simulated second
+};
+
+struct ChartSeries {
+  std::string label;
+  std::vector<ChartPoint> points;
+};
+
+/// Runs every value of every curve. @throws SceneError
+std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, const RunDone& done);
+
+/// Order of the errors in the cost: minus the slope of log error over log cost, least squares over
+/// the points where rounding has no part: error > 100 floor, and cheaper than the least error.
+/// Nothing with fewer than three such points.
+std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& series);
+
+/// Header and a row for each run: curve, parameter, value, error, evaluations – numbers that are
+/// the same on every machine.
+std::string chartCsv(const ChartDef& chart, const std::vector<ChartSeries>& series);
+
+/// The plot: error to the right, cost upwards, both logarithmic, with the order behind each label.
+Chart chartOf(const ChartDef& chart, const std::vector<ChartSeries>& series);
+
+}  // namespace tumble

@@ -1,0 +1,34 @@
+// The page of a scene with several pictures: its panels, then its charts.
+#pragma once
+
+#include "app/panel/chart_run.h"
+
+namespace tumble {
+
+/// Everything that a scene's [[panel]] and [[chart]] tables ask for, run.
+struct PageRuns {
+  std::deque<VariantRun> panels;
+  std::vector<std::vector<ChartSeries>> charts;  ///< as in the scene
+};
+
+/// How many runs that takes; 0 for a scene without panels and charts.
+std::size_t runsOf(const Scene& scene);
+
+/// @param done  told after each run
+/// @throws SceneError
+PageRuns runPage(
+    const Scene& scene, const RunDone& done = [] {});
+
+/// "chart", "chart-2", …: the file of the i-th chart, without its ending.
+std::string chartName(std::size_t i);
+
+/// One sheet with everything.
+/// @param width  [px] of a panel; its height is in the proportion of the scene's images
+/// @param draw   draws a picture at that size, its text as large as that of the charts
+Image drawPage(const Scene& scene, const PageRuns& runs, int width, const DrawPanel& draw,
+               Fonts& fonts);
+
+/// [px] of the page that panels are drawn for, as in RenderOptions.
+double panelPage(const Scene& scene);
+
+}  // namespace tumble

@@ -1,0 +1,88 @@
+#include "app/panel/variant_run.h"
+
+#include <algorithm>
+
+#include "app/command/command.h"
+#include "app/command/verdict.h"
+#include "app/present/bodies.h"
+
+namespace tumble {
+
+namespace {
+
+// Whether one camera serves both: the same bodies, seen in the same way.
+bool comparable(const VariantRun& runA, const VariantRun& runB) {
+  if (runA.still != runB.still) return false;
+  const Scene &a = runA.scene, &b = runB.scene;
+  const CameraView &ca = a.camera, &cb = b.camera;
+  if (ca.eye != cb.eye || ca.target != cb.target || ca.fov != cb.fov || ca.azimuth != cb.azimuth ||
+      ca.elevation != cb.elevation)
+    return false;
+  if (a.world.bodies.size() != b.world.bodies.size()) return false;
+  for (std::size_t i = 0; i < a.world.bodies.size(); ++i)
+    if (a.world.bodies[i].name != b.world.bodies[i].name) return false;
+  return true;
+}
+
+// The camera that sees the motion of every run that can be compared with this one.
+Framing sharedFraming(const std::deque<VariantRun>& runs, const VariantRun& run) {
+  std::vector<Eigen::Vector3d> points;
+  for (const VariantRun& other : runs)
+    if (comparable(run, other))
+      for (const Eigen::Vector3d& point : motionPoints(other.scene, other.recording))
+        points.push_back(point);
+  return framingOf(run.scene, points);
+}
+
+}  // namespace
+
+Scene sceneOf(const Scene& scene, const Variant& variant) {
+  Scene changed = readScene(scene.file, scene.overrides, &variant);
+  requireKnownChecks(changed);
+  return changed;
+}
+
+std::deque<VariantRun> runPanels(const Scene& scene, const RunDone& done) {
+  std::deque<VariantRun> runs;
+  for (const PanelDef& panel : scene.panels) {
+    VariantRun& run = runs.emplace_back();
+    run.title = panel.variant.title;
+    run.subtitle = panel.subtitle;
+    run.scene = sceneOf(scene, panel.variant);
+    run.recording = record(run.scene, run.scene.image.rate);
+    if (run.recording.samples.empty())
+      throw StoppedError("the physics of panel '" + run.title +
+                         "' could not begin: " + run.recording.report.reason);
+    run.still = panel.picture == "still";
+    if (run.still)
+      run.picture = [at = panel.at](const Presenter& presenter) { return presenter.still(at); };
+    else
+      run.picture = [](const Presenter& presenter) { return presenter.strobe(); };
+    done();
+  }
+  return runs;
+}
+
+std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPanel& draw) {
+  std::vector<Panel> panels;
+  for (const VariantRun& run : runs) {
+    const Presenter presenter(run.scene, run.recording, sharedFraming(runs, run));
+    Picture picture = run.picture(presenter);
+    picture.title.clear();
+    picture.subtitle.clear();
+    panels.push_back({draw(picture), run.title, run.subtitle});
+  }
+  return panels;
+}
+
+int panelHeight(const Scene& scene, int width) {
+  return std::max(16, width * scene.image.height / scene.image.width);
+}
+
+int columnsOf(std::size_t panels) {
+  if (panels <= 3) return static_cast<int>(panels);
+  if (panels == 4) return 2;
+  return panels <= 6 || panels == 9 ? 3 : 4;
+}
+
+}  // namespace tumble

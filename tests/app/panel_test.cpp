@@ -1,0 +1,199 @@
+// Variants run side by side: pages of panels, and charts of errors.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "app/command/command.h"
+#include "app/command/data.h"
+#include "app/command/shoot.h"
+#include "app/command/verdict.h"
+#include "app/panel/page.h"
+#include "app/record/file.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A ball that bounces; Euler's parabola is wrong by g h t / 2, that of RK4 by rounding alone.
+constexpr const char* kBounce = R"(
+title = "Two steps"
+checks = ["first-hit"]
+[world]
+duration = 0.7
+[materials.rubber]
+density = 1000.0
+restitution = 0.5
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+material = "rubber"
+position = [0, 1.1, 0]
+[[body]]
+name = "other"
+shape = { sphere = 0.1 }
+material = "rubber"
+position = [3, 2.1, 0]
+[image]
+size = [64, 36]
+rate = 20.0
+[[panel]]
+title = "both"
+[[panel]]
+title = "slow"
+subtitle = "on the moon"
+set = { "world.gravity" = [0, -1.62, 0] }
+[[panel]]
+title = "one"
+bodies = ["floor", "ball"]
+picture = "still"
+at = 0.25
+[[chart]]
+title = "First hit"
+error = "first-hit"
+bodies = ["floor", "ball"]
+along = "course.step"
+values = [0.02, 0.01, 0.005, 0.0025]
+floor = 1e-15
+curves = [
+  { label = "Euler", set = { "course.integrator" = "euler" } },
+  { label = "RK4", values = [0.02] },
+]
+)";
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("tumble-panel-" + std::to_string(::getpid()));
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+Scene bounceIn(const Folder& folder) {
+  writeFile(folder / "bounce.toml", kBounce);
+  return readScene(folder / "bounce.toml");
+}
+
+}  // namespace
+
+TEST_CASE("each panel runs its own variant, and what can be compared shares a camera") {
+  const Folder folder;
+  const Scene scene = bounceIn(folder);
+  CHECK(runsOf(scene) == 3 + 4 + 1);
+  int done = 0;
+  const std::deque<VariantRun> runs = runPanels(scene, [&] { ++done; });
+  CHECK(done == 3);
+  REQUIRE(runs.size() == 3);
+  CHECK(runs[0].scene.world.gravity.y() == -9.81);
+  CHECK(runs[1].scene.world.gravity.y() == -1.62);
+  CHECK(runs[1].subtitle == "on the moon");
+  CHECK(runs[2].scene.world.bodies.size() == 2);
+
+  std::vector<Picture> pictures;
+  const std::vector<Panel> panels = drawPanels(runs, [&](const Picture& picture) {
+    pictures.push_back(picture);
+    return Image{1, 1, {0, 0, 0}};
+  });
+  CHECK(panels[1].caption == "slow");
+  CHECK(panels[1].finding == "on the moon");
+  CHECK(pictures[0].camera.eye == pictures[1].camera.eye);
+  CHECK(pictures[0].camera.eye != pictures[2].camera.eye);
+  // A strobe has ghosts; a still shows one instant: y = 1.1 m − g t²/2 after a quarter of a second.
+  CHECK(pictures[0].instances.size() > 2);
+  REQUIRE(pictures[2].instances.size() == 1);
+  // Oracle: closed form. Measured 0, allowed 1e-12.
+  CHECK(std::abs(pictures[2].instances[0].position.y() - (1.1 - 0.5 * 9.81 * 0.0625)) < 1e-12);
+}
+
+TEST_CASE("a chart holds the largest error of its check against the cost of each run") {
+  const Folder folder;
+  const Scene scene = bounceIn(folder);
+  const std::vector<ChartSeries> series = runChart(scene, scene.charts[0], [] {});
+  REQUIRE(series.size() == 2);
+  REQUIRE(series[0].points.size() == 4);
+  REQUIRE(series[1].points.size() == 1);
+  // The same run by hand.
+  const Scene euler =
+      readScene(folder / "bounce.toml",
+                {"course.integrator=euler", "course.step=0.01", "body.other.fixed=true"});
+  const Recording recording = record(euler, euler.image.rate);
+  CHECK(series[0].points[1].value == "0.01");
+  double largest = 0.0;
+  for (const ClaimRow& row : judge(euler, recording).rows) largest = std::max(largest, row.error);
+  CHECK(largest > 0.0);
+  CHECK(series[0].points[1].error == Approx(largest).epsilon(1e-9));
+  for (std::size_t k = 1; k < 4; ++k) {
+    CHECK(series[0].points[k].error < series[0].points[k - 1].error);
+    CHECK(series[0].points[k].evaluations > series[0].points[k - 1].evaluations);
+  }
+  CHECK(series[1].points[0].error < 1e-3 * series[0].points[0].error);
+
+  const std::string csv = chartCsv(scene.charts[0], series);
+  CHECK(
+      csv.starts_with("curve,parameter,value,error,evaluations\n\"Euler\",course.step,\"0.02\","));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 6);
+}
+
+// Oracle: closed form, errors made as 3 n^−4 down to a floor of 1e-12 where they stay.
+TEST_CASE("the observed order is the slope where rounding has no part") {
+  ChartDef chart;
+  chart.floor = 1e-12;
+  ChartSeries series;
+  for (const long n : {10L, 20L, 40L, 80L, 160L, 320L, 640L, 1280L, 2560L, 5120L})
+    series.points.push_back({"", std::max(1e-12, 3.0 / std::pow(double(n), 4.0)), n, 0.0});
+  series.points.push_back({"", std::numeric_limits<double>::infinity(), 5, 0.0});
+  const std::optional<double> order = observedOrder(chart, series);
+  REQUIRE(order);
+  CHECK(std::abs(*order - 4.0) < 1e-9);  // measured 3e-15
+  const Chart plot = chartOf(chart, {series});
+  CHECK(plot.curves[0].note == "order 4.0");
+  CHECK(plot.x.logarithmic);
+  CHECK(plot.guides.size() == 1);
+  series.points.resize(2);
+  CHECK_FALSE(observedOrder(chart, series));
+}
+
+TEST_CASE("the page and every chart become files, drawn once") {
+  const Folder folder;
+  const Scene scene = bounceIn(folder);
+  Studio studio;
+  Shoot shoot(scene, folder / "out", studio);
+  const std::vector<std::string> files = shoot.panels();
+  REQUIRE(files == std::vector<std::string>{folder / "out/panels.png", folder / "out/chart.png"});
+  const Image page = readPng(files[0]);
+  CHECK(page.width > 2 * kSheetPanel);
+  CHECK(page.width < 3 * kSheetPanel);  // four pictures: two by two
+  CHECK(readPng(files[1]).width == 64);
+  CHECK(readFile(folder / "out/chart.csv").starts_with("curve,parameter,"));
+  // Finished pictures are kept.
+  fs::remove(folder / "out/chart.csv");
+  shoot.panels();
+  CHECK_FALSE(fs::exists(folder / "out/chart.csv"));
+
+  const Scene plain = readScene(folder / "bounce.toml", {"panel=[]", "chart=[]"});
+  CHECK(Shoot(plain, folder / "plain", studio).panels().empty());
+}
+
+TEST_CASE("sheets have few columns of large pictures") {
+  const int columns[] = {1, 2, 3, 2, 3, 3, 4, 4, 3, 4, 4, 4};
+  for (std::size_t n = 1; n <= 12; ++n) CHECK(columnsOf(n) == columns[n - 1]);
+}
+
+TEST_CASE("a chart of a check that is none is refused at its place") {
+  const Folder folder;
+  writeFile(folder / "x.toml", kBounce);
+  try {
+    requireKnownChecks(readScene(folder / "x.toml", {"chart.0.error=first-hits"}));
+    FAIL("not refused");
+  } catch (const SceneError& error) {
+    const std::string said = error.what();
+    CHECK(said.find("unknown check 'first-hits', did you mean 'first-hit'?") != std::string::npos);
+  }
+}
