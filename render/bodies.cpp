@@ -7,8 +7,9 @@ namespace tumble {
 namespace {
 
 /// Places of the attributes in instance.glsl.
-const std::vector<InstanceAttribute> kAttributes = {{2, 4, 0}, {3, 4, 4}, {4, 4, 8}, {5, 4, 12}};
-constexpr int kStride = 16;
+const std::vector<InstanceAttribute> kAttributes = {
+    {2, 4, 0}, {3, 4, 4}, {4, 4, 8}, {5, 4, 12}, {6, 4, 16}};
+constexpr int kStride = 20;
 
 /// Balls of at most this radius [px] are discs of 16 and 32 corners, larger ones of 64:
 /// the corners stand out by at most 0.13, 0.15 and, at 200 px, 0.12 px.
@@ -67,6 +68,7 @@ Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
   }
   meshes_.push_back(makeBox());
   meshes_.push_back(makeCylinder(48));
+  meshes_.push_back(makeSphere(64, 32));
   for (const int sides : {16, 32, 64}) meshes_.push_back(makeDisc(sides));
 }
 
@@ -83,6 +85,7 @@ Bodies::Group Bodies::groupOf(const Instance& instance, const Stage& stage, bool
 Bodies::Shape Bodies::shapeOf(const Instance& instance, const Stage& stage) {
   if (instance.form == Form::Box) return kBox;
   if (instance.form == Form::Cylinder) return kCylinder;
+  if (instance.form == Form::Ellipsoid) return kEllipsoid;
   const auto place = stage.projection.project(instance.position);
   if (!place) return kLargeBall;
   const double radius = instance.scale.x() / (place->z() * stage.projection.pixelAtUnitDepth());
@@ -91,6 +94,7 @@ Bodies::Shape Bodies::shapeOf(const Instance& instance, const Stage& stage) {
 
 Bodies::Surface Bodies::surfaceOf(int shape) {
   if (shape >= kShapes) return kFacetSurface;
+  if (shape == kEllipsoid) return kEllipsoidSurface;
   return shape == kBox ? kBoxSurface : shape == kCylinder ? kCylinderSurface : kBallSurface;
 }
 
@@ -150,6 +154,7 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
     const Eigen::Vector4f turn = from.orientation.normalized().coeffs().cast<float>();
     const bool ghost = from.finish == Finish::Ghost;
     const float alpha = ghost ? from.alpha : from.finish == Finish::Glass ? 0.35f : 1.0f;
+    const Colour& back = from.back ? *from.back : from.colour;
     Range& range = ranges_[key.group][key.shape];
     if (range.count == 0) range.first = static_cast<int>(instances_.size());
     ++range.count;
@@ -159,7 +164,9 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
                           {half.x(), half.y(), half.z()},
                           ghost ? 0.0f : 1.0f,
                           {from.colour[0], from.colour[1], from.colour[2]},
-                          static_cast<float>(thicknessOf(from))});
+                          static_cast<float>(thicknessOf(from)),
+                          {back[0], back[1], back[2]},
+                          0.0f});
   }
   gl::upload(GL_ARRAY_BUFFER, buffer_, instances_);
 }

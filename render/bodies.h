@@ -1,5 +1,5 @@
-// Boxes, cylinders, balls and facets: sorted into batches once per picture, drawn by every pass
-// that needs them.
+// Boxes, cylinders, balls, ellipsoids and facets: sorted into batches once per picture, drawn by
+// every pass that needs them.
 #pragma once
 
 #include <array>
@@ -31,9 +31,16 @@ class Bodies {
 
  private:
   enum Group { kSolid, kSunk, kGhost, kGlass, kGroups };
-  enum Shape { kBox, kCylinder, kSmallBall, kBall, kLargeBall, kShapes };
+  enum Shape { kBox, kCylinder, kEllipsoid, kSmallBall, kBall, kLargeBall, kShapes };
   enum Use { kSolidUse, kGhostUse, kGlassUse, kDepthUse, kLightUse, kAboveUse, kCastUse, kUses };
-  enum Surface { kBoxSurface, kCylinderSurface, kBallSurface, kFacetSurface, kSurfaces };
+  enum Surface {
+    kBoxSurface,
+    kCylinderSurface,
+    kEllipsoidSurface,
+    kBallSurface,
+    kFacetSurface,
+    kSurfaces
+  };
 
   /// As instance.glsl reads it.
   struct Body {
@@ -41,6 +48,7 @@ class Bodies {
     float turn[4];
     float half[3], present;
     float colour[3], thickness;
+    float back[3], unused;
   };
   struct Range {
     int first = 0, count = 0;

@@ -115,6 +115,22 @@ MeshBuffer makeCylinder(int sides) {
   return cylinder.mesh();
 }
 
+MeshBuffer makeSphere(int sides, int rings) {
+  Triangles sphere;
+  for (int ring = 0; ring <= rings; ++ring) {
+    const float down = 0.5f * turn(ring, rings);
+    for (int i = 0; i <= sides; ++i) {
+      const Vector3f p(std::sin(down) * std::cos(turn(i, sides)), std::cos(down),
+                       std::sin(down) * std::sin(turn(i, sides)));
+      const GLuint here = sphere.add(p.x(), p.y(), p.z(), p);
+      if (ring == rings || i == sides) continue;
+      const GLuint below = here + static_cast<GLuint>(sides) + 1;
+      sphere.quad(here, here + 1, below + 1, below);
+    }
+  }
+  return sphere.mesh();
+}
+
 MeshBuffer makeDisc(int sides) {
   Triangles disc;
   const float radius = std::sqrt(turn(1, sides) / std::sin(turn(1, sides)));

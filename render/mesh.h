@@ -38,10 +38,11 @@ class MeshBuffer {
 };
 
 MeshBuffer makeFacets(const Facets& facets);
-MeshBuffer makeBox();                ///< corners at ±1
-MeshBuffer makeCylinder(int sides);  ///< radius 1 about Y, from −1 to 1
-MeshBuffer makeDisc(int sides);      ///< in x and y, as large as the unit circle, facing +z
-MeshBuffer makeQuad();               ///< x from 0 to 1, y from −1 to 1
-MeshBuffer makeArrow(int sides);     ///< for arrow.vert
+MeshBuffer makeBox();                         ///< corners at ±1
+MeshBuffer makeCylinder(int sides);           ///< radius 1 about Y, from −1 to 1
+MeshBuffer makeSphere(int sides, int rings);  ///< radius 1, poles on Y
+MeshBuffer makeDisc(int sides);   ///< in x and y, as large as the unit circle, facing +z
+MeshBuffer makeQuad();            ///< x from 0 to 1, y from −1 to 1
+MeshBuffer makeArrow(int sides);  ///< for arrow.vert
 
 }  // namespace tumble

@@ -19,6 +19,7 @@ double lowestPoint(const Instance& instance) {
     for (const Facets::Corner& corner : instance.facets->corners)
       below = std::max(below, static_cast<double>(down.dot(corner.position)));
   }
+  if (instance.form == Form::Ellipsoid) below = up_B.cwiseProduct(half).norm();
   return instance.position.y() - below;
 }
 
@@ -26,6 +27,7 @@ double reachOf(const Instance& instance) {
   const Eigen::Vector3d& half = instance.scale;
   if (instance.form == Form::Sphere) return half.x();
   if (instance.form == Form::Facets) return half.maxCoeff() * instance.facets->reach;
+  if (instance.form == Form::Ellipsoid) return half.maxCoeff();
   return instance.form == Form::Box ? half.norm() : std::hypot(half.x(), half.y());
 }
 

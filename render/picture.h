@@ -27,7 +27,7 @@ struct Facets {
   double thickness = 0.0;       ///< [m] half of the shortest edge of the box around it
 };
 
-enum class Form { Box, Sphere, Cylinder, Facets };
+enum class Form { Box, Sphere, Cylinder, Ellipsoid, Facets };
 enum class Finish { Solid, Ghost, Glass };
 
 /// One drawn body.
@@ -36,11 +36,13 @@ struct Instance {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d scale =
-      Eigen::Vector3d::Ones();  ///< half extents: box edges/2; (r, r, r); (r, h/2, r)
+      Eigen::Vector3d::Ones();  ///< half extents: box edges/2; (r, r, r); (r, h/2, r); semi-axes
   Colour colour = {0.23f, 0.44f, 0.66f};
-  float alpha = 1.0f;  ///< of a ghost
+  std::optional<Colour> back = {};  ///< of the half with z < 0 in the body frame; none: as in front
+  float alpha = 1.0f;               ///< of a ghost
   Finish finish = Finish::Solid;
-  std::shared_ptr<const Facets> facets = nullptr;  ///< of Form::Facets, drawn `scale` times as large
+  std::shared_ptr<const Facets> facets =
+      nullptr;  ///< of Form::Facets, drawn `scale` times as large
 };
 
 /// Lowest point of a body [m], world.

@@ -78,12 +78,18 @@ void addCorners(const Aabb& box, std::vector<Eigen::Vector3d>& points) {
 std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording) {
   std::vector<Eigen::Vector3d> points;
   const std::vector<BodyDef>& bodies = scene.world.bodies;
+  const bool around = scene.show.polhode || scene.show.momenta;
   for (const Sample& sample : recording.samples)
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (std::holds_alternative<Particle>(bodies[i].shape))
-        points.push_back(sample.bodies[i].x);
-      else if (moves(bodies[i]))
-        addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (std::holds_alternative<Particle>(bodies[i].shape)) points.push_back(sample.bodies[i].x);
+      if (!moves(bodies[i]) || std::holds_alternative<Particle>(bodies[i].shape)) continue;
+      Aabb box = boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q});
+      if (around) {
+        const Vec3 reach = Vec3::Constant(kPoinsotReach * boundingRadius(bodies[i].shape));
+        box = {sample.bodies[i].x - reach, sample.bodies[i].x + reach};
+      }
+      addCorners(box, points);
+    }
 
   Aabb motion{Vec3::Zero(), Vec3::Zero()};
   if (!points.empty()) motion = {points[0], points[0]};

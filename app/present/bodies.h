@@ -8,6 +8,9 @@
 
 namespace tumble {
 
+/// Radius of what is drawn about a body of its spin, in bounding radii of the body.
+inline constexpr double kPoinsotReach = 1.25;
+
 /// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide,
 /// a particle without a radius a dot of a small share of it.
 /// @param facets  drawn in place of the shape: of a mesh, a compound or a body that has sheared

@@ -5,28 +5,47 @@
 
 namespace tumble {
 
+namespace {
+
+// The box, carried from its own axes into the world by x + R p.
+void addBox(const Aabb& box, const Vec3& x, const Mat3& R, const Colour& colour, Picture& picture) {
+  const auto corner = [&](bool right, bool up, bool near) -> Eigen::Vector3d {
+    return x + R * Vec3(right ? box.hi.x() : box.lo.x(), up ? box.hi.y() : box.lo.y(),
+                        near ? box.hi.z() : box.lo.z());
+  };
+  // The ring below, the ring above, and three of the four posts between them.
+  Polyline rings, post;
+  rings.colour = post.colour = colour;
+  rings.width = post.width = 1.0f;
+  for (const bool y : {false, true})
+    for (const auto& [across, z] :
+         {std::pair(false, false), {true, false}, {true, true}, {false, true}, {false, false}})
+      rings.points.push_back(corner(across, y, z));
+  picture.lines.push_back(rings);
+  for (const auto& [across, z] : {std::pair(true, false), {true, true}, {false, true}}) {
+    post.points = {corner(across, false, z), corner(across, true, z)};
+    picture.lines.push_back(post);
+  }
+}
+
+}  // namespace
+
 void addBoundingBoxes(const Scene& scene, const Sample& sample, Picture& picture) {
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
     const BodyDef& body = scene.world.bodies[i];
     if (!moves(body)) continue;
-    const Aabb box = boundingBox(body.shape, {sample.bodies[i].x, sample.bodies[i].q});
-    const auto corner = [&](bool x, bool y, bool z) -> Eigen::Vector3d {
-      return {x ? box.hi.x() : box.lo.x(), y ? box.hi.y() : box.lo.y(),
-              z ? box.hi.z() : box.lo.z()};
-    };
-    // The ring below, the ring above, and three of the four posts between them.
-    Polyline rings, post;
-    rings.colour = post.colour = colour::kQuiet;
-    rings.width = post.width = 1.0f;
-    for (const bool y : {false, true})
-      for (const auto& [x, z] :
-           {std::pair(false, false), {true, false}, {true, true}, {false, true}, {false, false}})
-        rings.points.push_back(corner(x, y, z));
-    picture.lines.push_back(rings);
-    for (const auto& [x, z] : {std::pair(true, false), {true, true}, {false, true}}) {
-      post.points = {corner(x, false, z), corner(x, true, z)};
-      picture.lines.push_back(post);
-    }
+    addBox(boundingBox(body.shape, {sample.bodies[i].x, sample.bodies[i].q}), Vec3::Zero(),
+           Mat3::Identity(), colour::kQuiet, picture);
+  }
+}
+
+void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture) {
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    const BodyDef& body = scene.world.bodies[i];
+    if (!moves(body)) continue;
+    const Aabb box = boundingBox(body.shape, {Vec3::Zero(), Quat::Identity()});
+    const Mat3 R = sample.bodies[i].R.value_or(sample.bodies[i].q.toRotationMatrix());
+    addBox(box, sample.bodies[i].x, R, colour::kForce, picture);
   }
 }
 

@@ -9,4 +9,7 @@ namespace tumble {
 /// The twelve edges of the axis-aligned box around each moving body.
 void addBoundingBoxes(const Scene& scene, const Sample& sample, Picture& picture);
 
+/// The twelve edges of each moving body's box in its own axes, which turns with it.
+void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture);
+
 }  // namespace tumble

@@ -10,11 +10,13 @@
 #include "app/present/bodies.h"
 #include "app/present/boxes.h"
 #include "app/present/facets.h"
+#include "app/present/inertia.h"
 #include "app/present/labels.h"
 #include "app/present/marks.h"
 #include "app/present/palette.h"
 #include "app/present/paths.h"
 #include "app/present/samples.h"
+#include "render/axis.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -34,6 +36,24 @@ Margins marginsOf(const Scene& scene) {
   if (scene.show.contact_forces)
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
   return margins;
+}
+
+// The largest speed [m/s] of the run; 1 if nothing moves.
+double fastestOf(const Scene& scene, const Recording& recording) {
+  double fastest = 0.0;
+  for (const Sample& sample : recording.samples)
+    for (std::size_t i = 0; i < sample.bodies.size(); ++i)
+      if (moves(scene.world.bodies[i])) fastest = std::max(fastest, sample.bodies[i].v.norm());
+  return fastest > 0.0 ? fastest : 1.0;
+}
+
+ColourBar speedBar(double fastest) {
+  ColourBar bar{"speed / m/s", {cividisStops().begin(), cividisStops().end()}, 0.0, fastest, {}};
+  const double values[] = {0.0, fastest};
+  const Scale scale({"", false}, values, 0.0, 220.0, 40.0);
+  for (const Tick& tick : scale.ticks())
+    if (tick.value <= fastest) bar.ticks.push_back(tick.value);
+  return bar;
 }
 
 }  // namespace
@@ -61,6 +81,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording)
 Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
     : scene_(scene), recording_(recording), colours_(bodyColours(scene)), framing_(framing) {
   for (const BodyDef& body : scene.world.bodies) facets_.push_back(facetsOf(body.shape));
+  if (scene.show.speed) fastest_ = fastestOf(scene, recording);
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
     const Check* check = findCheck(name);
@@ -76,7 +97,7 @@ int Presenter::count() const {
 Picture Presenter::image(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
   Picture picture = blank();
-  addBodies(sample, picture);
+  addBodies(sample, false, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
   addTheory(picture);
   addLabels(scene_, sample, picture);
@@ -96,8 +117,9 @@ Picture Presenter::still(double t) const {
 Picture Presenter::strobe() const {
   const Sample& last = recording_.samples.back();
   Picture picture = blank();
-  addGhosts(picture);
-  addBodies(last, picture);
+  const bool byTime = movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed;
+  addGhosts(byTime, picture);
+  addBodies(last, byTime, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
   addTheory(picture);
   addLabels(scene_, last, picture);
@@ -121,6 +143,7 @@ Picture Presenter::blank() const {
     picture.floor.visible = true;
     picture.floor.height = std::get<HalfSpace>(body.shape).d;
   }
+  if (scene_.show.speed) picture.bar = speedBar(fastest_);
   picture.floor.grid = framing_.radius < 0.8 ? 0.1 : framing_.radius < 15.0 ? 1.0 : 10.0;
   picture.floor.fineGrid = 0.2 * picture.floor.grid;
   return picture;
@@ -133,22 +156,22 @@ std::shared_ptr<const Facets> Presenter::surfaceOf(std::size_t i, const BodySamp
   return facetsOf(scene_.world.bodies[i].shape, rotationMatrix(body.q).transpose() * *body.R);
 }
 
-void Presenter::addBodies(const Sample& sample, Picture& picture) const {
-  const bool byTime = picture.bar.has_value();
+void Presenter::addBodies(const Sample& sample, bool byTime, Picture& picture) const {
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
     const BodyDef& body = scene_.world.bodies[i];
     if (isFloor(body)) continue;
-    const Colour colour = byTime && moves(body) ? timeStops().back() : colours_[i];
+    const Colour colour = byTime && moves(body) ? timeStops().back() : colourOf(sample, i);
     Instance instance =
         instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
                    3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
+    instance.back = backOf(scene_, i);
     if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
     picture.instances.push_back(instance);
   }
 }
 
-// A single body is coloured by time, several keep their colours; all are paler the longer ago.
-void Presenter::addGhosts(Picture& picture) const {
+// Bodies are coloured by time, or keep their colours; all are paler the longer ago.
+void Presenter::addGhosts(bool byTime, Picture& picture) const {
   const bool single = movingCount(scene_) == 1;
   const double end = recording_.samples.back().t;
   const long every = std::max(1L, std::lround(scene_.show.strobe * recording_.rate));
@@ -158,10 +181,11 @@ void Presenter::addGhosts(Picture& picture) const {
     for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
       const BodyDef& body = scene_.world.bodies[i];
       if (!moves(body)) continue;
-      const Colour colour = single ? ramp(timeStops(), u) : colours_[i];
+      const Colour colour = byTime ? ramp(timeStops(), u) : colourOf(sample, i);
       Instance ghost =
           instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
                      3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
+      ghost.back = backOf(scene_, i);
       ghost.finish = Finish::Ghost;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);
@@ -169,11 +193,16 @@ void Presenter::addGhosts(Picture& picture) const {
     if (scene_.show.forces && (k / static_cast<std::size_t>(every)) % 5 == 0)
       addForces(scene_, sample, typicalHeight(scene_), picture);
   }
-  if (!single) return;
+  if (!byTime) return;
   ColourBar bar{"time / s", {timeStops().begin(), timeStops().end()}, 0.0, end, {}};
   const double tick = end > 20.0 ? 10.0 : end > 8.0 ? 2.0 : end > 1.5 ? 1.0 : 0.2;
   for (int n = 0; n * tick <= end; ++n) bar.ticks.push_back(n * tick);
   picture.bar = bar;
+}
+
+Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {
+  if (!scene_.show.speed || !moves(scene_.world.bodies[i])) return colours_[i];
+  return ramp(cividisStops(), sample.bodies[i].v.norm() / fastest_);
 }
 
 void Presenter::addTheory(Picture& picture) const {
@@ -196,6 +225,10 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   }
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);
   if (show.samples) addSamplePoints(scene_, sample, picture);
+  if (show.body_box) addBodyBoxes(scene_, sample, picture);
+  if (show.ellipsoid) addInertiaEllipsoids(scene_, sample, picture);
+  if (show.polhode) addPolhodes(scene_, recording_, sample, picture);
+  if (show.momenta) addMomenta(scene_, recording_, sample, 1.5 * height, picture);
   if (show.normals) addNormals(sample, length, picture);
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
   if (show.forces) addForces(scene_, sample, height, picture);

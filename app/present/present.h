@@ -43,8 +43,9 @@ class Presenter {
  private:
   Picture blank() const;
   std::shared_ptr<const Facets> surfaceOf(std::size_t i, const BodySample& body) const;
-  void addBodies(const Sample& sample, Picture& picture) const;
-  void addGhosts(Picture& picture) const;
+  void addBodies(const Sample& sample, bool byTime, Picture& picture) const;
+  void addGhosts(bool byTime, Picture& picture) const;
+  Colour colourOf(const Sample& sample, std::size_t i) const;
   void addTheory(Picture& picture) const;
   void addAnnotations(const Sample& sample, Picture& picture) const;
 
@@ -54,6 +55,7 @@ class Presenter {
   std::vector<std::shared_ptr<const Facets>> facets_;  // per body; null for simple shapes
   std::vector<Curve> theory_;
   Framing framing_;
+  double fastest_ = 1.0;  ///< [m/s] speed of the last colour, if bodies are coloured by speed
 };
 
 /// Takes off what is too small to read, or said by the page, when a picture becomes a panel of a

@@ -3,7 +3,7 @@
 #include "light.glsl"
 in vec3 worldPoint;
 in vec3 bodyPoint;
-flat in vec3 bodyNormal, half_B, centre, colour;
+flat in vec3 bodyNormal, half_B, centre, colour, colourBack;
 flat in vec4 turnBody;
 flat in float alpha;
 #ifdef FACETS
@@ -61,6 +61,11 @@ Surface facetSurface() {
                  edgeLine(min(pixels.x, min(pixels.y, pixels.z)), thickness, pixelSize(worldPoint)));
 }
 #endif
+// With lines where the planes of the principal axes cut it.
+Surface ellipsoidSurface() {
+  vec3 normal = normalize(bodyPoint / (half_B * half_B)), pixels = abs(bodyPoint) / max(fwidth(bodyPoint), 1e-6);
+  return Surface(worldPoint, rotate(turnBody, normal), bodyPoint, edgeLine(min(pixels.x, min(pixels.y, pixels.z)), 1.0, 1e-6));
+}
 
 // Where the sight line through this fragment first meets the exact sphere.
 Surface ballSurface() {
@@ -70,6 +75,12 @@ Surface ballSurface() {
   vec3 normal = normalize(p - (along + root) * sight);
   vec4 back = vec4(-turnBody.xyz, turnBody.w);
   return Surface(centre + r * normal, normal, r * rotate(back, normal), 0.0);
+}
+
+// The colour of the half of the body that the point lies in.
+vec3 sideColour(Surface s) {
+  float front = clamp(0.5 + s.point_B.z / max(fwidth(s.point_B.z), 1e-6), 0.0, 1.0);
+  return colourBack + front * (colour - colourBack);
 }
 
 // A band about the z axis of the body, that its spin can be seen; left out on bodies too small for it.
@@ -95,6 +106,8 @@ float kept(Surface s) {
 void main() {
 #if defined(BOX)
   Surface s = boxSurface();
+#elif defined(ELLIPSOID)
+  Surface s = ellipsoidSurface();
 #elif defined(BALL)
   Surface s = ballSurface();
 #elif defined(FACETS)
@@ -106,15 +119,16 @@ void main() {
   if (share == 0.0) discard;
   vec3 toEye = normalize(eye.xyz - s.point);
   float facing = abs(dot(s.normal, toEye));
+  vec3 base = sideColour(s);
 #if defined(GLASS)
   float rim = 1.0 - facing;
-  vec3 c = mix(shadePlain(colour, s.normal), 0.55 * colour, s.edge);
+  vec3 c = mix(shadePlain(base, s.normal), 0.55 * base, s.edge);
   result = vec4(c, opacity * mix(0.18 + 0.25 * rim * rim * rim, 0.85, s.edge));
 #else
 #if defined(GHOST)
-  vec3 c = shadePlain(spinMark(colour, s), s.normal);
+  vec3 c = shadePlain(spinMark(base, s), s.normal);
 #else
-  vec3 c = shadeSolid(spinMark(colour, s), s.point, s.normal, toEye);
+  vec3 c = shadeSolid(spinMark(base, s), s.point, s.normal, toEye);
 #endif
   c = mix(c, 0.52 * c, 0.75 * s.edge);
 #ifdef BALL

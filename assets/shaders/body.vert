@@ -1,4 +1,4 @@
-// Boxes, cylinders, balls and facets, seen from the camera, from the light or from above.
+// Boxes, cylinders, ellipsoids, balls and facets, seen from the camera, from the light or from above.
 #include "stage.glsl"
 #include "instance.glsl"
 
@@ -6,7 +6,7 @@ invariant gl_Position;
 out vec3 worldPoint;
 out vec3 bodyPoint;
 out vec2 heights;                 // lowest and highest point of the body above this one
-flat out vec3 bodyNormal, half_B, centre, colour;
+flat out vec3 bodyNormal, half_B, centre, colour, colourBack;
 flat out vec4 turnBody;
 flat out float alpha, present;
 #ifdef FACETS
@@ -41,6 +41,7 @@ void main() {
   half_B = halfExtent.xyz;
   present = halfExtent.w;
   colour = albedo.rgb;
+  colourBack = albedoBack.rgb;
   turnBody = turn;
   bodyNormal = cornerNormal;
   bodyPoint = corner * half_B;

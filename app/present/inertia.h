@@ -1,0 +1,25 @@
+// What inertia looks like: ellipsoids, and the way of the angular velocity on them.
+#pragma once
+
+#include "app/record/recording.h"
+#include "render/picture.h"
+
+namespace tumble {
+
+/// In each moving body, see-through, the solid ellipsoid of its mass that turns like it:
+///   aₓ² = 5/(2m) (I_y + I_z − I_x) and so on, principal axes.
+void addInertiaEllipsoids(const Scene& scene, const Sample& sample, Picture& picture);
+
+/// About each moving body Poinsot's ellipsoid ω·Iω = 2T in its principal axes, angular velocities
+/// drawn as lengths; on it the polhode, the way that ω goes in the body through the whole
+/// recording, among the closed curves of other momenta and the separatrix.
+///   Landau and Lifshitz, Mechanics, §37.
+void addPolhodes(const Scene& scene, const Recording& recording, const Sample& sample,
+                 Picture& picture);
+
+/// Arrows at each moving body: linear momentum, angular momentum (double head) and angular velocity
+/// (double head), each kind's largest of the run `length` [m] long.
+void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample, double length,
+                Picture& picture);
+
+}  // namespace tumble

@@ -1,0 +1,165 @@
+// What is drawn of inertia, momenta, speed and the two sides of a body.
+#include "app/present/inertia.h"
+
+#include <cmath>
+
+#include "app/present/boxes.h"
+#include "app/present/palette.h"
+#include "app/present/present.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+// A book that spins about its middle axis and a ball, free of gravity.
+constexpr const char* kScene = R"(
+[world]
+gravity = [0, 0, 0]
+duration = 4.0
+[[body]]
+name = "book"
+shape = { box = [0.30, 0.20, 0.05] }
+mass = 1.0
+orientation = { axis = [1, 2, 3], degrees = 40 }
+velocity = [0.5, 0.0, 0.0]
+angular_velocity_body = [0.02, 6.0, 0.0]
+colour = [0.0, 0.0, 1.0]
+colour_back = [1.0, 0.5, 0.0]
+[[body]]
+name = "ball"
+shape = { sphere = 0.2 }
+mass = 3.0
+position = [0, 2, 0]
+velocity = [0.0, 0.0, 1.0]
+)";
+
+struct Run {
+  Scene scene;
+  Recording recording;
+  explicit Run(const std::vector<std::string>& overrides)
+      : scene(parseScene(kScene, "book", overrides)), recording(record(scene, 60.0)) {}
+  Picture strobe() const { return Presenter(scene, recording).strobe(); }
+  Picture image(int k) const { return Presenter(scene, recording).image(k); }
+};
+
+const Instance& ellipsoid(const Picture& picture, std::size_t index) {
+  std::size_t found = 0;
+  for (const Instance& instance : picture.instances)
+    if (instance.form == Form::Ellipsoid && found++ == index) return instance;
+  FAIL("no such ellipsoid");
+  return picture.instances.front();
+}
+
+}  // namespace
+
+// Oracles: a solid ball is its own ellipsoid; a box of half extents h has √(5/3) h. Measured 2e-16
+// relative, allowed 1e-14.
+TEST_CASE("the ellipsoid of a body weighs and turns like it") {
+  const Run run({"show.ellipsoid=true"});
+  const Picture picture = run.image(7);
+  const Instance& ball = ellipsoid(picture, 1);
+  CHECK((ball.scale - Vec3::Constant(0.2)).norm() < 1e-14 * 0.2);
+  CHECK(ball.finish == Finish::Glass);
+  const Instance& book = ellipsoid(picture, 0);
+  CHECK(book.position == run.recording.samples[7].bodies[0].x);
+  // Principal axes may come in any order: compare the quadratic forms in the world.
+  const auto form = [](const Quat& q, const Vec3& scale) -> Mat3 {
+    const Mat3 R = q.toRotationMatrix();
+    return R * scale.cwiseAbs2().asDiagonal() * R.transpose();
+  };
+  const Mat3 expected =
+      form(run.recording.samples[7].bodies[0].q, std::sqrt(5.0 / 3.0) * Vec3(0.15, 0.10, 0.025));
+  CHECK((form(book.orientation, book.scale) - expected).norm() < 1e-14);
+}
+
+// Oracle: invariants. ω·Iω and |Iω|² are the same all along every curve. Measured 5e-9 (RK4) for
+// the way of ω and 4e-16 for the others, allowed 1e-7 and 1e-12.
+TEST_CASE("the polhode lies on Poinsot's ellipsoid, as do the curves of other momenta") {
+  const Run run({"show.polhode=true", "body.ball.fixed=true"});
+  const Picture picture = run.image(120);
+  const Instance& surface = ellipsoid(picture, 0);
+  const Vec3 I(0.2 * 0.2 + 0.05 * 0.05, 0.3 * 0.3 + 0.05 * 0.05, 0.3 * 0.3 + 0.2 * 0.2);
+  const Quat q = run.recording.samples[120].bodies[0].q;
+  double longest = 0.0;
+  REQUIRE(picture.lines.size() == 11);  // ten others
+  for (const Polyline& line : picture.lines) {
+    const bool others = line.points.size() != run.recording.samples.size();
+    double momentum = -1.0;
+    for (const Eigen::Vector3d& point : line.points) {
+      const Vec3 p_P = surface.orientation.conjugate() * (point - surface.position);
+      const double level = p_P.cwiseQuotient(surface.scale).norm();
+      CHECK(std::abs(level / 1.004 - 1.0) < (others ? 1e-12 : 1e-7));
+      const Vec3 p_B = q.conjugate() * (point - surface.position);
+      const double L = I.cwiseProduct(p_B).norm();
+      if (momentum < 0.0) momentum = L;
+      CHECK(std::abs(L / momentum - 1.0) < (others ? 1e-12 : 1e-7));
+      if (!others) longest = std::max(longest, std::abs(p_B.x()) / surface.scale.maxCoeff());
+    }
+  }
+  CHECK(longest > 0.5);  // the flip leads far away from where it began
+  // The arrow of ω ends on the curve where it is now.
+  REQUIRE(picture.arrows.size() == 2);
+  const Eigen::Vector3d tip = picture.arrows[0].tip - surface.position;
+  CHECK((surface.orientation.conjugate() * tip).cwiseQuotient(surface.scale).norm() ==
+        Approx(1.0).epsilon(1e-7));
+}
+
+TEST_CASE("momenta are drawn along, each kind as long as it is large") {
+  const Run run({"show.momenta=true"});
+  const Picture first = run.image(0), later = run.image(130);
+  // Book: P, L and ω with two heads each; the ball does not spin.
+  REQUIRE(first.arrows.size() == 6);
+  const auto along = [](const Arrow& arrow) -> Vec3 { return arrow.tip - arrow.base; };
+  CHECK(along(first.arrows[0]).normalized().x() == Approx(1.0));
+  CHECK(along(first.arrows[5]).normalized().z() == Approx(1.0));
+  CHECK(along(first.arrows[5]).norm() == Approx(6.0 * along(first.arrows[0]).norm()));
+  // L stays, ω wanders.
+  CHECK((along(first.arrows[1]) - along(later.arrows[1])).norm() < 1e-6);
+  CHECK((along(first.arrows[3]) - along(later.arrows[3])).norm() > 0.05);
+  const Mat3 R = run.recording.samples[0].bodies[0].q.toRotationMatrix();
+  const Vec3 I(0.0425 / 12, 0.0925 / 12, 0.13 / 12);
+  const Vec3 L = R * I.asDiagonal() * Vec3(0.02, 6.0, 0.0);
+  CHECK(along(first.arrows[1]).normalized().dot(L.normalized()) == Approx(1.0));
+}
+
+TEST_CASE("a box in body axes turns with the body, and shears with its matrix") {
+  const Run run({"body.ball.fixed=true"});
+  Sample sample = run.recording.samples[30];
+  const auto lengths = [&] {
+    Picture picture;
+    addBodyBoxes(run.scene, sample, picture);
+    double length = 0.0;
+    for (const Polyline& line : picture.lines)
+      for (std::size_t k = 1; k < line.points.size(); ++k)
+        length += (line.points[k] - line.points[k - 1]).norm();
+    return length;
+  };
+  CHECK(lengths() == Approx(4.0 * (0.3 + 0.2 + 0.05)).epsilon(1e-12));
+  sample.bodies[0].R = Vec3(2.0, 1.0, 1.0).asDiagonal();
+  CHECK(lengths() == Approx(4.0 * (0.6 + 0.2 + 0.05)).epsilon(1e-12));
+}
+
+TEST_CASE("speed runs from one end of the scale to the other") {
+  const Run run({"show.speed=true", "body.book.velocity=[0, 0, 0]"});
+  const Picture picture = run.strobe();
+  REQUIRE(picture.bar);
+  CHECK(picture.bar->caption == "speed / m/s");
+  CHECK(picture.bar->to == Approx(1.0));
+  CHECK(picture.bar->ticks.front() == 0.0);
+  for (const Instance& instance : picture.instances)
+    CHECK(instance.colour ==
+          (instance.form == Form::Sphere ? cividisStops().back() : cividisStops().front()));
+}
+
+TEST_CASE("a body with two sides keeps its colours in a strobe") {
+  const Run run({"body.ball.fixed=true"});
+  const Picture picture = run.strobe();
+  CHECK_FALSE(picture.bar);
+  for (const Instance& instance : picture.instances) {
+    if (instance.form != Form::Box) continue;
+    CHECK(instance.colour == Colour{0.0f, 0.0f, 1.0f});
+    REQUIRE(instance.back);
+    CHECK(*instance.back == Colour{1.0f, 0.5f, 0.0f});
+  }
+}
