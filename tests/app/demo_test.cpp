@@ -73,14 +73,15 @@ std::string shapeText(const Shape& shape, double factor) {
   return text;
 }
 
-// --set for every moving body's size.
+// --set for every moving body that has a size.
 std::vector<std::string> resized(const Scene& scene, double factor) {
   std::set<std::string> seen;
   std::vector<std::string> overrides;
   for (const BodyDef& body : scene.world.bodies) {
     if (!moves(body) || !seen.insert(tableOf(body.name)).second) continue;
     if (std::holds_alternative<Mesh>(body.shape)) continue;  // as large as its file says
-    overrides.push_back(tableOf(body.name) + ".shape=" + shapeText(body.shape, factor));
+    const std::string shape = shapeText(body.shape, factor);
+    if (!shape.empty()) overrides.push_back(tableOf(body.name) + ".shape=" + shape);
   }
   return overrides;
 }
@@ -102,6 +103,10 @@ void turn(WorldDef& world, double degrees) {
   for (Force& force : world.forces) {
     if (UniformWind* wind = std::get_if<UniformWind>(&force)) wind->force = q * wind->force;
     if (PointForce* point = std::get_if<PointForce>(&force)) point->force = q * point->force;
+    if (CircularField* field = std::get_if<CircularField>(&force)) {
+      field->centre = q * field->centre;
+      field->rotation = q * field->rotation;
+    }
     Spring* spring = std::get_if<Spring>(&force);
     if (spring && spring->a == kNoBody) spring->anchorA_B = q * spring->anchorA_B;
     if (spring && spring->b == kNoBody) spring->anchorB_B = q * spring->anchorB_B;
