@@ -13,6 +13,13 @@ Recording recordWithProgress(const Scene& scene, double rate) {
                 [&progress](double share) { progress.show(share); });
 }
 
+Recording runWithProgress(const Scene& scene, double rate,
+                          const std::function<void(Sample&&)>& see) {
+  Progress progress("simulating");
+  return run(scene, rate > 0.0 ? rate : scene.image.rate, see,
+             [&progress](double share) { progress.show(share); });
+}
+
 void printCertificate(const Recording& recording) {
   const Certificate& c = recording.report.certificate;
   fmt::print("steps {}   events {}   cpu {:.3g} s\n", c.steps, c.events, recording.cpuSeconds);

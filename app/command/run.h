@@ -9,6 +9,10 @@ namespace tumble {
 /// @throws SceneError
 Recording recordWithProgress(const Scene& scene, double rate = 0.0);
 
+/// The same, but hands on each sample instead of keeping it.
+Recording runWithProgress(const Scene& scene, double rate,
+                          const std::function<void(Sample&&)>& see);
+
 /// Prints what the run says of itself, in a few lines.
 void printCertificate(const Recording& recording);
 

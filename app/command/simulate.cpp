@@ -1,6 +1,8 @@
 // tumble simulate: numbers only.
 #include <fmt/core.h>
 
+#include <optional>
+
 #include "app/command/command.h"
 #include "app/command/options.h"
 #include "app/command/run.h"
@@ -24,8 +26,15 @@ int simulate(int argc, char** argv) {
 
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;
-  const Recording recording = recordWithProgress(scene, rate);
-  writeRecording(folder, recording, scene);
+  // The files are begun with the first sample: a scene that the world refuses makes none.
+  std::optional<OutputFiles> files;
+  const auto write = [&](Sample&& sample) {
+    if (!files) files.emplace(folder, scene);
+    files->add(sample);
+  };
+  const Recording recording = runWithProgress(scene, rate, write);
+  if (!files) files.emplace(folder, scene);
+  files->finish(recording);
   printCertificate(recording);
   fmt::print("wrote {0}/trajectory.csv, events.csv, contacts.csv, summary.json\n", folder);
   return exitOf(recording);

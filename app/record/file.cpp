@@ -3,43 +3,51 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
 namespace tumble {
 
 namespace {
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
 [[noreturn]] void fail(const char* verb, const std::string& path, int error) {
   throw FileError(std::string("cannot ") + verb + " '" + path + "': " + std::strerror(error));
 }
 
-// 0, or the errno of the first call that failed.
-int writeAll(const std::string& path, const std::string& content) {
-  File file(std::fopen(path.c_str(), "wb"));
-  if (!file) return errno;
-  if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size()) return errno;
-  if (std::fflush(file.get()) != 0) return errno;
-  return std::fclose(file.release()) == 0 ? 0 : errno;
-}
-
 }  // namespace
 
+FileWriter::FileWriter(std::string path)
+    : path_(std::move(path)), temporary_(path_ + ".part" + std::to_string(::getpid())) {
+  file_.reset(std::fopen(temporary_.c_str(), "wb"));
+  if (!file_) fail(errno);
+}
+
+FileWriter::~FileWriter() {
+  if (!file_) return;
+  file_.reset();
+  std::remove(temporary_.c_str());
+}
+
+void FileWriter::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail(errno);
+}
+
+void FileWriter::finish() {
+  if (std::fflush(file_.get()) != 0) fail(errno);
+  if (std::fclose(file_.release()) != 0) fail(errno);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
+}
+
+void FileWriter::fail(int error) {
+  file_.reset();
+  std::remove(temporary_.c_str());
+  tumble::fail("write", path_, error);
+}
+
 void writeFile(const std::string& path, const std::string& content) {
-  const std::string temporary = path + ".part" + std::to_string(::getpid());
-  int error = writeAll(temporary, content);
-  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    std::remove(temporary.c_str());
-    fail("write", path, error);
-  }
+  FileWriter file(path);
+  file.write(content);
+  file.finish();
 }
 
 std::string readFile(const std::string& path) {

@@ -1,8 +1,11 @@
 // Files, whole or not at all.
 #pragma once
 
+#include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace tumble {
 
@@ -11,7 +14,34 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes the file by way of a temporary one beside it that is renamed when complete.
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// A file that is written piece by piece into a temporary one beside it, which gets the name when
+/// it is complete. One that is not finished leaves nothing behind.
+class FileWriter {
+ public:
+  /// @throws FileError
+  explicit FileWriter(std::string path);
+  ~FileWriter();
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  /// @throws FileError
+  void write(std::string_view text);
+  /// @throws FileError
+  void finish();
+
+ private:
+  [[noreturn]] void fail(int error);
+
+  std::string path_, temporary_;
+  File file_;
+};
+
+/// Writes the whole file by way of a temporary one beside it that is renamed when complete.
 /// @throws FileError; nothing half-written is left.
 void writeFile(const std::string& path, const std::string& content);
 

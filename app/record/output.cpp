@@ -1,9 +1,7 @@
 #include "app/record/output.h"
 
-#include <fmt/format.h>
-
+#include <charconv>
 #include <initializer_list>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/record/file.h"
@@ -12,9 +10,21 @@ namespace tumble {
 
 namespace {
 
-// 17 significant digits: every double comes back as it was.
+constexpr char kTrajectory[] = "t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
+constexpr char kContacts[] = "t,a,b,px,py,pz,nx,ny,nz,separation,fx,fy,fz\n";
+
+// 17 significant digits, as printf's %.17g: every double comes back as it was.
+void addNumber(std::string& out, double number) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, 17);
+  out.append(text, end.ptr);
+}
+
 void addNumbers(std::string& out, std::initializer_list<double> numbers) {
-  for (const double number : numbers) fmt::format_to(std::back_inserter(out), ",{:.17g}", number);
+  for (const double number : numbers) {
+    out += ',';
+    addNumber(out, number);
+  }
 }
 
 void addVector(std::string& out, const Vec3& v) {
@@ -25,8 +35,43 @@ const std::string& nameOf(const Scene& scene, int body) {
   return scene.world.bodies[body].name;
 }
 
+void addNames(std::string& out, const Scene& scene, std::initializer_list<int> bodies) {
+  for (const int body : bodies) {
+    out += ',';
+    out += nameOf(scene, body);
+  }
+}
+
 bool moves(const BodyDef& body) {
   return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
+}
+
+void addTrajectory(std::string& out, const Sample& sample, const Scene& scene) {
+  std::string t;
+  addNumber(t, sample.t);
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    if (!moves(scene.world.bodies[i])) continue;
+    const BodySample& body = sample.bodies[i];
+    out += t;
+    addNames(out, scene, {static_cast<int>(i)});
+    addVector(out, body.x);
+    addNumbers(out, {body.q.w(), body.q.x(), body.q.y(), body.q.z()});
+    addVector(out, body.v);
+    addVector(out, body.omega);
+    out += '\n';
+  }
+}
+
+void addContacts(std::string& out, const Sample& sample, const Scene& scene) {
+  for (const ContactSample& contact : sample.contacts) {
+    addNumber(out, sample.t);
+    addNames(out, scene, {contact.a, contact.b});
+    addVector(out, contact.p);
+    addVector(out, contact.n);
+    addNumbers(out, {contact.separation});
+    addVector(out, contact.force);
+    out += '\n';
+  }
 }
 
 }  // namespace
@@ -38,27 +83,18 @@ std::string csvQuoted(const std::string& text) {
 }
 
 std::string trajectoryCsv(const Recording& recording, const Scene& scene) {
-  std::string out = "t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
-  for (const Sample& sample : recording.samples) {
-    for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-      if (!moves(scene.world.bodies[i])) continue;
-      const BodySample& body = sample.bodies[i];
-      out += fmt::format("{:.17g},{}", sample.t, nameOf(scene, static_cast<int>(i)));
-      addVector(out, body.x);
-      addNumbers(out, {body.q.w(), body.q.x(), body.q.y(), body.q.z()});
-      addVector(out, body.v);
-      addVector(out, body.omega);
-      out += '\n';
-    }
-  }
+  std::string out = kTrajectory;
+  for (const Sample& sample : recording.samples) addTrajectory(out, sample, scene);
   return out;
 }
 
 std::string eventsCsv(const Recording& recording, const Scene& scene) {
   std::string out = "t,kind,a,b,px,py,pz,nx,ny,nz,vrel,j\n";
   for (const Event& event : recording.report.events) {
-    out += fmt::format("{:.17g},{},{},{}", event.t, eventName(event.kind), nameOf(scene, event.a),
-                       nameOf(scene, event.b));
+    addNumber(out, event.t);
+    out += ',';
+    out += eventName(event.kind);
+    addNames(out, scene, {event.a, event.b});
     addVector(out, event.p);
     addVector(out, event.n);
     addNumbers(out, {event.vrel, event.j});
@@ -68,18 +104,8 @@ std::string eventsCsv(const Recording& recording, const Scene& scene) {
 }
 
 std::string contactsCsv(const Recording& recording, const Scene& scene) {
-  std::string out = "t,a,b,px,py,pz,nx,ny,nz,separation,fx,fy,fz\n";
-  for (const Sample& sample : recording.samples) {
-    for (const ContactSample& contact : sample.contacts) {
-      out += fmt::format("{:.17g},{},{}", sample.t, nameOf(scene, contact.a),
-                         nameOf(scene, contact.b));
-      addVector(out, contact.p);
-      addVector(out, contact.n);
-      addNumbers(out, {contact.separation});
-      addVector(out, contact.force);
-      out += '\n';
-    }
-  }
+  std::string out = kContacts;
+  for (const Sample& sample : recording.samples) addContacts(out, sample, scene);
   return out;
 }
 
@@ -98,12 +124,38 @@ std::string summaryJson(const Recording& recording, const Scene& scene) {
   return json.dump(2) + "\n";
 }
 
-void writeRecording(const std::string& folder, const Recording& recording, const Scene& scene) {
+namespace {
+
+const std::string& made(const std::string& folder) {
   makeFolder(folder);
-  writeFile(folder + "/trajectory.csv", trajectoryCsv(recording, scene));
-  writeFile(folder + "/events.csv", eventsCsv(recording, scene));
-  writeFile(folder + "/contacts.csv", contactsCsv(recording, scene));
-  writeFile(folder + "/summary.json", summaryJson(recording, scene));
+  return folder;
+}
+
+}  // namespace
+
+OutputFiles::OutputFiles(const std::string& folder, const Scene& scene)
+    : folder_(made(folder)),
+      scene_(scene),
+      trajectory_(folder + "/trajectory.csv"),
+      contacts_(folder + "/contacts.csv") {
+  trajectory_.write(kTrajectory);
+  contacts_.write(kContacts);
+}
+
+void OutputFiles::add(const Sample& sample) {
+  text_.clear();
+  addTrajectory(text_, sample, scene_);
+  trajectory_.write(text_);
+  text_.clear();
+  addContacts(text_, sample, scene_);
+  contacts_.write(text_);
+}
+
+void OutputFiles::finish(const Recording& recording) {
+  trajectory_.finish();
+  writeFile(folder_ + "/events.csv", eventsCsv(recording, scene_));
+  contacts_.finish();
+  writeFile(folder_ + "/summary.json", summaryJson(recording, scene_));
 }
 
 }  // namespace tumble

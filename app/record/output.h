@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/record/file.h"
 #include "app/record/recording.h"
 
 namespace tumble {
@@ -23,9 +24,24 @@ std::string summaryJson(const Recording& recording, const Scene& scene);
 /// A text as a field of a CSV file, in quotes (RFC 4180).
 std::string csvQuoted(const std::string& text);
 
-/// Writes trajectory.csv, events.csv, contacts.csv and summary.json into the folder, making it if
-/// need be.
-/// @throws FileError
-void writeRecording(const std::string& folder, const Recording& recording, const Scene& scene);
+/// Writes trajectory.csv, events.csv, contacts.csv and summary.json into a folder while the run
+/// goes on, so that it need not be kept. Files appear when they are complete.
+class OutputFiles {
+ public:
+  /// Makes the folder if need be.
+  /// @throws FileError
+  OutputFiles(const std::string& folder, const Scene& scene);
+
+  /// The next sample. @throws FileError
+  void add(const Sample& sample);
+  /// What is known at the end: events and certificate. @throws FileError
+  void finish(const Recording& recording);
+
+ private:
+  std::string folder_;
+  const Scene& scene_;
+  FileWriter trajectory_, contacts_;
+  std::string text_;  ///< scratch
+};
 
 }  // namespace tumble

@@ -8,12 +8,22 @@ namespace tumble {
 namespace {
 
 // q and −q are one attitude: the sign that lies nearer to the sample before makes it continuous.
-void alignSigns(const Sample& before, Sample& sample) {
-  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-    Quat& q = sample.bodies[i].q;
-    if (q.dot(before.bodies[i].q) < 0.0) q.coeffs() = -q.coeffs();
+class Signs {
+ public:
+  void align(Sample& sample) {
+    for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+      Quat& q = sample.bodies[i].q;
+      if (i == before_.size())
+        before_.push_back(q);
+      else if (q.dot(before_[i]) < 0.0)
+        q.coeffs() = -q.coeffs();
+      before_[i] = q;
+    }
   }
-}
+
+ private:
+  std::vector<Quat> before_;
+};
 
 }  // namespace
 
@@ -25,14 +35,16 @@ World makeWorld(const Scene& scene) {
   }
 }
 
-Recording record(const Scene& scene, double rate, const std::function<void(double)>& progress) {
-  const std::clock_t start = std::clock();
+Recording run(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
+              const std::function<void(double)>& progress) {
+  std::clock_t start = std::clock();
   World world = makeWorld(scene);
   Recording recording;
   recording.rate = rate;
   recording.features = world.features();
 
   // One sample each 1/rate, as long as the physics goes on.
+  Signs signs;
   const double duration = scene.world.duration;
   const long last = static_cast<long>(std::floor(duration * rate + 1e-9));
   for (long k = 0; k <= last; ++k) {
@@ -40,8 +52,10 @@ Recording record(const Scene& scene, double rate, const std::function<void(doubl
     world.advance(t);
     if (world.report().stopped) break;
     Sample sample = world.sample(t);
-    if (!recording.samples.empty()) alignSigns(recording.samples.back(), sample);
-    recording.samples.push_back(std::move(sample));
+    signs.align(sample);
+    const std::clock_t known = std::clock();
+    see(std::move(sample));
+    start += std::clock() - known;  // what is done with samples is not the run's own time
     if (progress) progress(last == 0 ? 1.0 : static_cast<double>(k) / static_cast<double>(last));
   }
 
@@ -49,6 +63,14 @@ Recording record(const Scene& scene, double rate, const std::function<void(doubl
   world.advance(duration);
   recording.report = world.report();
   recording.cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return recording;
+}
+
+Recording record(const Scene& scene, double rate, const std::function<void(double)>& progress) {
+  std::vector<Sample> samples;
+  Recording recording = run(
+      scene, rate, [&](Sample&& sample) { samples.push_back(std::move(sample)); }, progress);
+  recording.samples = std::move(samples);
   return recording;
 }
 

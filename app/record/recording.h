@@ -22,6 +22,12 @@ struct Recording {
 /// @throws SceneError if the world refuses the scene, placed where the scene says it.
 World makeWorld(const Scene& scene);
 
+/// Runs the scene's world from start to duration and shows each sample as soon as it is known; the
+/// recording that is returned keeps none. `progress` is told the share done in [0, 1].
+/// @throws SceneError if the world refuses the scene.
+Recording run(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
+              const std::function<void(double)>& progress = {});
+
 /// Runs the scene's world from start to duration. `progress` is told the share done in [0, 1].
 /// A run that stopped early has fewer samples and says so in its report.
 /// @throws SceneError if the world refuses the scene.

@@ -66,6 +66,11 @@ cmake --build "$build" --target sim_bench >/dev/null 2>&1
 run "$build/tests/sim_bench" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
   --benchmark_min_time=0.1 2>/dev/null | grep -e '^\$' -e CPU -e _median
 
+section "CPU time that simulate adds for each number it writes"
+cmake --build "$build" --target app_bench >/dev/null 2>&1
+run "$build/tests/app_bench" --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+  2>/dev/null | grep -e '^\$' -e CPU -e _median
+
 section "CPU time of an image of 200 bodies, 1280x720, shadows, four samples a pixel, PNG written"
 cmake --build "$build" --target render_bench >/dev/null 2>&1
 run "$build/tests/render_bench" "$scratch"
