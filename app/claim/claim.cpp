@@ -23,6 +23,10 @@ constexpr Check kChecks[] = {
      nullptr},
     {"weight", "inertia and centre of mass by the chosen method, and turning by them", weightRows,
      nullptr},
+    {"free-spin", "bodies free of torque turn as the exact rotor does, and keep energy and |L|",
+     freeSpinRows, nullptr},
+    {"flips", "a spin about the middle axis turns over each half period of its elliptic function",
+     flipRows, nullptr},
 };
 
 }  // namespace

@@ -4,38 +4,12 @@
 #include <limits>
 
 #include "app/claim/free_body.h"
+#include "app/claim/free_rotor.h"
 #include "app/claim/rows.h"
 
 namespace tumble {
 
 namespace {
-
-// Free rotation: q̇ = ½ (0, ω) q with ω = R I⁻¹ Rᵀ L and L constant.
-struct Rotor {
-  Mat3 inertiaInverse;
-  Vec3 L;
-  Quat q;
-
-  Vec3 omega(const Quat& at) const {
-    const Vec3 L_B = at.normalized().conjugate() * L;
-    const Vec3 omega_B = inertiaInverse * L_B;
-    return at.normalized() * omega_B;
-  }
-  Vec4 rate(const Vec4& coefficients) const {
-    const Quat at(coefficients);
-    const Vec3 w = 0.5 * omega(at);
-    return (Quat(0.0, w.x(), w.y(), w.z()) * at).coeffs();
-  }
-  // One classical Runge–Kutta step of h [s].
-  Quat after(double h) const {
-    const Vec4 y = q.coeffs();
-    const Vec4 k1 = rate(y);
-    const Vec4 k2 = rate(y + 0.5 * h * k1);
-    const Vec4 k3 = rate(y + 0.5 * h * k2);
-    const Vec4 k4 = rate(y + h * k3);
-    return Quat(Vec4(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))).normalized();
-  }
-};
 
 struct Hit {
   double t = std::numeric_limits<double>::infinity();
@@ -47,8 +21,9 @@ Hit hitOf(const WorldDef& world, int index, const Vec3& acceleration) {
   constexpr double kStep = 1.0 / 4096.0;  // [s] the rotor's error is far below what is allowed
   const BodyDef& body = world.bodies[index];
   const Mat3 inertia = massOf(body).inertia;
-  Rotor rotor{inertia.inverse(), angularMomentum(inertia, body.orientation, body.angularVelocity),
-              body.orientation};
+  FreeRotor rotor{inertia.inverse(),
+                  angularMomentum(inertia, body.orientation, body.angularVelocity),
+                  body.orientation};
   const auto centre = [&](double t) -> Vec3 {
     return body.position + body.velocity * t + 0.5 * t * t * acceleration;
   };

@@ -15,5 +15,7 @@ std::vector<ClaimRow> orbitRows(const Scene&, const Recording&);
 std::vector<Curve> orbitPaths(const Scene&, const Recording&);
 std::vector<ClaimRow> towerRows(const Scene&, const Recording&);
 std::vector<ClaimRow> weightRows(const Scene&, const Recording&);
+std::vector<ClaimRow> freeSpinRows(const Scene&, const Recording&);
+std::vector<ClaimRow> flipRows(const Scene&, const Recording&);
 
 }  // namespace tumble

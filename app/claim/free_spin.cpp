@@ -1,0 +1,111 @@
+// Free rotation: attitude, energy and angular momentum of every body that no torque acts on.
+#include <algorithm>
+#include <cmath>
+
+#include "app/claim/free_rotor.h"
+#include "app/claim/rows.h"
+#include "app/claim/spinner.h"
+
+namespace tumble {
+
+namespace {
+
+// What is allowed to a method that takes steps, and to one that does not.
+struct Allowed {
+  double attitude, energy, momentum;  // [rad], relative, relative
+};
+constexpr Allowed kStepped{1e-3, 1e-6, 1e-9}, kExact{1e-9, 1e-12, 1e-12};
+
+double angleBetween(const Quat& p, const Quat& q) {
+  const Quat turn = p.conjugate() * q;
+  return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+}
+
+// The body alone, in closed form.
+World alone(const Scene& scene, const Spinner& spinner) {
+  WorldDef def = scene.world;
+  def.method = "exact";
+  def.gravity = spinner.acceleration;
+  def.forces.clear();
+  def.pairs.clear();
+  def.bodies = {scene.world.bodies[spinner.body]};
+  World world(def);
+  world.advance(def.duration);
+  return world;
+}
+
+void seeAgainstFlight(const Scene& scene, const Recording& recording, const Spinner& spinner,
+                      WorstRow& worst) {
+  const World exact = alone(scene, spinner);
+  for (const Sample& sample : recording.samples) {
+    if (sample.t > spinner.end) break;
+    const BodySample told = exact.sample(sample.t).bodies[0];
+    const double error = angleBetween(sample.bodies[spinner.body].q, told.q);
+    worst.see(error, 0.0, error);
+  }
+}
+
+// A run in closed form is held to the equation of motion itself: from each sample, small steps must
+// lead to the next. Their own error, (|ω| h)⁴ of the angle, is far below what is allowed.
+void seeStepByStep(const Recording& recording, const Spinner& spinner, WorstRow& worst) {
+  constexpr double kTurn = 2e-3;      // [rad] a step
+  constexpr double kLongest = 20.0;   // [rad] between samples
+  constexpr std::size_t kMost = 400;  // intervals a body
+  const std::vector<Sample>& samples = recording.samples;
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kMost);
+  const Mat3 inverse = spinner.inertia.inverse();
+  const double fastest = spinner.L.norm() * inverse.norm();  // [rad/s]
+  for (std::size_t k = 0; k + 1 < samples.size(); k += stride) {
+    const double h = samples[k + 1].t - samples[k].t;
+    if (samples[k + 1].t > spinner.end || fastest * h > kLongest) break;
+    const BodySample& from = samples[k].bodies[spinner.body];
+    FreeRotor rotor{inverse, spinner.momentum(from), from.q};
+    const int steps = 1 + static_cast<int>(fastest * h / kTurn);
+    for (int i = 0; i < steps; ++i) rotor.q = rotor.after(h / steps);
+    const double error = angleBetween(rotor.q, samples[k + 1].bodies[spinner.body].q);
+    worst.see(error, 0.0, error);
+  }
+}
+
+void addConserved(const Scene& scene, const Recording& recording, const Spinner& spinner,
+                  const Allowed& allowed, std::vector<ClaimRow>& rows) {
+  const std::string& name = scene.world.bodies[spinner.body].name;
+  WorstRow energy(name + ": energy of rotation / J", allowed.energy);
+  WorstRow momentum(name + ": |L| / (kg m²/s)", allowed.momentum);
+  const BodyDef& def = scene.world.bodies[spinner.body];
+  const double start = 0.5 * def.angularVelocity.dot(spinner.L), L = spinner.L.norm();
+  for (const Sample& sample : recording.samples) {
+    if (sample.t > spinner.end) break;
+    const BodySample& seen = sample.bodies[spinner.body];
+    const Vec3 now = spinner.momentum(seen);
+    const double rotation = 0.5 * seen.omega.dot(now);
+    energy.see(rotation, start, std::abs(rotation - start) / start);
+    momentum.see(now.norm(), L, (now - spinner.L).norm() / L);
+  }
+  rows.push_back(energy.row());
+  rows.push_back(momentum.row());
+}
+
+}  // namespace
+
+std::vector<ClaimRow> freeSpinRows(const Scene& scene, const Recording& recording) {
+  const bool exact = scene.world.method == "exact";
+  const Allowed& allowed = exact ? kExact : kStepped;
+  std::vector<ClaimRow> rows;
+  for (const Spinner& spinner : spinnersOf(scene, recording)) {
+    const std::string& name = scene.world.bodies[spinner.body].name;
+    WorstRow attitude(
+        name + (exact ? ": attitude from sample to sample / rad" : ": attitude / rad"),
+        allowed.attitude);
+    if (exact)
+      seeStepByStep(recording, spinner, attitude);
+    else
+      seeAgainstFlight(scene, recording, spinner, attitude);
+    rows.push_back(attitude.row());
+    addConserved(scene, recording, spinner, allowed, rows);
+  }
+  if (rows.empty()) rows.push_back(emptyClaim("no body turns free of torque"));
+  return rows;
+}
+
+}  // namespace tumble

@@ -1,0 +1,31 @@
+#include "app/claim/spinner.h"
+
+#include <algorithm>
+
+#include "app/claim/free_body.h"
+
+namespace tumble {
+
+Vec3 Spinner::momentum(const BodySample& seen) const {
+  return angularMomentum(inertia, seen.q, seen.omega);
+}
+
+std::vector<Spinner> spinnersOf(const Scene& scene, const Recording& recording) {
+  std::vector<Spinner> spinners;
+  for (int body = 0; body < static_cast<int>(scene.world.bodies.size()); ++body) {
+    const BodyDef& def = scene.world.bodies[body];
+    if (!moves(def) || def.pivot_B || def.angularVelocity.isZero(0.0)) continue;
+    const std::optional<Vec3> acceleration = freeAcceleration(scene.world, body);
+    if (!acceleration) continue;
+    const Mat3 inertia = massOf(def).inertia;
+    Spinner spinner{body, *acceleration, inertia,
+                    angularMomentum(inertia, def.orientation, def.angularVelocity),
+                    scene.world.duration};
+    for (const Event& event : recording.report.events)
+      if (event.a == body || event.b == body) spinner.end = std::min(spinner.end, event.t);
+    spinners.push_back(spinner);
+  }
+  return spinners;
+}
+
+}  // namespace tumble

@@ -1,0 +1,26 @@
+// Bodies that turn free of torque, and until when.
+#pragma once
+
+#include <vector>
+
+#include "app/record/recording.h"
+#include "sim/body/mass_properties.h"
+
+namespace tumble {
+
+/// A body that forces leave free to turn.
+struct Spinner {
+  int body = 0;
+  Vec3 acceleration = Vec3::Zero();  ///< [m/s²] of its centre of mass
+  Mat3 inertia = Mat3::Identity();   ///< [kg m²] body frame
+  Vec3 L = Vec3::Zero();             ///< [kg m²/s] at the start, world frame
+  double end = 0.0;  ///< [s] of the first event that it takes part in, or of the run
+
+  /// L [kg m²/s] that a sample shows, world frame.
+  Vec3 momentum(const BodySample& seen) const;
+};
+
+/// Every body that moves, turns, and is free of torque at the start.
+std::vector<Spinner> spinnersOf(const Scene& scene, const Recording& recording);
+
+}  // namespace tumble
