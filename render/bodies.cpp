@@ -56,7 +56,7 @@ Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
                            {"body.frag", "GLASS"},       {"depth.frag", "DEPTH_ONLY"},
                            {"depth.frag", "FROM_LIGHT"}, {"above.frag", "FROM_ABOVE"},
                            {"above.frag", "CAST"}};
-  const char* surfaces[kSurfaces] = {"BOX", "CYLINDER", "BALL", "FACETS"};
+  const char* surfaces[kSurfaces] = {"BOX", "CYLINDER", "ELLIPSOID", "BALL", "FACETS"};
   for (const Row& row : rows) {
     for (const char* surface : surfaces) {
       programs_.emplace_back(shaders, "body.vert", row.fragment,
