@@ -92,6 +92,13 @@ std::vector<double> flipsOf(const Recording& recording, const Spinner& spinner,
   return flips;
 }
 
+// The instant of the last sample that the recording should have.
+double endOf(const Scene& scene, const Recording& recording) {
+  if (recording.samples.empty()) return 0.0;
+  if (recording.report.stopped) return recording.samples.back().t;
+  return std::floor(scene.world.duration * recording.rate + 1e-9) / recording.rate;
+}
+
 }  // namespace
 
 std::vector<ClaimRow> flipRows(const Scene& scene, const Recording& recording) {
@@ -104,8 +111,7 @@ std::vector<ClaimRow> flipRows(const Scene& scene, const Recording& recording) {
     if (std::abs(l[1]) < kNearAxis * middle.L || !std::isfinite(middle.half)) continue;
 
     const std::vector<double> flips = flipsOf(recording, spinner, middle);
-    const double last =
-        recording.samples.empty() ? 0.0 : std::min(spinner.end, recording.samples.back().t);
+    const double last = std::min(spinner.end, endOf(scene, recording));
     // A flip that falls on the end itself may be seen or not.
     const auto told = [&](double slack) {
       return std::max(0.0, std::floor((last + slack - middle.first) / middle.half + 1.0));

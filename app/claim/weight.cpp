@@ -84,6 +84,7 @@ void addTurning(const Recording& recording, const BodyDef& def, int body, const 
 }  // namespace
 
 std::vector<ClaimRow> weightRows(const Scene& scene, const Recording& recording) {
+  if (recording.samples.empty()) return {emptyClaim("the run has no samples")};
   std::vector<ClaimRow> rows;
   for (std::size_t i = 0; i < scene.world.bodies.size(); ++i) {
     const BodyDef& body = scene.world.bodies[i];

@@ -63,7 +63,7 @@ const Table* readTemplate(Section& section, const std::vector<std::string>& rese
 
 // Reads the template once per copy, each time with the numbers of that copy.
 void expand(Section& section, const std::string& name, Generator& generator, Node body,
-            std::span<const Variation> variations, const Materials& materials, Bodies& bodies) {
+            std::span<const Variation> variations, const Materials& materials, BodyList& bodies) {
   Findings& findings = section.findings();
   const std::size_t before = findings.count();
   for (int i = 0; i < generator.count && findings.count() == before; ++i) {
@@ -81,7 +81,7 @@ void expand(Section& section, const std::string& name, Generator& generator, Nod
 }
 
 void readArray(const Node& node, const std::string& index, Section& root,
-               const Materials& materials, Weather& weather, Bodies& bodies) {
+               const Materials& materials, Weather& weather, BodyList& bodies) {
   const Table* table = node.as<Table>();
   const Entry* named = table ? table->find("name") : nullptr;
   const std::string* given = named ? named->node.as<std::string>() : nullptr;
@@ -104,7 +104,7 @@ void readArray(const Node& node, const std::string& index, Section& root,
 }  // namespace
 
 void readArrays(Section& root, const Materials& materials, std::uint64_t seed, const Vec3& gravity,
-                Bodies& bodies) {
+                BodyList& bodies) {
   Weather weather{seed, gravity, {}};
   int index = 0;
   for (const Node& node : root.tables("array"))

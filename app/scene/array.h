@@ -17,6 +17,6 @@ namespace tumble {
 /// evenly from the first copy to the last.
 /// @param gravity  [m/s²], for what is thrown
 void readArrays(Section& root, const Materials& materials, std::uint64_t seed, const Vec3& gravity,
-                Bodies& bodies);
+                BodyList& bodies);
 
 }  // namespace tumble

@@ -141,7 +141,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   return entry;
 }
 
-void Bodies::add(BodyEntry entry, Spot spot, Section& section) {
+void BodyList::add(BodyEntry entry, Spot spot, Section& section) {
   const std::string& name = entry.def.name;
   if (!isName(name))
     section.findings().complain(spot, section.path("name"),
@@ -157,7 +157,7 @@ void Bodies::add(BodyEntry entry, Spot spot, Section& section) {
 }
 
 // Copies of one mesh share its points.
-void Bodies::share(Shape& shape) {
+void BodyList::share(Shape& shape) {
   Mesh* mesh = std::get_if<Mesh>(&shape);
   if (!mesh) return;
   const auto same = [&](const std::shared_ptr<const Polyhedron>& other) {
@@ -170,13 +170,13 @@ void Bodies::share(Shape& shape) {
     mesh->solid = *found;
 }
 
-bool Bodies::full(Spot spot, Findings& findings) const {
+bool BodyList::full(Spot spot, Findings& findings) const {
   if (next() < kMostBodies) return false;
   findings.complain(spot, "", "more than " + std::to_string(kMostBodies) + " bodies");
   return true;
 }
 
-std::optional<int> Bodies::named(Section& section, std::string_view key) const {
+std::optional<int> BodyList::named(Section& section, std::string_view key) const {
   std::string name;
   section.read(key, name);
   if (!section.find(key) || !section.good()) return {};
@@ -188,7 +188,7 @@ std::optional<int> Bodies::named(Section& section, std::string_view key) const {
   return {};
 }
 
-std::vector<int> Bodies::group(Section& section, std::string_view key) const {
+std::vector<int> BodyList::group(Section& section, std::string_view key) const {
   std::string name;
   if (!section.find(key)) return {kNoBody};
   section.read(key, name);
@@ -200,7 +200,7 @@ std::vector<int> Bodies::group(Section& section, std::string_view key) const {
   return copies;
 }
 
-void readBodies(Section& root, const Materials& materials, Bodies& bodies) {
+void readBodies(Section& root, const Materials& materials, BodyList& bodies) {
   int number = 0;
   for (const Node& node : root.tables("body")) {
     if (bodies.full(node.spot, root.findings())) return;

@@ -17,9 +17,9 @@ struct BodyEntry {
 BodyEntry readBody(Section& section, const std::string& name, const Materials& materials);
 
 /// Appends to the scene, where forces will look for the name.
-class Bodies {
+class BodyList {
  public:
-  explicit Bodies(Scene& scene) : scene_(scene) {}
+  explicit BodyList(Scene& scene) : scene_(scene) {}
 
   /// Complains, at the spot and on behalf of the section, about a name that is taken or not a name.
   void add(BodyEntry entry, Spot spot, Section& section);
@@ -45,6 +45,6 @@ class Bodies {
 };
 
 /// Reads [[body]].
-void readBodies(Section& root, const Materials& materials, Bodies& bodies);
+void readBodies(Section& root, const Materials& materials, BodyList& bodies);
 
 }  // namespace tumble

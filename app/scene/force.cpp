@@ -8,7 +8,7 @@ namespace tumble {
 namespace {
 
 // The body that a key names, or kNoBody. A key that must be there complains if it is not.
-int bodyOf(Section& section, std::string_view key, const Bodies& bodies, bool needed) {
+int bodyOf(Section& section, std::string_view key, const BodyList& bodies, bool needed) {
   if (!section.find(key)) {
     if (needed) section.complain(key, "missing; name the body");
     return kNoBody;
@@ -20,21 +20,21 @@ void need(Section& section, std::string_view key) {
   if (!section.find(key)) section.complain(key, "missing");
 }
 
-Force readWind(Section& section, const Bodies&) {
+Force readWind(Section& section, const BodyList&) {
   UniformWind wind;
   need(section, "force");
   section.read("force", wind.force, any("N"));
   return wind;
 }
 
-Force readDrag(Section& section, const Bodies&) {
+Force readDrag(Section& section, const BodyList&) {
   LinearDrag drag;
   section.read("linear", drag.linear, notNegative("N s/m"));
   section.read("angular", drag.angular, notNegative("N m s"));
   return drag;
 }
 
-Force readField(Section& section, const Bodies&) {
+Force readField(Section& section, const BodyList&) {
   CircularField field;
   Vec3 axis = Vec3::UnitY();
   double rate = 1.0;
@@ -48,7 +48,7 @@ Force readField(Section& section, const Bodies&) {
   return field;
 }
 
-Force readPoint(Section& section, const Bodies& bodies) {
+Force readPoint(Section& section, const BodyList& bodies) {
   PointForce force;
   force.body = bodyOf(section, "body", bodies, true);
   section.read("point", force.point_B, any("m"));
@@ -57,7 +57,7 @@ Force readPoint(Section& section, const Bodies& bodies) {
   return force;
 }
 
-Force readSpring(Section& section, const Bodies& bodies) {
+Force readSpring(Section& section, const BodyList& bodies) {
   Spring spring;
   spring.a = bodyOf(section, "a", bodies, true);
   spring.b = bodyOf(section, "b", bodies, false);
@@ -74,7 +74,7 @@ Force readSpring(Section& section, const Bodies& bodies) {
 
 struct ForceRow {
   const char* kind;
-  Force (*read)(Section&, const Bodies&);
+  Force (*read)(Section&, const BodyList&);
 };
 constexpr std::array<ForceRow, 5> kForces = {{{"wind", readWind},
                                               {"drag", readDrag},
@@ -84,7 +84,8 @@ constexpr std::array<ForceRow, 5> kForces = {{{"wind", readWind},
 
 // Appends the force; one that acts on centres of mass once for each body that `body` names.
 template <class Kind>
-void append(const Kind& force, Section& section, const Bodies& bodies, std::vector<Force>& forces) {
+void append(const Kind& force, Section& section, const BodyList& bodies,
+            std::vector<Force>& forces) {
   if constexpr (std::is_same_v<Kind, PointForce> || std::is_same_v<Kind, Spring>) {
     forces.push_back(force);
   } else {
@@ -97,7 +98,7 @@ void append(const Kind& force, Section& section, const Bodies& bodies, std::vect
 
 }  // namespace
 
-void readForces(Section& root, const Bodies& bodies, std::vector<Force>& forces) {
+void readForces(Section& root, const BodyList& bodies, std::vector<Force>& forces) {
   std::vector<std::string> kinds;
   for (const ForceRow& row : kForces) kinds.emplace_back(row.kind);
 

@@ -5,6 +5,6 @@
 
 namespace tumble {
 
-void readForces(Section& root, const Bodies& bodies, std::vector<Force>& forces);
+void readForces(Section& root, const BodyList& bodies, std::vector<Force>& forces);
 
 }  // namespace tumble

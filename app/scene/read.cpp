@@ -40,7 +40,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   readStepping(root, scene.world.stepping);
   const Materials materials = readMaterials(root);
   readPairs(root, materials, scene.world.pairs);
-  Bodies bodies(scene);
+  BodyList bodies(scene);
   readBodies(root, materials, bodies);
   readArrays(root, materials, scene.seed, scene.world.gravity, bodies);
   if (bodies.next() == 0 && root.good())

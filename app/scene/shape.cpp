@@ -89,6 +89,7 @@ std::optional<Shape> readOne(Section& section, bool part) {
     shape = row.read(section);
     ++given;
   }
+  section.finish();
   if (given == 1 || !section.good()) return shape;
   section.findings().complain(
       section.spot(), section.key(),
@@ -105,7 +106,6 @@ std::optional<Shape> readCompound(Section& shape) {
     section.read("position", part.pose.x, any("m"));
     readOrientation(section, part.pose.q);
     const std::optional<Shape> solid = readOne(section, true);
-    section.finish();
     if (!section.good() || !solid) continue;
     if (const Sphere* sphere = std::get_if<Sphere>(&*solid)) part.solid = *sphere;
     if (const Box* box = std::get_if<Box>(&*solid)) part.solid = *box;
@@ -133,7 +133,6 @@ std::optional<Shape> readShape(Section& body) {
   }
   Section section(*node, body.path("shape"), body.findings());
   const std::optional<Shape> shape = readOne(section, false);
-  section.finish();
   if (!section.good()) return {};
   return shape;
 }

@@ -18,20 +18,20 @@ namespace tumble {
 struct BodyDef {
   std::string name;
   Shape shape = Sphere{};
-  std::optional<double> density;      ///< [kg/m³]
-  std::optional<double> mass;         ///< [kg]
-  std::optional<Vec3> inertia;        ///< [kg m²] principal
-  std::string inertiaBy = "surface";  ///< a row of the table of inertia methods
-  int samples = 10'000;               ///< points, if that row takes some
+  std::optional<double> density = {};  ///< [kg/m³]
+  std::optional<double> mass = {};     ///< [kg]
+  std::optional<Vec3> inertia = {};    ///< [kg m²] principal
+  std::string inertiaBy = "surface";   ///< a row of the table of inertia methods
+  int samples = 10'000;                ///< points, if that row takes some
   double restitution = 0.0, friction = 0.0;
-  std::string material;          ///< for the pairs table; may be empty
+  std::string material = {};     ///< for the pairs table; may be empty
   Vec3 position = Vec3::Zero();  ///< [m]
   Quat orientation = Quat::Identity();
   Vec3 velocity = Vec3::Zero();         ///< [m/s]
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s] world frame
   bool fixed = false;
   /// Body point [m, body frame, from the centre of mass] that stays where it is at the start.
-  std::optional<Vec3> pivot_B;
+  std::optional<Vec3> pivot_B = {};
 };
 
 /// Mass [kg] of a body: its own, or its density times the volume of its shape; 0 without either.

@@ -69,15 +69,19 @@ TEST_CASE("a cube of facets looks like a box, solid, as a ghost and of glass") {
     int compared = 0;
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {-0.4, 0.4})
-        for (const double off : {-0.3, -0.1, 0.2}) {
+        for (const double off : {-0.2, -0.1, 0.2}) {
           Vector3d p = Vector3d::Constant(off);
           p[axis] = side;
+          // What hides another face may be a bevel.
+          const Vector3d normal = side * (body.orientation * Vector3d::Unit(axis));
+          const Vector3d eye = asBox.camera.eye - (body.orientation * p + body.position);
+          if (normal.dot(eye) < 0.0) continue;
           const Vector3d place = *view.project(body.orientation * p + body.position);
           const int x = static_cast<int>(place.x()), y = static_cast<int>(place.y());
           CHECK(std::abs(brightness(a, x, y) - brightness(b, x, y)) <= 1.0);
           ++compared;
         }
-    CHECK(compared == 18);
+    CHECK(compared == 9);
     // The shadow on the floor, right and left of the body.
     for (const double x : {-1.0, -0.5, 0.5, 1.0, 1.5}) {
       const Vector3d place = *view.project(Vector3d(x, 0.0, 0.0));
