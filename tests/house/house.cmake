@@ -4,7 +4,7 @@
 function(house_test name label seconds)
   add_test(NAME "house: ${name}" COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties("house: ${name}" PROPERTIES LABELS ${label} TIMEOUT ${seconds}
-                       SKIP_RETURN_CODE 77)
+                       SKIP_RETURN_CODE 77 ENVIRONMENT ${tumble_test_environment})
 endfunction()
 
 set(house ${CMAKE_CURRENT_SOURCE_DIR}/house)
