@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/command/command.h"
 #include "app/command/progress.h"
@@ -23,7 +22,7 @@ Shoot::Shoot(const Scene& scene, std::string folder, Studio& studio)
 }
 
 int Shoot::count() const {
-  return static_cast<int>(std::floor(scene_.world.duration * scene_.image.rate + 1e-9)) + 1;
+  return sampleCount(scene_, scene_.image.rate);
 }
 
 const Recording& Shoot::recording() {

@@ -33,7 +33,7 @@ class Shoot {
   /// The images of the range as a film.
   void video(const std::string& path, std::pair<int, int> range);
 
-  /// Images of the whole sequence: floor(duration·rate + 1e-9) + 1.
+  /// Images of the whole sequence, one per sample.
   int count() const;
   const Recording& recording();
   bool recorded() const { return recording_.has_value(); }

@@ -1,11 +1,17 @@
 #include "app/record/recording.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
 namespace tumble {
 
 namespace {
+
+constexpr double kMostSamples = 1e6;       // image-000000.png … image-999999.png
+constexpr double kMostBodySamples = 20e6;  // of 150 bytes
 
 // q and −q are one attitude: the sign that lies nearer to the sample before makes it continuous.
 class Signs {
@@ -35,6 +41,19 @@ World makeWorld(const Scene& scene) {
   }
 }
 
+int sampleCount(const Scene& scene, double rate) {
+  const double count = std::floor(scene.world.duration * rate + 1e-9) + 1.0;
+  const double bodies = static_cast<double>(scene.world.bodies.size());
+  const double most = std::min(kMostSamples, std::floor(kMostBodySamples / std::max(bodies, 1.0)));
+  if (count <= most) return static_cast<int>(count);
+  throw SceneError(
+      {{{scene.file},
+        fmt::format("world.duration: {:g} s at {:g} samples a second are {:.0f} "
+                    "samples, and {} bodies allow {:.0f}; take a shorter duration, "
+                    "or a lower image.rate or --rate",
+                    scene.world.duration, rate, count, scene.world.bodies.size(), most)}});
+}
+
 Recording run(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
               const std::function<void(double)>& progress) {
   std::clock_t start = std::clock();
@@ -45,23 +64,27 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
 
   // One sample each 1/rate, as long as the physics goes on.
   Signs signs;
-  const double duration = scene.world.duration;
-  const long last = static_cast<long>(std::floor(duration * rate + 1e-9));
-  for (long k = 0; k <= last; ++k) {
+  double deepest = 0.0;  // [m] of all samples
+  const int last = sampleCount(scene, rate) - 1;
+  for (int k = 0; k <= last; ++k) {
     const double t = static_cast<double>(k) / rate;
     world.advance(t);
     if (world.report().stopped) break;
     Sample sample = world.sample(t);
     signs.align(sample);
+    for (const ContactSample& contact : sample.contacts)
+      deepest = std::max(deepest, -contact.separation);
     const std::clock_t known = std::clock();
     see(std::move(sample));
     start += std::clock() - known;  // what is done with samples is not the run's own time
-    if (progress) progress(last == 0 ? 1.0 : static_cast<double>(k) / static_cast<double>(last));
+    if (progress) progress(last == 0 ? 1.0 : static_cast<double>(k) / last);
   }
 
   // The certificate is complete at the end of the duration.
-  world.advance(duration);
+  world.advance(scene.world.duration);
   recording.report = world.report();
+  double& worst = recording.report.certificate.max_penetration;
+  worst = std::max(worst, deepest);
   recording.cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return recording;
 }

@@ -11,7 +11,7 @@
 namespace tumble {
 
 struct Recording {
-  std::vector<Sample> samples;  ///< at k/rate, k = 0 … floor(duration·rate + 1e-9)
+  std::vector<Sample> samples;  ///< at k/rate, k = 0 … sampleCount − 1
   Report report;
   std::vector<std::string> features;
   double rate = 60.0;  ///< [1/s]
@@ -22,6 +22,11 @@ struct Recording {
 /// @throws SceneError if the world refuses the scene, placed where the scene says it.
 World makeWorld(const Scene& scene);
 
+/// Samples of a run of that length: floor(duration·rate + 1e-9) + 1.
+/// @throws SceneError if they are more than fit in memory or on a disk: above a million, or above 20 million
+/// bodies in all samples together (3 GB).
+int sampleCount(const Scene& scene, double rate);
+
 /// Runs the scene's world from start to duration and shows each sample as soon as it is known; the
 /// recording that is returned keeps none. `progress` is told the share done in [0, 1].
 /// @throws SceneError if the world refuses the scene.
@@ -30,7 +35,7 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
 
 /// Runs the scene's world from start to duration. `progress` is told the share done in [0, 1].
 /// A run that stopped early has fewer samples and says so in its report.
-/// @throws SceneError if the world refuses the scene.
+/// @throws SceneError if the world refuses the scene, or for too many samples.
 Recording record(const Scene& scene, double rate, const std::function<void(double)>& progress = {});
 
 }  // namespace tumble

@@ -104,3 +104,27 @@ TEST_CASE("a file is written whole or not at all") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("a run of more samples than fit in memory is refused before it begins") {
+  const Scene scene = parseScene(kSpinning, "top.toml", {"world.duration=1e6"});
+  CHECK(sampleCount(scene, 0.5) == 500'001);
+  CHECK_THROWS_WITH(
+      record(scene, 1e5),
+      Catch::Matchers::Contains("top.toml") &&
+          Catch::Matchers::Contains("100000000001 samples, and 2 bodies allow 1000000"));
+}
+
+// A brick that the course lets sink by its tolerance: what samples see counts, too.
+TEST_CASE("the certificate's penetration is no less than that of any sample") {
+  for (const char* method : {"course", "stepping"}) {
+    const Scene scene = readScene(TUMBLE_SOURCE_DIR "/assets/demos/path-of-brick.toml",
+                                  {std::string("world.method=") + method, "course.step=0.004"});
+    const Recording recording = record(scene, 240.0);
+    double deepest = 0.0;
+    for (const Sample& sample : recording.samples)
+      for (const ContactSample& contact : sample.contacts)
+        deepest = std::max(deepest, -contact.separation);
+    CAPTURE(method, deepest);
+    CHECK(recording.report.certificate.max_penetration >= deepest);
+  }
+}
