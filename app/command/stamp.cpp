@@ -2,22 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "app/command/data.h"
+#include "app/record/digest.h"
 #include "app/record/file.h"
 
 namespace tumble {
 
 namespace {
 
-// FNV-1a, 64 bits: tells apart versions of one file; no secret depends on it.
-std::uint64_t digest(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
+// What draws: the program's own file and the shaders that it reads.
+std::string drawingProgram() {
+  std::uint64_t hash = digest(readFile("/proc/self/exe"));
+  std::vector<std::filesystem::path> shaders;
+  for (const auto& entry : std::filesystem::directory_iterator(dataFolder("shaders")))
+    shaders.push_back(entry.path());
+  std::sort(shaders.begin(), shaders.end());
+  for (const auto& shader : shaders) hash = digest(readFile(shader.string()), hash);
+  return fmt::format("{:016x}", hash);
 }
 
 /// Chunks of a PNG from front to back (PNG specification, §5).
@@ -47,9 +55,11 @@ class Chunks {
 }  // namespace
 
 Stamp stampOf(const Scene& scene, const std::string& what) {
+  static const std::string program = drawingProgram();
   std::error_code missing;
   const bool file = std::filesystem::is_regular_file(scene.file, missing);
   return {{"Software", "tumble " TUMBLE_VERSION},
+          {"Program", program},
           {"Scene", scene.line},
           {"Source", fmt::format("{:016x}", file ? digest(readFile(scene.file)) : 0)},
           {"Image", fmt::format("{} {}x{} {} {:.17g} Hz", what, scene.image.width,

@@ -11,8 +11,8 @@ namespace tumble {
 /// Keys and values of a PNG's text chunks.
 using Stamp = std::map<std::string, std::string>;
 
-/// Version, scene line, a digest of the scene's file, and the image: its size, rate and what it
-/// shows.
+/// Version, a digest of the program and its shaders, scene line, a digest of the scene's file, and
+/// the image: its size, rate and what it shows.
 Stamp stampOf(const Scene& scene, const std::string& what);
 
 /// Text chunks of a PNG that is whole; empty if the file is missing, broken or no PNG.

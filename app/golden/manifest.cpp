@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/record/digest.h"
 #include "app/record/file.h"
 
 namespace tumble {
@@ -33,12 +34,11 @@ void writeManifest(const std::string& path, const Manifest& manifest) {
 }
 
 std::string pixelHash(const Image& image) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto eat = [&hash](std::uint8_t byte) { hash = (hash ^ byte) * 0x100000001b3u; };
+  std::string sides;  // four bytes each, the lowest first
   for (const int side : {image.width, image.height})
-    for (int shift = 0; shift < 32; shift += 8) eat(static_cast<std::uint8_t>(side >> shift));
-  for (const std::uint8_t byte : image.rgb) eat(byte);
-  return fmt::format("{:016x}", hash);
+    for (int shift = 0; shift < 32; shift += 8) sides += static_cast<char>(side >> shift);
+  const std::string_view pixels(reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size());
+  return fmt::format("{:016x}", digest(pixels, digest(sides)));
 }
 
 }  // namespace tumble
