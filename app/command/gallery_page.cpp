@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/record/html.h"
+
 namespace tumble {
 
 namespace {
@@ -45,23 +47,6 @@ document.onkeydown = event => {
 </script></body></html>
 )";
 
-std::string escape(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string claimTable(const Verdict& verdict) {
   std::string out =
       fmt::format("<details{}><summary>{} claims, {} failed</summary><table>\n",
@@ -70,7 +55,7 @@ std::string claimTable(const Verdict& verdict) {
   for (const ClaimRow& row : verdict.rows)
     out += fmt::format(
         "<tr{}><td>{}</td><td>{:.10g}</td><td>{:.10g}</td><td>{:.2g}</td><td>{:.2g}</td></tr>\n",
-        row.holds() ? "" : " class=\"failed\"", escape(row.label), row.measured, row.exact,
+        row.holds() ? "" : " class=\"failed\"", htmlText(row.label), row.measured, row.exact,
         row.error, row.allowed);
   return out + "</table></details>\n";
 }
@@ -79,17 +64,18 @@ std::string section(const Exhibit& exhibit) {
   const Scene& scene = exhibit.scene;
   std::string out =
       fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p>{0}: {2}</p>\n<div class=\"plates\">\n",
-                  escape(scene.name), escape(scene.title), escape(scene.claim));
+                  htmlText(scene.name), htmlText(scene.title), htmlText(scene.claim));
   for (const Plate& plate : exhibit.plates)
     out += fmt::format(
         "<figure><img loading=\"lazy\" src=\"{}\" "
         "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-        escape(plate.file), escape(scene.title + ": " + plate.caption), escape(plate.caption));
+        htmlText(plate.file), htmlText(scene.title + ": " + plate.caption),
+        htmlText(plate.caption));
   if (!exhibit.film.empty())
     out += fmt::format(
         "<figure><video controls src=\"{}\"></video><figcaption>film</figcaption>"
         "</figure>\n",
-        escape(exhibit.film));
+        htmlText(exhibit.film));
   return out + "</div>\n" + claimTable(exhibit.verdict);
 }
 

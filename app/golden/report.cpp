@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "app/record/html.h"
+
 namespace tumble {
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -39,21 +41,6 @@ for (const slider of document.querySelectorAll('input[type=range]')) {
 </script></body></html>
 )html";
 
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    if (c == '<')
-      html += "&lt;";
-    else if (c == '>')
-      html += "&gt;";
-    else if (c == '&')
-      html += "&amp;";
-    else
-      html += c;
-  }
-  return html;
-}
-
 std::string embedded(const Image& image, const char* what) {
   return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">", what,
                      base64(encodePng(image)));
@@ -84,11 +71,11 @@ std::string imagePart(const Finding& finding) {
 
 std::string htmlReport(const std::vector<Finding>& findings, const std::string& environment) {
   std::string html = kHead;
-  html += fmt::format("<p>{}</p>\n", escaped(environment));
+  html += fmt::format("<p>{}</p>\n", htmlText(environment));
   for (const Finding& finding : findings) {
     if (finding.passes()) continue;
-    html += fmt::format("<h2>{}: {}</h2>\n<p>{}</p>\n", escaped(finding.subject),
-                        escaped(finding.name), escaped(finding.verdict()));
+    html += fmt::format("<h2>{}: {}</h2>\n<p>{}</p>\n", htmlText(finding.subject),
+                        htmlText(finding.name), htmlText(finding.verdict()));
     if (!finding.numbers) html += imagePart(finding);
   }
   return html + kTail;
