@@ -26,12 +26,14 @@ std::string readShader(const std::string& folder, const std::string& name) {
   return text.str();
 }
 
-Object compile(GLenum stage, const std::string& folder, const std::string& name,
-               const std::vector<std::string>& defines) {
+std::string sourceOf(const std::string& folder, const std::string& name,
+                     const std::vector<std::string>& defines) {
   std::string source = "#version 330 core\n";
   for (const std::string& word : defines) source += "#define " + word + "\n";
-  source += readShader(folder, name);
+  return source + readShader(folder, name);
+}
 
+Object compile(GLenum stage, const std::string& name, const std::string& source) {
   Object shader(glCreateShader(stage), [](GLuint id) { glDeleteShader(id); });
   const char* text = source.c_str();
   glShaderSource(shader, 1, &text, nullptr);
@@ -41,7 +43,9 @@ Object compile(GLenum stage, const std::string& folder, const std::string& name,
   if (!good) {
     char words[2048] = "";
     glGetShaderInfoLog(shader, sizeof words, nullptr, words);
-    throw NoContext("shader " + name + " does not compile: " + words);
+    const char* kind = stage == GL_VERTEX_SHADER ? "vertex" : "fragment";
+    throw NoContext(std::string("the ") + kind + " shader of " + name +
+                    " does not compile: " + words);
   }
   return shader;
 }
@@ -78,21 +82,28 @@ Object makeFramebuffer() {
   return {id, [](GLuint name) { glDeleteFramebuffers(1, &name); }};
 }
 
-Program::Program(const std::string& folder, const std::string& vertex, const std::string& fragment,
-                 const std::vector<std::string>& defines) {
-  const Object vertexShader = compile(GL_VERTEX_SHADER, folder, vertex, defines);
-  const Object fragmentShader = compile(GL_FRAGMENT_SHADER, folder, fragment, defines);
-  program_ = Object(glCreateProgram(), [](GLuint id) { glDeleteProgram(id); });
-  glAttachShader(program_, vertexShader);
-  glAttachShader(program_, fragmentShader);
-  glLinkProgram(program_);
+Object linkProgram(const std::string& name, const std::string& vertex,
+                   const std::string& fragment) {
+  const Object vertexShader = compile(GL_VERTEX_SHADER, name, vertex);
+  const Object fragmentShader = compile(GL_FRAGMENT_SHADER, name, fragment);
+  Object program(glCreateProgram(), [](GLuint id) { glDeleteProgram(id); });
+  glAttachShader(program, vertexShader);
+  glAttachShader(program, fragmentShader);
+  glLinkProgram(program);
   GLint good = 0;
-  glGetProgramiv(program_, GL_LINK_STATUS, &good);
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
   if (!good) {
     char words[2048] = "";
-    glGetProgramInfoLog(program_, sizeof words, nullptr, words);
-    throw NoContext("shaders " + vertex + " and " + fragment + " do not link: " + words);
+    glGetProgramInfoLog(program, sizeof words, nullptr, words);
+    throw NoContext("the shaders of " + name + " do not link: " + words);
   }
+  return program;
+}
+
+Program::Program(const std::string& folder, const std::string& vertex, const std::string& fragment,
+                 const std::vector<std::string>& defines)
+    : program_(linkProgram(vertex + " and " + fragment, sourceOf(folder, vertex, defines),
+                           sourceOf(folder, fragment, defines))) {
   const GLuint stage = glGetUniformBlockIndex(program_, "Stage");
   if (stage != GL_INVALID_INDEX) glUniformBlockBinding(program_, stage, 0);
 }

@@ -38,6 +38,10 @@ Object makeTexture();
 Object makeRenderbuffer();
 Object makeFramebuffer();
 
+/// A program of vertex and fragment shader; `name` says in errors whose they are.
+/// @throws NoContext with the name and the driver's words.
+Object linkProgram(const std::string& name, const std::string& vertex, const std::string& fragment);
+
 /// Vertex and fragment shader from files of one folder. A line `#include "file"` is replaced by
 /// that file; every word of `defines` is defined in both.
 /// @throws NoContext with file names and the driver's words.

@@ -1,4 +1,5 @@
 // tumble view: the window.
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 

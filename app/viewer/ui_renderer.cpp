@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "render/context/context.h"
+#include "render/gl.h"
 
 namespace tumble {
 
@@ -34,34 +34,6 @@ uniform sampler2D image;
 out vec4 pixel;
 void main() { pixel = tint * texture(image, at); }
 )glsl";
-
-unsigned compile(GLenum kind, const char* text) {
-  const unsigned shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  int good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (!good) {
-    char log[1024] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    throw NoContext(std::string("the shader of the user interface does not compile: ") + log);
-  }
-  return shader;
-}
-
-unsigned link() {
-  const unsigned program = glCreateProgram();
-  for (const unsigned shader :
-       {compile(GL_VERTEX_SHADER, kVertexShader), compile(GL_FRAGMENT_SHADER, kFragmentShader)}) {
-    glAttachShader(program, shader);
-    glDeleteShader(shader);
-  }
-  glLinkProgram(program);
-  int good = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &good);
-  if (!good) throw NoContext("the shader of the user interface does not link");
-  return program;
-}
 
 void upload(unsigned texture, GLenum format, int width, int height, const void* pixels) {
   glBindTexture(GL_TEXTURE_2D, texture);
@@ -135,7 +107,9 @@ ImTextureID UiTexture::id() const {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name_));
 }
 
-UiRenderer::UiRenderer() : program_(link()), scale_(glGetUniformLocation(program_, "scale")) {
+UiRenderer::UiRenderer()
+    : program_(gl::linkProgram("the user interface", kVertexShader, kFragmentShader)),
+      scale_(glGetUniformLocation(program_, "scale")) {
   glGenVertexArrays(1, &vertexArray_);
   glGenBuffers(1, &vertices_);
   glGenBuffers(1, &indices_);
@@ -159,7 +133,6 @@ UiRenderer::~UiRenderer() {
   glDeleteBuffers(1, &indices_);
   glDeleteBuffers(1, &vertices_);
   glDeleteVertexArrays(1, &vertexArray_);
-  glDeleteProgram(program_);
 }
 
 void UiRenderer::draw(const ImDrawData& data) {

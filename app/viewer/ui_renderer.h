@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include "render/gl.h"
 #include "render/image.h"
 
 namespace tumble {
@@ -40,7 +41,8 @@ class UiRenderer {
   void draw(const ImDrawData& data);
   void drawList(const ImDrawList& list, const ImDrawData& data);
 
-  unsigned program_ = 0, vertexArray_ = 0, vertices_ = 0, indices_ = 0;
+  gl::Object program_;
+  unsigned vertexArray_ = 0, vertices_ = 0, indices_ = 0;
   int scale_ = -1;
   UiTexture glyphs_;
 };
