@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "app/scene/override.h"
+
 namespace tumble {
 
 /// What the program returns to the shell.
@@ -22,11 +24,6 @@ enum Exit : int {
 struct Command {
   std::string_view name, summary;
   int (*run)(int argc, char** argv);
-};
-
-/// A command line that makes no sense: exit 2.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// A run that stopped before there was anything to show: exit 6.

@@ -2,7 +2,6 @@
 
 #include <charconv>
 
-#include "app/command/command.h"
 #include "app/scene/toml.h"
 
 namespace tumble {

@@ -1,9 +1,16 @@
 // --set key.path=value: changes the text's tree before it gets a meaning.
 #pragma once
 
+#include <stdexcept>
+
 #include "app/scene/findings.h"
 
 namespace tumble {
+
+/// A command line that makes no sense.
+class UsageError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// "key.path" and the value behind the first '='.
 struct Override {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command/command.h"
+#include "app/scene/override.h"
 #include "app/scene/scene.h"
 
 using namespace tumble;
