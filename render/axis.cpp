@@ -16,7 +16,8 @@ double niceStep(double x) {
 
 }  // namespace
 
-Scale::Scale(const Axis& axis, std::span<const double> values, double from, double to, double room)
+Scale::Scale(const ChartAxis& axis, std::span<const double> values, double from, double to,
+             double room)
     : logarithmic_(axis.logarithmic), from_(from), to_(to) {
   // What has to lie in the range.
   bool any = false;

@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-struct Axis {
+struct ChartAxis {
   std::string caption;  ///< "error", "time / s"
   bool logarithmic = false;
 };
@@ -24,7 +24,7 @@ class Scale {
   /// @param values  what has to lie in the range; on a logarithmic axis only numbers > 0 count
   /// @param from, to  [px] of the ends; more ticks are labelled where there is more room
   /// @param room  [px] that a labelled tick needs
-  Scale(const Axis& axis, std::span<const double> values, double from, double to, double room);
+  Scale(const ChartAxis& axis, std::span<const double> values, double from, double to, double room);
 
   /// Whether the value has a place: finite, and on a logarithmic axis > 0.
   bool holds(double value) const;

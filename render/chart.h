@@ -31,7 +31,7 @@ struct Guide {
 
 struct Chart {
   std::string title, subtitle;
-  Axis x, y;
+  ChartAxis x, y;
   std::vector<ChartCurve> curves;
   std::vector<Guide> guides;
 };
