@@ -101,9 +101,10 @@ Object linkProgram(const std::string& name, const std::string& vertex,
 }
 
 Program::Program(const std::string& folder, const std::string& vertex, const std::string& fragment,
-                 const std::vector<std::string>& defines)
-    : program_(linkProgram(vertex + " and " + fragment, sourceOf(folder, vertex, defines),
-                           sourceOf(folder, fragment, defines))) {
+                 const std::vector<std::string>& defines) {
+  const std::string vertexSource = sourceOf(folder, vertex, defines);
+  program_ =
+      linkProgram(vertex + " and " + fragment, vertexSource, sourceOf(folder, fragment, defines));
   const GLuint stage = glGetUniformBlockIndex(program_, "Stage");
   if (stage != GL_INVALID_INDEX) glUniformBlockBinding(program_, stage, 0);
 }

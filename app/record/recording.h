@@ -23,8 +23,8 @@ struct Recording {
 World makeWorld(const Scene& scene);
 
 /// Samples of a run of that length: floor(duration·rate + 1e-9) + 1.
-/// @throws SceneError if they are more than fit in memory or on a disk: above a million, or above 20 million
-/// bodies in all samples together (3 GB).
+/// @throws SceneError if they are more than fit in memory or on a disk: above a million, or above
+/// 20 million bodies in all samples together (3 GB).
 int sampleCount(const Scene& scene, double rate);
 
 /// Runs the scene's world from start to duration and shows each sample as soon as it is known; the
