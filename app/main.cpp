@@ -9,6 +9,7 @@ int gallery(int argc, char** argv);
 int golden(int argc, char** argv);
 int list(int argc, char** argv);
 int render(int argc, char** argv);
+int report(int argc, char** argv);
 int simulate(int argc, char** argv);
 int sweep(int argc, char** argv);
 int view(int argc, char** argv);
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
       {"gallery", "the key pictures of every demo and a page to leaf through", command::gallery},
       {"check", "hold scenes to their closed forms", command::check},
       {"golden", "hold small images and numbers against the approved ones", command::golden},
+      {"report", "speed against error: numbers, figures, a table", command::report},
       {"view", "the window: play, step, scrub, turn", command::view},
       {"doctor", "what this machine offers for drawing, and what is missing", command::doctor},
   };

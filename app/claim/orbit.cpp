@@ -31,7 +31,8 @@ struct Orbit {
   Vec3 at(double t) const {
     return middle + (speed * t + 0.5 * acceleration * t * t) * axis + radius(t);
   }
-  double amplitude() const { return std::sqrt(r0.squaredNorm() + w0.squaredNorm()); }
+  /// Root of the mean square of |radius| over a turn [m]; of a circle its radius.
+  double amplitude() const { return std::sqrt(0.5 * (r0.squaredNorm() + w0.squaredNorm())); }
 };
 
 Orbit orbitOf(const BodyDef& def, const CircularField& field, const Vec3& a) {

@@ -96,6 +96,8 @@ int doctor(int argc, char** argv) {
   tellFolders();
   const std::string ffmpeg = onPath("ffmpeg");
   row("ffmpeg", ffmpeg.empty() ? "no: needed by --video alone; install ffmpeg" : ffmpeg);
+  const std::string gnuplot = onPath("gnuplot");
+  row("gnuplot", gnuplot.empty() ? "no: needed by report alone; install gnuplot-nox" : gnuplot);
   const bool draws = examineContexts();
   if (!draws)
     throw NoContext("nothing here can draw; install libosmesa6 or libegl1 with libgl1-mesa-dri");

@@ -20,13 +20,6 @@ double costOf(const ChartDef& chart, const ChartPoint& point) {
   return chart.cost == "cpu" ? point.cpuShare : static_cast<double>(point.evaluations);
 }
 
-double largestError(const std::string& check, const Scene& scene, const Recording& recording) {
-  double largest = 0.0;
-  for (const ClaimRow& row : findCheck(check)->rows(scene, recording))
-    largest = std::isnan(row.error) ? row.error : std::max(largest, row.error);
-  return largest;
-}
-
 ChartPoint runPoint(const Scene& scene, const ChartDef& chart, const Variant& variant) {
   const Scene changed = sceneOf(scene, variant);
   const Recording recording = record(changed, changed.image.rate);
@@ -38,20 +31,38 @@ ChartPoint runPoint(const Scene& scene, const ChartDef& chart, const Variant& va
   return point;
 }
 
+// The values that a curve is run for.
+const std::vector<std::string>& valuesOf(const ChartDef& chart, const CurveDef& curve) {
+  return curve.values.empty() ? chart.along.values : curve.values;
+}
+
 }  // namespace
+
+double largestError(const std::string& check, const Scene& scene, const Recording& recording) {
+  double largest = 0.0;
+  for (const ClaimRow& row : findCheck(check)->rows(scene, recording))
+    largest = std::isnan(row.error) ? row.error : std::max(largest, row.error);
+  return largest;
+}
+
+Variant pointVariant(const ChartDef& chart, std::size_t curve, std::size_t point) {
+  const CurveDef& def = chart.curves[curve];
+  Sweep along = chart.along;
+  along.values = valuesOf(chart, def);
+  Variant variant = joined(chart.variant, def.variant);
+  variant.set.push_back(along.setting(point));
+  return variant;
+}
 
 std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, const RunDone& done) {
   std::vector<ChartSeries> all;
-  for (const CurveDef& curve : chart.curves) {
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const std::vector<std::string>& values = valuesOf(chart, chart.curves[i]);
     ChartSeries& series = all.emplace_back();
-    series.label = curve.variant.title;
-    Sweep along = chart.along;
-    if (!curve.values.empty()) along.values = curve.values;
-    for (std::size_t k = 0; k < along.values.size(); ++k) {
-      Variant variant = joined(chart.variant, curve.variant);
-      variant.set.push_back(along.setting(k));
-      series.points.push_back(runPoint(scene, chart, variant));
-      series.points.back().value = along.values[k];
+    series.label = chart.curves[i].variant.title;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      series.points.push_back(runPoint(scene, chart, pointVariant(chart, i, k)));
+      series.points.back().value = values[k];
       done();
     }
   }

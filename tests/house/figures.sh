@@ -75,6 +75,9 @@ section "CPU time of an image of 200 bodies, 1280x720, shadows, four samples a p
 cmake --build "$build" --target render_bench >/dev/null 2>&1
 run "$build/tests/render_bench" "$scratch"
 
+section "Speed against error: CPU seconds for a simulated second"
+run "$tumble" report -o "$scratch/report" | tail -n 60
+
 section "The same bits from gcc and clang at -O1 and -O3"
 run tests/house/determinism.sh
 

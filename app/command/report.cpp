@@ -1,0 +1,96 @@
+// tumble report: speed against error, as numbers, figures and a table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/command/command.h"
+#include "app/command/data.h"
+#include "app/command/options.h"
+#include "app/command/progress.h"
+#include "app/record/file.h"
+#include "app/report/machine.h"
+#include "app/report/page.h"
+#include "app/report/plot.h"
+
+namespace tumble::command {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes;
+  std::string folder = "out/report";
+  double budget = 0.1;  // [s] of CPU time a point
+  std::vector<std::string> overrides;
+};
+
+// The report's own scenes, in the order of their names.
+std::vector<std::string> reportScenes() {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(dataFolder("report")))
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::size_t pointsOf(const ChartDef& chart) {
+  std::size_t points = 0;
+  for (const CurveDef& curve : chart.curves)
+    points += (curve.values.empty() ? chart.along.values : curve.values).size();
+  return points;
+}
+
+// Runs every chart of every scene and writes its numbers and its script.
+std::vector<Study> study(const Options& options, const std::string& machine) {
+  std::vector<Study> studies;
+  for (const std::string& path : options.scenes) {
+    const Scene scene = load({path, options.overrides});
+    if (scene.charts.empty())
+      throw SceneError(
+          {{{scene.file}, "there is no [[chart]] in it, so there is nothing to report"}});
+    for (std::size_t k = 0; k < scene.charts.size(); ++k) {
+      Progress progress(scene.charts[k].variant.title);
+      const double points = static_cast<double>(pointsOf(scene.charts[k]));
+      double done = 0.0;
+      studies.push_back(
+          runStudy(scene, k, options.budget, [&] { progress.show(++done / points); }));
+      const Study& now = studies.back();
+      writeFile(options.folder + "/" + now.name + ".csv", studyCsv(now));
+      writeFile(options.folder + "/" + now.name + ".gp", plotScript(now, machine));
+    }
+  }
+  return studies;
+}
+
+}  // namespace
+
+int report(int argc, char** argv) {
+  Options options;
+  CommandLine app("report", "Measures speed against error: CSV, figures, a table, a page.",
+                  {"             # every chart of assets/report, into out/report/index.html",
+                   "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
+  app.add_option("SCENE", options.scenes, "scenes with [[chart]]s [those of assets/report]");
+  app.add_option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
+  app.add_option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 100.0));
+  addOverrides(app, options.overrides);
+  if (!app.read(argc, argv)) return kOk;
+  if (options.scenes.empty()) options.scenes = reportScenes();
+
+  // Numbers first: they stay if gnuplot is missing.
+  makeFolder(options.folder);
+  const std::string machine = machineLine();
+  const std::vector<Study> studies = study(options, machine);
+  const std::vector<HeadlineRow> rows = headlineRows(studies);
+  writeFile(options.folder + "/table.csv", headlineCsv(rows));
+  writeFile(options.folder + "/table.md", headlineMarkdown(rows));
+  writeFile(options.folder + "/index.html", reportPage(studies, machine, false));
+  fmt::print("{}", headlineMarkdown(rows));
+  for (const Study& one : studies) runGnuplot(options.folder, one.name);
+  writeFile(options.folder + "/index.html", reportPage(studies, machine, true));
+  fmt::print("{}/index.html\n", options.folder);
+  return kOk;
+}
+
+}  // namespace tumble::command

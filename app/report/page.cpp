@@ -1,0 +1,67 @@
+#include "app/report/page.h"
+
+#include <fmt/format.h>
+
+#include "app/record/html.h"
+
+namespace tumble {
+
+namespace {
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>tumble: speed against error</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<style>
+body { margin: 2rem auto; max-width: 1000px; padding: 0 1rem; background: #f8f8f6; color: #2b2f36;
+       font: 16px/1.5 Lato, "DejaVu Sans", sans-serif; }
+h2 { margin: 3rem 0 0; } p { margin: .3rem 0 1rem; color: #5c636e; } img { width: 100%; background: #fff; }
+table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
+td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
+td:first-child, th:first-child, td:nth-child(2), th:nth-child(2) { text-align: left; }
+</style></head><body>
+<h1>Speed against error</h1>
+<p>Good is lower left. Each point is one run: across, the error that the figure names, over the whole
+run; upwards, the CPU seconds that a simulated second takes, the least of at least five runs made for
+the clock alone. The dashed line is what double precision leaves to any method: the error of starts
+that differ in the last place. The order in the legend is the slope of error over step, fitted where the
+curve is straight and rounding has no part. The exact method takes no steps and is one point; it
+is held to small steps from sample to sample, and shown no further left than the rounding.</p>
+)";
+
+std::string tableOf(const std::vector<HeadlineRow>& rows) {
+  std::string out = "<table><tr><th>scene</th><th>method</th>";
+  for (const double goal : kGoals) out += fmt::format("<th>CPU s per s to {:.0e}</th>", goal);
+  out += "<th>best error</th></tr>\n";
+  for (const HeadlineRow& row : rows) {
+    out += fmt::format("<tr><td>{}</td><td>{}</td>", htmlText(row.scene), htmlText(row.curve));
+    for (const std::optional<double>& cost : row.cost)
+      out += cost ? fmt::format("<td>{:.1e}</td>", *cost) : "<td>–</td>";
+    out += fmt::format("<td>{:.1e}</td></tr>\n", row.best);
+  }
+  return out + "</table>\n";
+}
+
+}  // namespace
+
+std::string reportPage(const std::vector<Study>& studies, const std::string& machine,
+                       bool figures) {
+  std::string out = kHead;
+  out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine));
+  for (const Study& study : studies) {
+    const std::string name = htmlText(study.name);
+    out += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", name,
+                       htmlText(study.chart.variant.title), htmlText(study.chart.subtitle));
+    if (figures)
+      out += fmt::format("<a href=\"{0}.svg\"><img src=\"{0}.svg\" alt=\"{1}\"></a>\n", name,
+                         htmlText(study.chart.variant.title));
+    out += fmt::format("<p><a href=\"{0}.csv\">numbers</a> · <a href=\"{0}.gp\">script</a></p>\n",
+                       name);
+  }
+  out +=
+      "<h2 id=\"table\">Time to an accuracy</h2>\n<p>CPU seconds for a simulated second of the "
+      "cheapest run that is right to so much; <a href=\"table.csv\">numbers</a>, "
+      "<a href=\"table.md\">Markdown</a>.</p>\n";
+  return out + tableOf(headlineRows(studies)) + "</body></html>\n";
+}
+
+}  // namespace tumble

@@ -1,0 +1,116 @@
+#include "app/report/plot.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "app/record/file.h"
+
+extern char** environ;
+
+namespace tumble {
+
+namespace {
+
+// Masataka Okabe and Kei Ito, Color Universal Design, 2008, without its yellow, and three of Paul
+// Tol's; with a marker each.
+constexpr std::array kColours = {"#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00",
+                                 "#000000", "#7F7F7F", "#882255", "#332288", "#999933"};
+constexpr std::array kMarkers = {7, 5, 9, 13, 11, 6, 4, 8, 12, 3, 10};
+
+// A text inside gnuplot's double quotes.
+std::string quotedText(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string curveTitle(const Study& study, std::size_t i) {
+  const std::string& label = study.series[i].label;
+  return study.orders[i] ? fmt::format("{}  (order {:.1f})", label, *study.orders[i]) : label;
+}
+
+constexpr const char* kStyle = R"(set datafile separator ","
+set logscale xy
+set format xy "10^{%L}"
+set xlabel "error"
+set ylabel "CPU seconds per simulated second"
+set grid xtics ytics linecolor rgb "#d8dbe0"
+set border linecolor rgb "#5c636e"
+set key outside right top Left reverse samplen 2 spacing 1.15
+set xrange [*:10]
+)";
+
+std::string curves(const Study& study) {
+  std::string text;
+  for (std::size_t i = 0; i < study.series.size(); ++i) {
+    text += fmt::format(
+        "{}\"{}.csv\" using (strcol(1) eq {} ? $4 : NaN):6 with linespoints linewidth {} "
+        "pointtype {} pointsize {} linecolor rgb \"{}\" title {}",
+        i == 0 ? "plot " : ", \\\n     ", study.name, quotedText(study.series[i].label),
+        i == 0 ? 3.5 : 1.5, kMarkers[i % kMarkers.size()], i == 0 ? 1.1 : 0.8,
+        kColours[i % kColours.size()], quotedText(curveTitle(study, i)));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string plotScript(const Study& study, const std::string& caption) {
+  std::string script = fmt::format("# gnuplot {}.gp: draws {}.csv\n", study.name, study.name);
+  script += kStyle;
+  script += fmt::format("set title {} noenhanced\n", quotedText(study.chart.variant.title));
+  script += fmt::format("set label 1 {} at graph 0, screen 0.055 font \",9\" noenhanced\n",
+                        quotedText(study.chart.subtitle));
+  script += fmt::format("set label 2 {} at graph 0, screen 0.02 font \",9\" noenhanced\n",
+                        quotedText(caption));
+  script += "set bmargin 6.5\n";
+  if (study.chart.floor && *study.chart.floor > 0.0)
+    script += fmt::format(
+        "set arrow 1 from {0:.3g}, graph 0 to {0:.3g}, graph 1 nohead dashtype 2 linecolor rgb "
+        "\"#5c636e\"\nset label 3 \"rounding\" at {0:.3g}, graph 0.97 rotate by 90 right offset "
+        "0.8, 0 "
+        "font \",9\"\n",
+        *study.chart.floor);
+  for (const char* terminal : {"svg size 960,600 dynamic font \"Lato,13\" background \"white\"",
+                               "pngcairo size 960,600 font \"Lato,11\""}) {
+    const std::string kind(terminal, 3);
+    script += fmt::format("set terminal {}\nset output \"{}.{}\"\n", terminal, study.name, kind);
+    script += curves(study);
+  }
+  return script;
+}
+
+void runGnuplot(const std::string& folder, const std::string& name) {
+  std::string program = "gnuplot", script = name + ".gp";
+  char* const arguments[] = {program.data(), script.data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  pid_t process = -1;
+  const int error =
+      ::posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0)
+    throw FileError(fmt::format(
+        "cannot run gnuplot, which draws the figures: {}; install the package gnuplot-nox. The "
+        "numbers are in '{}'",
+        std::strerror(error), folder));
+  int status = -1;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw FileError(
+        fmt::format("gnuplot could not draw '{}/{}'; see its words above", folder, script));
+}
+
+}  // namespace tumble

@@ -1,0 +1,159 @@
+#include "app/report/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "app/claim/claim.h"
+#include "app/record/output.h"
+#include "app/report/cost.h"
+#include "app/scene/random.h"
+
+namespace tumble {
+
+namespace {
+
+constexpr int kMembers = 16;  // of the ensemble behind the floor
+
+struct Best {
+  Scene held;   ///< of the point with the least error among the methods that step
+  Scene flown;  ///< the exact method's, if the chart has it, else the same
+};
+
+Best bestOf(const Scene& scene, const ChartDef& chart, const std::vector<ChartSeries>& series) {
+  std::optional<Scene> held, exact;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < series.size(); ++i)
+    for (std::size_t k = 0; k < series[i].points.size(); ++k) {
+      const double error = series[i].points[k].error;
+      if (held && exact && !(error < least)) continue;
+      Scene point = sceneOf(scene, pointVariant(chart, i, k));
+      if (point.world.method == "exact") {
+        exact = std::move(point);
+      } else if (!held || error < least) {
+        least = error;
+        held = std::move(point);
+      }
+    }
+  if (!held) held = exact;
+  return {*held, exact ? *exact : *held};
+}
+
+constexpr double kCoarse = 0.1;   // a larger error does not follow the step any more
+constexpr double kBend = 1.5;     // of a curve whose slope changes by more there is no order
+constexpr double kReach = 100.0;  // times the least error that a curve has to reach
+
+// The order in the step: slope of error over the chart's number, where the curve is straight.
+std::optional<double> stepOrder(const ChartDef& chart, ChartSeries series) {
+  double steepest = -std::numeric_limits<double>::infinity(), flattest = -steepest;
+  double least = kCoarse, largest = 0.0;
+  const ChartPoint* before = nullptr;
+  for (ChartPoint& point : series.points) {
+    // As a cost, the number of steps in a second.
+    point.cpuShare = 1.0 / std::strtod(point.value.c_str(), nullptr);
+    if (!(point.error < kCoarse)) point.error = std::numeric_limits<double>::infinity();
+    if (!(point.error < kCoarse && point.error > 100.0 * chart.floor.value_or(0.0))) continue;
+    least = std::min(least, point.error);
+    largest = std::max(largest, point.error);
+    if (before) {
+      const double slope =
+          std::log(point.error / before->error) / std::log(before->cpuShare / point.cpuShare);
+      steepest = std::max(steepest, slope);
+      flattest = std::min(flattest, slope);
+    }
+    before = &point;
+  }
+  if (steepest - flattest > kBend || largest < kReach * least) return {};
+  ChartDef bySteps = chart;
+  bySteps.cost = "cpu";
+  return observedOrder(bySteps, series);
+}
+
+// One unit in the last place of the vector's size up, down or none, number by number.
+void nudge(Vec3& v, Random& random) {
+  const double unit = v.norm() * std::numeric_limits<double>::epsilon();
+  for (int i = 0; i < 3; ++i) {
+    const double draw = std::floor(random.between(-1.0, 2.0));
+    v[i] += draw * unit;
+  }
+}
+
+void nudge(BodyDef& body, Random& random) {
+  if (std::holds_alternative<HalfSpace>(body.shape)) return;
+  nudge(body.position, random);
+  nudge(body.velocity, random);
+  nudge(body.angularVelocity, random);
+  if (std::holds_alternative<Particle>(body.shape)) return;
+  Vec3 turn = Vec3::Ones();
+  nudge(turn, random);
+  const Quat& q = body.orientation;
+  const Vec3 small = 0.5 * (turn - Vec3::Ones());
+  body.orientation = (Quat(1.0, small.x(), small.y(), small.z()) * q).normalized();
+}
+
+}  // namespace
+
+double roundingFloor(const Scene& scene, const Scene& flown, const std::string& check,
+                     int members) {
+  Random random(scene.seed, "a unit in the last place");
+  const double before = largestError(check, scene, record(flown, scene.image.rate));
+  std::vector<double> errors;
+  for (int k = 0; k < members; ++k) {
+    Scene nudged = flown;
+    for (BodyDef& body : nudged.world.bodies) nudge(body, random);
+    const double after = largestError(check, scene, record(nudged, scene.image.rate));
+    errors.push_back(std::abs(after - before));
+  }
+  std::nth_element(errors.begin(), errors.begin() + members / 2, errors.end());
+  return errors[static_cast<std::size_t>(members / 2)];
+}
+
+Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDone& done) {
+  Study study;
+  study.name = scene.name + (index == 0 ? "" : "-" + std::to_string(index + 1));
+  study.scene = scene.title;
+  study.chart = scene.charts[index];
+  study.series = runChart(scene, study.chart, done);
+
+  // The floor, by the best method here; the orders above it.
+  ChartDef& chart = study.chart;
+  if (!chart.floor) {
+    const Best best = bestOf(scene, chart, study.series);
+    chart.floor = roundingFloor(best.held, best.flown, chart.error, kMembers);
+  }
+  for (std::size_t i = 0; i < study.series.size(); ++i) {
+    study.orders.push_back(stepOrder(chart, study.series[i]));
+    // What a closed form is held to begins anew at each sample; the whole run is no better than
+    // its start is known.
+    if (sceneOf(scene, pointVariant(chart, i, 0)).world.method == "exact")
+      for (ChartPoint& point : study.series[i].points)
+        point.error = std::max(point.error, *chart.floor);
+  }
+  chart.cost = "cpu";
+
+  // The costs, each from runs of its own.
+  std::vector<Scene> scenes;
+  for (std::size_t i = 0; i < study.series.size(); ++i)
+    for (std::size_t k = 0; k < study.series[i].points.size(); ++k)
+      scenes.push_back(sceneOf(scene, pointVariant(chart, i, k)));
+  const std::vector<double> shares = cpuShares(scenes, budget);
+  std::size_t next = 0;
+  for (ChartSeries& series : study.series)
+    for (ChartPoint& point : series.points) point.cpuShare = shares[next++];
+  return study;
+}
+
+std::string studyCsv(const Study& study) {
+  std::string csv = "curve,parameter,value,error,evaluations,cpu_seconds_per_second\n";
+  for (const ChartSeries& series : study.series)
+    for (const ChartPoint& point : series.points)
+      csv += fmt::format("{},{},{},{:.17g},{},{:.4g}\n", csvQuoted(series.label),
+                         study.chart.along.parameter, csvQuoted(point.value), point.error,
+                         point.evaluations, point.cpuShare);
+  return csv;
+}
+
+}  // namespace tumble

@@ -1,0 +1,33 @@
+// One chart of a report: its errors, its costs, and the floor that rounding sets.
+#pragma once
+
+#include "app/panel/chart_run.h"
+
+namespace tumble {
+
+/// A chart with everything that is measured of it. Errors and costs come from separate runs.
+struct Study {
+  std::string name;   ///< of its files: the scene's, and its number from the second chart on
+  std::string scene;  ///< title
+  ChartDef chart;     ///< with `floor` set, cost "cpu"
+  std::vector<ChartSeries> series;
+  std::vector<std::optional<double>> orders;  ///< of each curve: error over the chart's number
+};
+
+/// Runs a chart of a scene.
+/// @param budget  [s] of CPU time for the cost of each point
+/// @throws SceneError
+Study runStudy(const Scene& scene, std::size_t chart, double budget, const RunDone& done);
+
+/// The error that double precision leaves whatever the method: starts that differ by a unit in the
+/// last place in every number of the state, held to the check of the unchanged scene. The median of
+/// what that changes of the largest error.
+/// @param scene    whose check holds
+/// @param flown    the same scene with the settings that fly the ensemble
+/// @param members  of the ensemble
+double roundingFloor(const Scene& scene, const Scene& flown, const std::string& check, int members);
+
+/// curve, parameter, value, error, evaluations, cpu_seconds_per_second: a row for each run.
+std::string studyCsv(const Study& study);
+
+}  // namespace tumble

@@ -1,0 +1,168 @@
+// Speed against error: what is measured, how it is put in files, and what the table says.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "app/claim/claim.h"
+#include "app/command/data.h"
+#include "app/record/file.h"
+#include "app/report/page.h"
+#include "app/report/plot.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+constexpr const char* kOrbit = R"(
+[world]
+gravity = [0, 0, 0]
+duration = 1.0
+[[body]]
+name = "dot"
+shape = "particle"
+mass = 1.0
+position = [1, 0, 0]
+velocity = [0, 1, 0]
+[[force]]
+kind = "field"
+axis = [0, 0, 1]
+rate = 1.0
+[image]
+rate = 10.0
+[[chart]]
+title = "A dot & its orbit"
+error = "orbit"
+along = "course.step"
+values = [0.1, 0.05, 0.025, 0.0125]
+curves = [
+  { label = "RK4, \"four\"" },
+  { label = "Euler", set = { "course.integrator" = "euler" }, values = [0.1, 0.02, 0.004, 0.0008] },
+]
+)";
+
+/// The orbit's scene in a file, for as long as a test runs.
+struct OrbitFile {
+  std::string path = (std::filesystem::temp_directory_path() /
+                      ("tumble-report-" + std::to_string(::getpid()) + ".toml"))
+                         .string();
+  OrbitFile() { writeFile(path, kOrbit); }
+  ~OrbitFile() { std::filesystem::remove(path); }
+};
+
+/// Curves of a known shape: error n⁻⁴ at a cost of n µs.
+Study knownStudy() {
+  Study study;
+  study.name = "known";
+  study.chart.variant.title = "Known";
+  study.chart.along.parameter = "course.step";
+  study.chart.floor = 1e-15;
+  study.series.resize(2);
+  study.series[0].label = "fourth";
+  study.series[1].label = "first";
+  for (const double n : {1.0, 10.0, 100.0, 1000.0}) {
+    study.series[0].points.push_back({"x", std::pow(n, -4.0), 0, 1e-6 * n});
+    study.series[1].points.push_back({"x", 1.0 / n, 0, 1e-6 * n});
+  }
+  study.orders = {4.0, {}};
+  return study;
+}
+
+}  // namespace
+
+// Oracle: closed forms of the two integrators' errors in the field: RK4 t h⁴/120 in phase, Euler
+// t h/2 in radius; orders within 0.1.
+TEST_CASE("a study measures errors, orders, costs and the floor of a chart") {
+  const OrbitFile file;
+  const Scene scene = readScene(file.path);
+  int done = 0;
+  const Study study = runStudy(scene, 0, 1e-3, [&] { ++done; });
+  CHECK(done == 8);
+  REQUIRE(study.series.size() == 2);
+  CHECK(study.series[0].points[0].error == Approx(1e-4 / 120.0).epsilon(0.1));
+  CHECK(study.series[1].points[2].error == Approx(0.004 / 2.0).epsilon(0.1));
+  REQUIRE(study.orders[0]);
+  REQUIRE(study.orders[1]);
+  CHECK(*study.orders[0] == Approx(4.0).margin(0.1));
+  CHECK(*study.orders[1] == Approx(1.0).margin(0.1));
+  for (const ChartSeries& series : study.series)
+    for (const ChartPoint& point : series.points) CHECK(point.cpuShare > 0.0);
+  // A few units in the last place. Measured 2e-16.
+  REQUIRE(study.chart.floor);
+  CHECK((*study.chart.floor > 1e-17 && *study.chart.floor < 1e-14));
+
+  // A row for each point below the header; quotes are doubled.
+  std::istringstream csv(studyCsv(study));
+  std::string line;
+  std::getline(csv, line);
+  CHECK(line == "curve,parameter,value,error,evaluations,cpu_seconds_per_second");
+  std::getline(csv, line);
+  CHECK(line.rfind("\"RK4, \"\"four\"\"\",course.step,\"0.1\",", 0) == 0);
+  int rows = 1;
+  while (std::getline(csv, line)) ++rows;
+  CHECK(rows == 8);
+}
+
+// Oracle: the definition. At a cost of n µs the error is n⁻⁴ and n⁻¹.
+TEST_CASE("the headline table names the cheapest run that is right to each goal") {
+  const std::vector<HeadlineRow> rows = headlineRows({knownStudy()});
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].cost[0].value_or(0.0) == Approx(1e-5));
+  CHECK(rows[0].cost[1].value_or(0.0) == Approx(1e-4));
+  CHECK(rows[0].cost[2].value_or(0.0) == Approx(1e-3));
+  CHECK(rows[0].best == Approx(1e-12));
+  CHECK(rows[1].cost[0].value_or(0.0) == Approx(1e-3));
+  CHECK(!rows[1].cost[1]);
+  CHECK(headlineCsv(rows).find("\"Known\",\"first\",0.001,,,0.001\n") != std::string::npos);
+  CHECK(headlineMarkdown(rows).find("| Known | first | 1.0e-03 | – | – | 1.0e-03 |\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("the script draws every curve from the numbers beside it, the floor dashed") {
+  const std::string script = plotScript(knownStudy(), "this machine");
+  CHECK(script.find("\"known.csv\" using (strcol(1) eq \"fourth\"") != std::string::npos);
+  CHECK(script.find("title \"fourth  (order 4.0)\"") != std::string::npos);
+  CHECK(script.find("title \"first\"") != std::string::npos);
+  CHECK(script.find("set output \"known.svg\"") != std::string::npos);
+  CHECK(script.find("set output \"known.png\"") != std::string::npos);
+  CHECK(script.find("from 1e-15, graph 0") != std::string::npos);
+  CHECK(script.find("this machine") != std::string::npos);
+  Study bare = knownStudy();
+  bare.chart.floor.reset();
+  CHECK(plotScript(bare, "").find("dashtype") == std::string::npos);
+}
+
+TEST_CASE("the page shows figures only where they were drawn, and escapes what it quotes") {
+  Study study = knownStudy();
+  study.chart.variant.title = "A < B";
+  CHECK(reportPage({study}, "this machine", true).find("src=\"known.svg\"") != std::string::npos);
+  const std::string page = reportPage({study}, "this machine", false);
+  CHECK(page.find("<img") == std::string::npos);
+  CHECK(page.find("A &lt; B") != std::string::npos);
+}
+
+TEST_CASE(
+    "the report's own scenes can be run, with at least eight points for a curve that has steps") {
+  int curves = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dataFolder("report"))) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = readScene(entry.path().string());
+    CAPTURE(scene.name);
+    REQUIRE(!scene.charts.empty());
+    for (const ChartDef& chart : scene.charts) {
+      CHECK(findCheck(chart.error) != nullptr);
+      for (std::size_t i = 0; i < chart.curves.size(); ++i, ++curves) {
+        const Scene first = sceneOf(scene, pointVariant(chart, i, 0));
+        CAPTURE(chart.curves[i].variant.title);
+        CHECK_NOTHROW(makeWorld(first));
+        const CurveDef& curve = chart.curves[i];
+        const std::size_t points =
+            curve.values.empty() ? chart.along.values.size() : curve.values.size();
+        CHECK(points >= (first.world.method == "exact" ? 1u : 8u));
+      }
+    }
+  }
+  CHECK(curves > 0);
+}

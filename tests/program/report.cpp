@@ -1,0 +1,48 @@
+// What `tumble report` leaves behind, with gnuplot and without.
+#include "tests/catch.h"
+#include "tests/program/program.h"
+
+namespace {
+
+const std::string kScene = R"([world]
+gravity = [0, 0, 0]
+duration = 0.5
+[[body]]
+shape = "particle"
+mass = 1.0
+position = [1, 0, 0]
+velocity = [0, 1, 0]
+[[force]]
+kind = "field"
+axis = [0, 0, 1]
+rate = 1.0
+)";
+const std::string kChart = R"([[chart]]
+title = "An orbit"
+error = "orbit"
+along = "course.step"
+values = [0.1, 0.05]
+curves = [ { label = "RK4" } ]
+)";
+
+}  // namespace
+
+TEST_CASE("without gnuplot the numbers are there, and one line says what to install") {
+  const Scratch scratch;
+  scratch.file("orbit.toml", kScene + kChart);
+  const Outcome outcome =
+      tumbleRun(scratch, "report orbit.toml -o out --budget 0", "export PATH=/nowhere");
+  CHECK(outcome.code == 5);
+  CHECK(outcome.says("install the package gnuplot-nox"));
+  for (const char* file :
+       {"out/orbit.csv", "out/orbit.gp", "out/table.csv", "out/table.md", "out/index.html"})
+    CHECK(std::filesystem::exists(scratch / file));
+}
+
+TEST_CASE("a report of a scene without a chart is refused") {
+  const Scratch scratch;
+  scratch.file("bare.toml", kScene);
+  const Outcome outcome = tumbleRun(scratch, "report bare.toml -o out");
+  CHECK(outcome.code == 3);
+  CHECK(outcome.says("bare.toml: error: there is no [[chart]] in it"));
+}
