@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -14,9 +15,15 @@ namespace tumble {
 
 namespace {
 
+constexpr double kSmall = 0.1;    // errors below this follow the first term
 constexpr double kClear = 100.0;  // times the floor: what rounding adds is less than a percent
 
 double costOf(const ChartDef& chart, const ChartPoint& point) {
+  if (chart.cost == "value") {
+    double value = 0.0;
+    std::from_chars(point.value.data(), point.value.data() + point.value.size(), value);
+    return value;
+  }
   return chart.cost == "cpu" ? point.cpuShare : static_cast<double>(point.evaluations);
 }
 
@@ -34,6 +41,21 @@ ChartPoint runPoint(const Scene& scene, const ChartDef& chart, const Variant& va
 // The values that a curve is run for.
 const std::vector<std::string>& valuesOf(const ChartDef& chart, const CurveDef& curve) {
   return curve.values.empty() ? chart.along.values : curve.values;
+}
+
+// The whole text as a number.
+std::optional<double> numberOf(const std::string& text) {
+  double value = 0.0;
+  const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return {};
+  return value;
+}
+
+// "samples" for "body.torus.samples".
+std::string costTitle(const ChartDef& chart) {
+  if (chart.cost == "cpu") return "CPU seconds per simulated second";
+  if (chart.cost == "evaluations") return "evaluations of dY/dt";
+  return chart.along.parameter.substr(chart.along.parameter.rfind('.') + 1);
 }
 
 }  // namespace
@@ -71,19 +93,16 @@ std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, con
 
 std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& series) {
   const double floor = chart.floor.value_or(0.0);
-  double least = std::numeric_limits<double>::infinity(), costOfLeast = 0.0;
-  for (const ChartPoint& point : series.points)
-    if (point.error < least) {
-      least = point.error;
-      costOfLeast = costOf(chart, point);
-    }
+  const auto least =
+      std::min_element(series.points.begin(), series.points.end(),
+                       [](const ChartPoint& a, const ChartPoint& b) { return a.error < b.error; });
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (const ChartPoint& point : series.points) {
-    const double cost = costOf(chart, point);
-    if (!std::isfinite(point.error) || point.error <= kClear * floor || !(cost > 0.0) ||
-        cost > costOfLeast)
+    const double abscissa = numberOf(point.value).value_or(costOf(chart, point));
+    if (!(point.error < kSmall) || point.error <= kClear * floor || !(abscissa > 0.0) ||
+        costOf(chart, point) > costOf(chart, *least))
       continue;
-    const double x = std::log10(cost), y = std::log10(point.error);
+    const double x = std::log10(abscissa), y = std::log10(point.error);
     n += 1.0;
     sx += x;
     sy += y;
@@ -92,7 +111,7 @@ std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& se
   }
   const double spread = n * sxx - sx * sx;
   if (n < 3.0 || !(spread > 0.0)) return {};
-  return -(n * sxy - sx * sy) / spread;
+  return std::abs(n * sxy - sx * sy) / spread;
 }
 
 std::string chartCsv(const ChartDef& chart, const std::vector<ChartSeries>& series) {
@@ -109,8 +128,7 @@ Chart chartOf(const ChartDef& chart, const std::vector<ChartSeries>& series) {
   plot.title = chart.variant.title;
   plot.subtitle = chart.subtitle;
   plot.x = {"error", true};
-  plot.y = {chart.cost == "cpu" ? "CPU seconds per simulated second" : "evaluations of dY/dt",
-            true};
+  plot.y = {costTitle(chart), true};
   if (chart.floor) plot.guides.push_back({true, *chart.floor, "rounding"});
   for (std::size_t i = 0; i < series.size(); ++i) {
     ChartCurve& curve = plot.curves.emplace_back();

@@ -28,9 +28,10 @@ double largestError(const std::string& check, const Scene& scene, const Recordin
 /// Runs every value of every curve. @throws SceneError
 std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, const RunDone& done);
 
-/// Order of the errors in the cost: minus the slope of log error over log cost, least squares over
-/// the points where rounding has no part: error > 100 floor, and cheaper than the least error.
-/// Nothing with fewer than three such points.
+/// Order of the errors: slope of log error over the log of the chart's key, where its values are
+/// numbers, else of the cost, without its sign; least squares over the points on the straight part:
+/// error < 0.1, where the first term leads, and > 100 floor, where rounding has no part; no dearer
+/// than the least error. Nothing with fewer than three such points.
 std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& series);
 
 /// Header and a row for each run: curve, parameter, value, error, evaluations – numbers that are

@@ -27,9 +27,6 @@ void readMass(Section& section, BodyDef& def) {
 void readInertiaMethod(Section& section, BodyDef& def) {
   section.read("inertia_by", def.inertiaBy, inertiaChoices());
   section.read("samples", def.samples, 1, kMostSamples);
-  const InertiaMethod* method = findInertiaMethod(def.inertiaBy);
-  if (section.find("samples") && method && !method->spread)
-    section.complain("samples", "only read when inertia_by is grid, random or quasi");
 }
 
 // The shape with its origin at the centre of mass.

@@ -184,7 +184,7 @@ void readCharts(Section& root, const std::vector<std::string>& parts, Scene& sce
     if (chart.error.empty())
       section.complain("error", "expected the name of a check, whose largest error is drawn");
     readParameter(section, "along", "course.step", chart.along);
-    section.read("cost", chart.cost, {"evaluations", "cpu"});
+    section.read("cost", chart.cost, {"evaluations", "cpu", "value"});
     section.read("floor", chart.floor, positive({}));
     readCurves(section, parts, chart);
     section.finish();

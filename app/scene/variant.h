@@ -55,7 +55,7 @@ struct ChartDef {
   std::string subtitle;
   std::string error;  ///< name of a check: the largest error of its rows is drawn
   Sweep along;
-  std::string cost = "evaluations";  ///< evaluations | cpu
+  std::string cost = "evaluations";  ///< evaluations | cpu | value, of the key itself
   std::optional<double> floor;       ///< the error that rounding leaves
   std::vector<CurveDef> curves;
 };

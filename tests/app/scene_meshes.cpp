@@ -102,7 +102,6 @@ TEST_CASE("what cannot be weighed is refused where it is written") {
   CHECK(says(refusalOf("shape = { compound = [ { box = [1, 1, 1] }, { sphere = 0.6 } ] }"),
              "parts 1 and 2 of \"b\" overlap"));
   CHECK(says(refusalOf("shape = { sphere = 1 }\ninertia_by = \"quasy\""), "did you mean 'quasi'?"));
-  CHECK(says(refusalOf("shape = { sphere = 1 }\nsamples = 100"), "only read when inertia_by is"));
   CHECK(says(refusalOf("shape = { mesh = \"dumbbell.obj\" }\ninertia_by = \"grid\"\nsamples = 1"),
              "lie on a line"));
 }
