@@ -1,6 +1,7 @@
 // Orbits in a circular field: an oscillation across the axis, a parabola along it.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/claim/free_body.h"
 #include "app/claim/rows.h"
@@ -103,7 +104,11 @@ std::vector<Curve> orbitPaths(const Scene& scene, const Recording& recording) {
   std::vector<Curve> curves;
   for (const Orbit& orbit : orbitsOf(scene, recording)) {
     Curve curve{orbit.body, {}};
-    for (double t = 0.0; t <= orbit.end; t += kSpacing) curve.points.push_back(orbit.at(t));
+    // What closes is drawn once.
+    const double period = 2.0 * std::numbers::pi / orbit.rate;
+    const bool closed = orbit.speed == 0.0 && orbit.acceleration == 0.0;
+    const double end = closed ? std::min(orbit.end, period) : orbit.end;
+    for (double t = 0.0; t <= end; t += kSpacing) curve.points.push_back(orbit.at(t));
     curves.push_back(std::move(curve));
   }
   return curves;

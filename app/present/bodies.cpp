@@ -1,6 +1,7 @@
 #include "app/present/bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/claim/free_body.h"
 
@@ -73,22 +74,30 @@ void addCorners(const Aabb& box, std::vector<Eigen::Vector3d>& points) {
                         corner & 4 ? box.hi.z() : box.lo.z());
 }
 
+// Points of a ball in fourteen directions.
+void addBall(const Vec3& centre, double radius, std::vector<Eigen::Vector3d>& points) {
+  const Vec3 corner = Vec3::Constant(radius / std::sqrt(3.0));
+  addCorners({centre - corner, centre + corner}, points);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-radius, radius})
+      points.emplace_back(centre + side * Vec3::Unit(axis));
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording) {
   std::vector<Eigen::Vector3d> points;
   const std::vector<BodyDef>& bodies = scene.world.bodies;
-  const bool around = scene.show.polhode || scene.show.momenta;
+  const double around = scene.show.momenta   ? kMomentaReach
+                        : scene.show.polhode ? kPoinsotReach
+                                             : 0.0;
   for (const Sample& sample : recording.samples)
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (std::holds_alternative<Particle>(bodies[i].shape)) points.push_back(sample.bodies[i].x);
       if (!moves(bodies[i]) || std::holds_alternative<Particle>(bodies[i].shape)) continue;
-      Aabb box = boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q});
-      if (around) {
-        const Vec3 reach = Vec3::Constant(kPoinsotReach * boundingRadius(bodies[i].shape));
-        box = {sample.bodies[i].x - reach, sample.bodies[i].x + reach};
-      }
-      addCorners(box, points);
+      addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
+      if (around > 0.0)
+        addBall(sample.bodies[i].x, around * boundingRadius(bodies[i].shape), points);
     }
 
   Aabb motion{Vec3::Zero(), Vec3::Zero()};

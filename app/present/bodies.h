@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// Radius of what is drawn about a body of its spin, in bounding radii of the body.
-inline constexpr double kPoinsotReach = 1.25;
+/// How far what is drawn of a body's spin reaches from its centre, in bounding radii of the body.
+inline constexpr double kPoinsotReach = 1.25, kMomentaReach = 1.6;
 
 /// The body at a pose in a colour; a half-space becomes a slab around `near`, `extent` [m] wide,
 /// a particle without a radius a dot of a small share of it.

@@ -44,8 +44,7 @@ void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture) {
     const BodyDef& body = scene.world.bodies[i];
     if (!moves(body)) continue;
     const Aabb box = boundingBox(body.shape, {Vec3::Zero(), Quat::Identity()});
-    const Mat3 R = sample.bodies[i].R.value_or(sample.bodies[i].q.toRotationMatrix());
-    addBox(box, sample.bodies[i].x, R, colour::kForce, picture);
+    addBox(box, sample.bodies[i].x, sample.bodies[i].q.toRotationMatrix(), colour::kForce, picture);
   }
 }
 

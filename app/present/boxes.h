@@ -9,7 +9,8 @@ namespace tumble {
 /// The twelve edges of the axis-aligned box around each moving body.
 void addBoundingBoxes(const Scene& scene, const Sample& sample, Picture& picture);
 
-/// The twelve edges of each moving body's box in its own axes, which turns with it.
+/// The twelve edges of each moving body's box in its own axes, which turns with it – as a rotation,
+/// even where the body is drawn as a matrix has sheared it.
 void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture);
 
 }  // namespace tumble

@@ -148,13 +148,15 @@ void addPolhodes(const Scene& scene, const Recording& recording, const Sample& s
   }
 }
 
-void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample, double length,
+void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample,
                 Picture& picture) {
   const std::vector<BodyDef>& bodies = scene.world.bodies;
   const auto angular = [&](const Sample& at, std::size_t i) {
     return angularMomentum(massOf(bodies[i]).inertia, at.bodies[i].q, at.bodies[i].omega);
   };
-  double P = 0.0, L = 0.0, omega = 0.0;
+  double P = 0.0, L = 0.0, omega = 0.0, length = 0.0;
+  for (const BodyDef& body : bodies)
+    if (moves(body)) length = std::max(length, kMomentaReach * boundingRadius(body.shape));
   for (const Sample& other : recording.samples)
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (!moves(bodies[i])) continue;

@@ -18,8 +18,8 @@ void addPolhodes(const Scene& scene, const Recording& recording, const Sample& s
                  Picture& picture);
 
 /// Arrows at each moving body: linear momentum, angular momentum (double head) and angular velocity
-/// (double head), each kind's largest of the run `length` [m] long.
-void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample, double length,
+/// (double head), each kind's largest of the run as long as kMomentaReach says of the largest body.
+void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample,
                 Picture& picture);
 
 }  // namespace tumble

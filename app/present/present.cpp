@@ -228,7 +228,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.body_box) addBodyBoxes(scene_, sample, picture);
   if (show.ellipsoid) addInertiaEllipsoids(scene_, sample, picture);
   if (show.polhode) addPolhodes(scene_, recording_, sample, picture);
-  if (show.momenta) addMomenta(scene_, recording_, sample, 1.5 * height, picture);
+  if (show.momenta) addMomenta(scene_, recording_, sample, picture);
   if (show.normals) addNormals(sample, length, picture);
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
   if (show.forces) addForces(scene_, sample, height, picture);

@@ -95,7 +95,7 @@ void turn(WorldDef& world, double degrees) {
       plane->n = q * plane->n;
     } else {
       body.position = q * body.position;
-      body.orientation = q * body.orientation;
+      if (!std::holds_alternative<Particle>(body.shape)) body.orientation = q * body.orientation;
     }
     body.velocity = q * body.velocity;
     body.angularVelocity = q * body.angularVelocity;
