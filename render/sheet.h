@@ -12,7 +12,7 @@ namespace tumble {
 struct Panel {
   Image image;
   std::string caption;  ///< in ink, behind the panel's letter
-  std::string finding;  ///< below it, paler: one line
+  std::string finding;  ///< below it, paler: as many lines as it takes
 };
 
 /// A page of panels in rows of `columns`, lettered a, b, c …, as large as they need.

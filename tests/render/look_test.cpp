@@ -264,14 +264,19 @@ TEST_CASE("a sheet holds its panels' pixels, in rows, and refuses unlike ones") 
   Fonts fonts(kFonts);
   const Image red{40, 30, std::vector<std::uint8_t>(3600, 200)},
       dark{40, 30, std::vector<std::uint8_t>(3600, 20)};
-  const Panel panels[] = {
-      {red, "ε = 0.1", ""}, {dark, "ε = 0.2", ""}, {red, "ε = 0.3", "rests at 2 s"}};
+  Panel panels[] = {{red, "ε = 0.1", ""}, {dark, "ε = 0.2", ""}, {red, "ε = 0.3", "rests"}};
   const Image sheet = drawSheet(panels, 2, "Title", "", fonts);
   CHECK(sheet.width == 2 * 32 + 2 * 40 + 16);
   CHECK(sheet.height == 100 + 2 * (30 + 68));
   CHECK(brightness(sheet, 32 + 20, 100 + 15) == 200.0);
   CHECK(brightness(sheet, 32 + 56 + 20, 100 + 15) == 20.0);
   CHECK(brightness(sheet, 32 + 20, 100 + 98 + 15) == 200.0);
+  // A long finding is set on lines of its own, and the page grows by them.
+  panels[0].finding = "a finding of many words that no panel of this width holds on a single line";
+  const Image longer = drawSheet(panels, 2, "Title", "", fonts);
+  CHECK(longer.width == sheet.width);
+  CHECK(longer.height > sheet.height);
+  CHECK((longer.height - sheet.height) % 20 == 0);
   CHECK_THROWS_AS(drawSheet({}, 2, "", "", fonts), std::invalid_argument);
   const Panel unlike[] = {{red, "", ""},
                           {Image{30, 40, std::vector<std::uint8_t>(3600, 0)}, "", ""}};
