@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/claim/free_body.h"
+#include "app/present/inertia.h"
 
 namespace tumble {
 
@@ -74,13 +75,29 @@ void addCorners(const Aabb& box, std::vector<Eigen::Vector3d>& points) {
                         corner & 4 ? box.hi.z() : box.lo.z());
 }
 
-// Points of a ball in fourteen directions.
-void addBall(const Vec3& centre, double radius, std::vector<Eigen::Vector3d>& points) {
-  const Vec3 corner = Vec3::Constant(radius / std::sqrt(3.0));
-  addCorners({centre - corner, centre + corner}, points);
+// Points of an ellipsoid in fourteen directions.
+void addEllipsoid(const Vec3& centre, const Quat& q, const Vec3& semiAxes,
+                  std::vector<Eigen::Vector3d>& points) {
+  const auto add = [&](const Vec3& direction) {
+    points.emplace_back(centre + q * semiAxes.cwiseProduct(direction));
+  };
   for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-radius, radius})
-      points.emplace_back(centre + side * Vec3::Unit(axis));
+    for (const double side : {-1.0, 1.0}) add(side * Vec3::Unit(axis));
+  for (int corner = 0; corner < 8; ++corner)
+    add(Vec3(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0) /
+        std::sqrt(3.0));
+}
+
+// What is drawn around a body beside itself.
+void addSurroundings(const ShowFlags& show, const BodyDef& body, const BodySample& sample,
+                     std::vector<Eigen::Vector3d>& points) {
+  const double around = show.momenta ? kMomentaReach : show.polhode ? kPoinsotReach : 0.0;
+  if (around > 0.0)
+    addEllipsoid(sample.x, Quat::Identity(), Vec3::Constant(around * boundingRadius(body.shape)),
+                 points);
+  if (!show.ellipsoid) return;
+  if (const std::optional<Instance> ellipsoid = inertiaEllipsoid(body, sample))
+    addEllipsoid(ellipsoid->position, ellipsoid->orientation, ellipsoid->scale, points);
 }
 
 }  // namespace
@@ -88,16 +105,12 @@ void addBall(const Vec3& centre, double radius, std::vector<Eigen::Vector3d>& po
 std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording) {
   std::vector<Eigen::Vector3d> points;
   const std::vector<BodyDef>& bodies = scene.world.bodies;
-  const double around = scene.show.momenta   ? kMomentaReach
-                        : scene.show.polhode ? kPoinsotReach
-                                             : 0.0;
   for (const Sample& sample : recording.samples)
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (std::holds_alternative<Particle>(bodies[i].shape)) points.push_back(sample.bodies[i].x);
       if (!moves(bodies[i]) || std::holds_alternative<Particle>(bodies[i].shape)) continue;
       addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
-      if (around > 0.0)
-        addBall(sample.bodies[i].x, around * boundingRadius(bodies[i].shape), points);
+      addSurroundings(scene.show, bodies[i], sample.bodies[i], points);
     }
 
   Aabb motion{Vec3::Zero(), Vec3::Zero()};

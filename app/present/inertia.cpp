@@ -98,17 +98,19 @@ void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, bool a
 
 }  // namespace
 
+std::optional<Instance> inertiaEllipsoid(const BodyDef& body, const BodySample& sample) {
+  const std::optional<PrincipalAxes> principal = principalOf(body);
+  if (!principal) return {};
+  const Vec3& I = principal->moments;
+  const Vec3 squares = 2.5 / massOf(body).mass * (Vec3::Constant(I.sum()) - 2.0 * I);
+  return glassEllipsoid(sample.x, sample.q * Quat(principal->axes),
+                        squares.cwiseMax(0.0).cwiseSqrt());
+}
+
 void addInertiaEllipsoids(const Scene& scene, const Sample& sample, Picture& picture) {
-  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-    const BodyDef& body = scene.world.bodies[i];
-    const std::optional<PrincipalAxes> principal = principalOf(body);
-    if (!principal) continue;
-    const Vec3& I = principal->moments;
-    const Vec3 squares = 2.5 / massOf(body).mass * (Vec3::Constant(I.sum()) - 2.0 * I);
-    picture.instances.push_back(glassEllipsoid(sample.bodies[i].x,
-                                               sample.bodies[i].q * Quat(principal->axes),
-                                               squares.cwiseMax(0.0).cwiseSqrt()));
-  }
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i)
+    if (const auto ellipsoid = inertiaEllipsoid(scene.world.bodies[i], sample.bodies[i]))
+      picture.instances.push_back(*ellipsoid);
 }
 
 void addPolhodes(const Scene& scene, const Recording& recording, const Sample& sample,

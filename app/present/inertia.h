@@ -6,6 +6,10 @@
 
 namespace tumble {
 
+/// See-through, the solid ellipsoid of a body's mass that turns like it, at a sample of the body;
+/// nothing for what cannot spin.
+std::optional<Instance> inertiaEllipsoid(const BodyDef& body, const BodySample& sample);
+
 /// In each moving body, see-through, the solid ellipsoid of its mass that turns like it:
 ///   aₓ² = 5/(2m) (I_y + I_z − I_x) and so on, principal axes.
 void addInertiaEllipsoids(const Scene& scene, const Sample& sample, Picture& picture);
