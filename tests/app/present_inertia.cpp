@@ -6,6 +6,7 @@
 #include "app/present/boxes.h"
 #include "app/present/palette.h"
 #include "app/present/present.h"
+#include "render/camera.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -161,5 +162,36 @@ TEST_CASE("a body with two sides keeps its colours in a strobe") {
     CHECK(instance.colour == Colour{0.0f, 0.0f, 1.0f});
     REQUIRE(instance.back);
     CHECK(*instance.back == Colour{1.0f, 0.5f, 0.0f});
+  }
+}
+
+TEST_CASE("the camera sees ellipsoids and the ends of arrows inside the page") {
+  const std::string flag =
+      GENERATE("show.ellipsoid=true", "show.polhode=true", "show.momenta=true");
+  CAPTURE(flag);
+  // A rod along X that spins about itself: what stands out beyond its ends is the widest.
+  const Variant rod{"",
+                    {{"body.book.shape={ box = [1.0, 0.05, 0.05] }", {}},
+                     {"body.book.orientation=[1, 0, 0, 0]", {}},
+                     {"body.book.angular_velocity_body=[6, 0, 0]", {}}},
+                    {"book"}};
+  const Scene scene = parseScene(kScene, "rod", {flag, "body.book.velocity=[0, 0, 0]"}, &rod);
+  const Recording recording = record(scene, 60.0);
+  const Presenter presenter(scene, recording);
+  for (const int k : {0, 60, 120}) {
+    const Picture picture = presenter.image(k);
+    const Projection projection(picture.camera, 1280.0, 720.0);
+    const auto inside = [&](const Eigen::Vector3d& point) {
+      const auto pixel = projection.project(point);
+      return pixel && pixel->x() > 0.0 && pixel->x() < 1280.0 && pixel->y() > 0.0 &&
+             pixel->y() < 720.0;
+    };
+    for (const Arrow& arrow : picture.arrows) CHECK(inside(arrow.tip));
+    for (const Instance& body : picture.instances)
+      if (body.form == Form::Ellipsoid)
+        for (int axis = 0; axis < 3; ++axis)
+          for (const double side : {-1.0, 1.0})
+            CHECK(inside(body.position +
+                         body.orientation * (side * body.scale[axis] * Vec3::Unit(axis))));
   }
 }
