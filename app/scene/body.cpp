@@ -108,7 +108,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   if (row != materials.end())
     surface = row->second;
   else if (section.find("material"))
-    section.complain("material", "unknown material " + quoted(def.material) +
+    section.complain("material", "unknown material " + inQuotes(def.material) +
                                      hint(def.material, namesOf(materials)));
   surface.read(section);
   def.density = surface.density;
@@ -142,10 +142,10 @@ void BodyList::add(BodyEntry entry, Spot spot, Section& section) {
   const std::string& name = entry.def.name;
   if (!isName(name))
     section.findings().complain(spot, section.path("name"),
-                                "expected 1 to 64 of A-Z a-z 0-9 _ and ., found " + quoted(name));
+                                "expected 1 to 64 of A-Z a-z 0-9 _ and ., found " + inQuotes(name));
   else if (!indices_.emplace(name, static_cast<int>(next())).second)
     section.findings().complain(spot, section.path("name"),
-                                "there is a body " + quoted(name) + " already");
+                                "there is a body " + inQuotes(name) + " already");
   scene_.colours.push_back(entry.colour);
   scene_.backs.push_back(entry.back);
   scene_.labels.push_back(std::move(entry.label));
@@ -181,7 +181,7 @@ std::optional<int> BodyList::named(Section& section, std::string_view key) const
   if (it != indices_.end()) return it->second;
   std::vector<std::string> names;
   for (const BodyDef& body : scene_.world.bodies) names.push_back(body.name);
-  section.complain(key, "unknown body " + quoted(name) + hint(name, names));
+  section.complain(key, "unknown body " + inQuotes(name) + hint(name, names));
   return {};
 }
 

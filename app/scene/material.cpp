@@ -40,7 +40,7 @@ void readPairs(Section& root, const Materials& materials, std::vector<PairDef>& 
 
   for (const Entry& entry : table->entries) {
     // Split the two names and look them up.
-    const std::string key = "pairs." + quoted(entry.key);
+    const std::string key = "pairs." + inQuotes(entry.key);
     const std::size_t dash = entry.key.find('-');
     PairDef pair;
     pair.materialA = entry.key.substr(0, dash);
@@ -48,14 +48,14 @@ void readPairs(Section& root, const Materials& materials, std::vector<PairDef>& 
     for (const std::string& name : {pair.materialA, pair.materialB})
       if (dash != std::string::npos && !materials.contains(name))
         root.findings().complain(
-            entry.spot, key, "unknown material " + quoted(name) + hint(name, namesOf(materials)));
+            entry.spot, key, "unknown material " + inQuotes(name) + hint(name, namesOf(materials)));
     if (dash == std::string::npos)
       root.findings().complain(entry.spot, key, "expected two materials, \"A-B\"");
 
     // "B-A" is the row "A-B".
     const std::string turned = pair.materialB + "-" + pair.materialA;
     if (turned < entry.key && table->find(turned))
-      root.findings().complain(entry.spot, key, "the row " + quoted(turned) + " says it already");
+      root.findings().complain(entry.spot, key, "the row " + inQuotes(turned) + " says it already");
 
     Section section(entry.node, key, root.findings());
     section.read("restitution", pair.restitution, kShare);

@@ -111,7 +111,7 @@ std::string describe(const Node& node) {
   if (const Array* array = node.as<Array>())
     return array->size() == 1 ? "a list of 1 value"
                               : "a list of " + std::to_string(array->size()) + " values";
-  if (const std::string* text = node.as<std::string>()) return "the string " + quoted(*text);
+  if (const std::string* text = node.as<std::string>()) return "the string " + inQuotes(*text);
   return toToml(node);
 }
 
@@ -119,7 +119,7 @@ std::string toToml(const Node& node) {
   return std::visit(Writer{}, node.value);
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string out;
   for (const char c : text.substr(0, kLongestQuote)) {
     const unsigned char code = static_cast<unsigned char>(c);
@@ -139,7 +139,7 @@ bool isName(std::string_view text) {
 }
 
 std::string plain(std::string_view key) {
-  return isName(key) ? std::string(key) : quoted(key);
+  return isName(key) ? std::string(key) : inQuotes(key);
 }
 
 }  // namespace tumble

@@ -62,7 +62,7 @@ std::string describe(const Node& node);
 std::string toToml(const Node& node);
 
 /// A piece of foreign text for a message: in quotes, printable and not too long.
-std::string quoted(std::string_view text);
+std::string inQuotes(std::string_view text);
 
 /// Names of bodies, materials and arrays: 1 to 64 of A–Z a–z 0–9 _ and the dot.
 bool isName(std::string_view text);

@@ -104,7 +104,7 @@ void apply(const Override& override, Spot spot, Node& root, Findings& findings) 
     if (Array* array = node->as<Array>()) {
       const std::string_view first = firstPart(path);
       node = findElement(*array, path);
-      if (!node) return refuse("there is no " + quoted(first) + hint(first, namesIn(*array)));
+      if (!node) return refuse("there is no " + inQuotes(first) + hint(first, namesIn(*array)));
       continue;
     }
     if (node->as<Moment>()) node->value = Table{};
@@ -113,7 +113,7 @@ void apply(const Override& override, Spot spot, Node& root, Findings& findings) 
     Entry* entry = findEntry(*table, path);
     const std::string_view first = firstPart(path);
     if (!entry && node == materials)
-      return refuse("there is no material " + quoted(first) + hint(first, keysOf(*table)));
+      return refuse("there is no material " + inQuotes(first) + hint(first, keysOf(*table)));
     if (!entry) {
       entry = &table->at(first, spot);
       path = behind(path, first.size());

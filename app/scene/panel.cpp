@@ -63,7 +63,7 @@ void readVariant(Section& section, std::string_view title, const std::vector<std
   for (const std::string& name : variant.bodies)
     if (std::find(parts.begin(), parts.end(), name) == parts.end())
       section.complain("bodies",
-                       "there is no [[body]] or [[array]] " + quoted(name) + hint(name, parts));
+                       "there is no [[body]] or [[array]] " + inQuotes(name) + hint(name, parts));
   readSettings(section, variant);
 }
 

@@ -71,7 +71,7 @@ class Trial {
     if (const auto& sweep = scene.sweep) tryVariant({"", {sweep->setting(0)}, {}}, "[sweep]");
     for (const PanelDef& panel : scene.panels) {
       const auto duration =
-          tryVariant(panel.variant, "[[panel]] " + tumble::quoted(panel.variant.title));
+          tryVariant(panel.variant, "[[panel]] " + tumble::inQuotes(panel.variant.title));
       // A run cut short by --set takes its last instant instead.
       if (duration && panel.at > *duration && sources_.size() == 1)
         complain(panel.spot, fmt::format("at: the panel's scene lasts from 0 to {:g} s, and not "
@@ -82,7 +82,7 @@ class Trial {
       for (const CurveDef& curve : chart.curves) {
         Variant variant = joined(chart.variant, curve.variant);
         variant.set.push_back(chart.along.setting(0));
-        tryVariant(variant, "[[chart]] " + tumble::quoted(curve.variant.title));
+        tryVariant(variant, "[[chart]] " + tumble::inQuotes(curve.variant.title));
       }
     if (!diagnostics_.empty()) throw SceneError(std::move(diagnostics_));
   }

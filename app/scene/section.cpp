@@ -128,7 +128,7 @@ void Section::read(std::string_view key, std::string& out,
   if (std::find(choices.begin(), choices.end(), word) != choices.end())
     out = word;
   else
-    complain(key, "unknown value " + quoted(word) + hint(word, choices));
+    complain(key, "unknown value " + inQuotes(word) + hint(word, choices));
 }
 
 void Section::read(std::string_view key, std::vector<std::string>& out) {

@@ -29,9 +29,9 @@ TEST_CASE("the first of two equally near names is taken") {
 }
 
 TEST_CASE("foreign text in a message is printable, whole in its letters and short") {
-  CHECK(quoted("plain") == "'plain'");
-  CHECK(quoted("a\x1b[31mb\n") == "'a?[31mb?'");
-  CHECK(quoted(std::string(100, 'x')) == "'" + std::string(60, 'x') + "…'");
-  CHECK(quoted(std::string(59, 'x') + "é" + std::string(9, 'y')) ==
+  CHECK(inQuotes("plain") == "'plain'");
+  CHECK(inQuotes("a\x1b[31mb\n") == "'a?[31mb?'");
+  CHECK(inQuotes(std::string(100, 'x')) == "'" + std::string(60, 'x') + "…'");
+  CHECK(inQuotes(std::string(59, 'x') + "é" + std::string(9, 'y')) ==
         "'" + std::string(59, 'x') + "…'");
 }
