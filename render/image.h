@@ -28,12 +28,14 @@ void writePng(const std::string& path, const Image& image,
 /// @throws std::runtime_error with path and reason.
 Image readPng(const std::string& path);
 
-/// How far two images are apart.
+/// How far two images are apart. What is drawn is every pixel that has another colour than the
+/// paper, in either image; the paper of a row has the colour of the expected image's first pixel
+/// there. An empty page thus hides no mistake that is all over a small body.
 struct ImageDifference {
   bool sameSize = true;
   bool exact = true;
   double share = 0.0;  ///< share of pixels that differ by more than 2/255 in some channel
-  double mean = 0.0;   ///< mean absolute difference over all channels, in levels of 255
+  double mean = 0.0;   ///< mean absolute difference over the channels of what is drawn, levels
   int largest = 0;     ///< largest difference, levels
   /// Exact, or at most 0.02 % of the pixels off by more than 2 levels and a mean of at most 0.004.
   bool passes() const { return sameSize && (exact || (share <= 2e-4 && mean <= 0.004)); }

@@ -25,8 +25,8 @@ void addFont(const std::string& file, const ImWchar* ranges, bool merge) {
   ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), kSize, &config, ranges);
 }
 
-ImVec4 colour(unsigned rgb, float alpha = 1.0f) {
-  return {(rgb >> 16 & 255) / 255.0f, (rgb >> 8 & 255) / 255.0f, (rgb & 255) / 255.0f, alpha};
+ImVec4 colour(unsigned rgb) {
+  return {(rgb >> 16 & 255) / 255.0f, (rgb >> 8 & 255) / 255.0f, (rgb & 255) / 255.0f, 1.0f};
 }
 
 void style() {
@@ -42,8 +42,8 @@ void style() {
   style.Colors[ImGuiCol_FrameBg] = colour(0xe6e2d9);
   style.Colors[ImGuiCol_Button] = colour(0xe6e2d9);
   style.Colors[ImGuiCol_ButtonHovered] = colour(0xd5dee8);
-  style.Colors[ImGuiCol_Header] = colour(0x3a6fa8, 0.25f);
-  style.Colors[ImGuiCol_HeaderHovered] = colour(0x3a6fa8, 0.15f);
+  style.Colors[ImGuiCol_Header] = colour(0xc7d3dd);
+  style.Colors[ImGuiCol_HeaderHovered] = colour(0xdae0e4);
   style.Colors[ImGuiCol_CheckMark] = colour(0x3a6fa8);
   style.Colors[ImGuiCol_SliderGrab] = colour(0x3a6fa8);
   style.Colors[ImGuiCol_SliderGrabActive] = colour(0xd5401a);

@@ -36,8 +36,7 @@ void turnCamera(Picture& picture, double angle) {
 
 struct Mutation {
   const char* name;
-  bool local;  ///< spoils one body: each scene has to show it; else one scene that shows it is
-               ///< enough
+  bool everywhere;  ///< every scene has to show it; else one that does is enough
   std::function<void(Picture&, RenderOptions&)> apply;
 };
 
@@ -48,7 +47,7 @@ const std::vector<Mutation> kMutations = {
      [](Picture& picture, RenderOptions&) { someBody(picture).position.x() += 0.05; }},
     {"camera turned by 0.1 mrad", true,
      [](Picture& picture, RenderOptions&) { turnCamera(picture, 1e-4); }},
-    {"key light 1 % brighter", false,
+    {"key light 1 % brighter", true,
      [](Picture&, RenderOptions& options) { options.lightScale = 1.01; }},
     {"shadow map halved", false,
      [](Picture&, RenderOptions& options) { options.shadowMapSize /= 2; }},
@@ -75,6 +74,9 @@ TEST_CASE("every pair of goldens fails against each other") {
     }
 }
 
+// Measured: the light's means are 0.0045 (restitution-sweep) to 0.24; 0.004 passes. Half the shadow
+// map moves a few pixels by 3 to 6 levels where a scene has few bodies, and none in stacked-boxes,
+// whose boxes are seen through; it is caught on the pages of the viewer and of weigh-it.
 TEST_CASE("a small mistake is caught by the goldens, and none is seen where there is none") {
   const auto context = makeContext();
   Renderer renderer(*context, dataFolder("shaders"), dataFolder("fonts"));
@@ -92,7 +94,7 @@ TEST_CASE("a small mistake is caught by the goldens, and none is seen where ther
       const ImageDifference difference = compare(image, renderer.draw(mutant, mutantOptions));
       CAPTURE(scene.name, kMutations[i].name, difference.share, difference.mean);
       caught[i] += !difference.passes();
-      if (kMutations[i].local) CHECK_FALSE(difference.passes());
+      if (kMutations[i].everywhere) CHECK_FALSE(difference.passes());
     }
   }
   for (std::size_t i = 0; i < kMutations.size(); ++i) {

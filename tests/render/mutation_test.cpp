@@ -68,26 +68,40 @@ TEST_CASE("a shadow map of half the size is caught") {
   checkCaught(plates::pile(), options);
 }
 
-// Oracle: arithmetic on made-up images of 100 x 100 pixels.
+// Oracle: arithmetic on made-up images of 100 x 100 pixels, a grey field with a rim of paper.
 TEST_CASE("a comparison passes up to its limits and fails beyond") {
-  const Image grey{100, 100, std::vector<std::uint8_t>(30000, 100)};
+  Image grey{100, 100, std::vector<std::uint8_t>(30000, 100)};
+  for (int y = 0; y < 100; ++y) grey.rgb[300 * y] = 250;  // 9900 pixels are drawn
   Image other = grey;
   CHECK(compare(grey, other).exact);
-  other.rgb[0] = 103, other.rgb[3] = 97;  // two pixels of 10 000: 0.02 %
+  other.rgb[3] = 103, other.rgb[6] = 97;  // two pixels of 10 000: 0.02 %
   ImageDifference difference = compare(grey, other);
   CHECK(difference.share == 2e-4);
-  CHECK(difference.mean == Approx(6.0 / 30000.0));
+  CHECK(difference.mean == Approx(6.0 / 29700.0));
   CHECK(difference.largest == 3);
   CHECK(difference.passes());
-  other.rgb[6] = 103;  // a third
+  other.rgb[9] = 103;  // a third
   CHECK_FALSE(compare(grey, other).passes());
   other = grey;
-  for (int i = 0; i < 120; ++i) other.rgb[10 * i] = 101;  // mean 0.004
+  for (int i = 1; i <= 118; ++i) other.rgb[10 * i + 5] = 101;  // mean 118/29700 = 0.00397
   CHECK(compare(grey, other).passes());
   other.rgb[5] = 102;
   CHECK(compare(grey, other).share == 0.0);
   CHECK_FALSE(compare(grey, other).passes());
   CHECK_FALSE(compare(grey, Image{100, 99, std::vector<std::uint8_t>(29700, 100)}).passes());
+}
+
+// A change of one level all over a body that covers a thousandth of the page.
+TEST_CASE("the mean is over what is drawn, however empty the page") {
+  Image page{100, 100, std::vector<std::uint8_t>(30000, 240)};
+  for (int y = 0; y < 100; ++y)  // a page that grows darker downward is paper all the same
+    for (int i = 0; i < 300; ++i) page.rgb[300 * y + i] = static_cast<std::uint8_t>(240 - y);
+  for (int i = 0; i < 30; ++i) page.rgb[15150 + i] = 50;
+  Image other = page;
+  for (int i = 0; i < 30; ++i) other.rgb[15150 + i] = 51;
+  CHECK(compare(page, other).mean == 1.0);
+  CHECK(compare(page, other).share == 0.0);
+  CHECK_FALSE(compare(page, other).passes());
 }
 
 TEST_CASE("the difference for eyes is black where images agree and 16 times as bright where not") {
