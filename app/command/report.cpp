@@ -35,8 +35,7 @@ std::vector<std::string> reportScenes() {
 
 std::size_t pointsOf(const ChartDef& chart) {
   std::size_t points = 0;
-  for (const CurveDef& curve : chart.curves)
-    points += (curve.values.empty() ? chart.along.values : curve.values).size();
+  for (const CurveDef& curve : chart.curves) points += curve.along.values.size();
   return points;
 }
 

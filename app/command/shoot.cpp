@@ -98,7 +98,7 @@ std::vector<std::string> Shoot::panels() {
   };
   for (std::size_t i = 0; i < scene_.charts.size(); ++i) {
     const ChartDef& chart = scene_.charts[i];
-    writeFile(folder_ + "/" + chartName(i) + ".csv", chartCsv(chart, runs.charts[i]));
+    writeFile(folder_ + "/" + chartName(i) + ".csv", chartCsv(runs.charts[i]));
     writePng(paths[i + 1],
              drawChart(chartOf(chart, runs.charts[i]), scene_.image.width, scene_.image.height,
                        scene_.image.height / 720.0, studio_.fonts()),

@@ -38,11 +38,6 @@ ChartPoint runPoint(const Scene& scene, const ChartDef& chart, const Variant& va
   return point;
 }
 
-// The values that a curve is run for.
-const std::vector<std::string>& valuesOf(const ChartDef& chart, const CurveDef& curve) {
-  return curve.values.empty() ? chart.along.values : curve.values;
-}
-
 // The whole text as a number.
 std::optional<double> numberOf(const std::string& text) {
   double value = 0.0;
@@ -69,22 +64,21 @@ double largestError(const std::string& check, const Scene& scene, const Recordin
 
 Variant pointVariant(const ChartDef& chart, std::size_t curve, std::size_t point) {
   const CurveDef& def = chart.curves[curve];
-  Sweep along = chart.along;
-  along.values = valuesOf(chart, def);
   Variant variant = joined(chart.variant, def.variant);
-  variant.set.push_back(along.setting(point));
+  variant.set.push_back(def.along.setting(point));
   return variant;
 }
 
 std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, const RunDone& done) {
   std::vector<ChartSeries> all;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-    const std::vector<std::string>& values = valuesOf(chart, chart.curves[i]);
+    const Sweep& along = chart.curves[i].along;
     ChartSeries& series = all.emplace_back();
     series.label = chart.curves[i].variant.title;
-    for (std::size_t k = 0; k < values.size(); ++k) {
+    series.parameter = along.parameter;
+    for (std::size_t k = 0; k < along.values.size(); ++k) {
       series.points.push_back(runPoint(scene, chart, pointVariant(chart, i, k)));
-      series.points.back().value = values[k];
+      series.points.back().value = along.values[k];
       done();
     }
   }
@@ -96,6 +90,7 @@ std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& se
   const auto least =
       std::min_element(series.points.begin(), series.points.end(),
                        [](const ChartPoint& a, const ChartPoint& b) { return a.error < b.error; });
+  if (series.parameter != chart.along.parameter) return {};
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (const ChartPoint& point : series.points) {
     const double abscissa = numberOf(point.value).value_or(costOf(chart, point));
@@ -114,11 +109,11 @@ std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& se
   return std::abs(n * sxy - sx * sy) / spread;
 }
 
-std::string chartCsv(const ChartDef& chart, const std::vector<ChartSeries>& series) {
+std::string chartCsv(const std::vector<ChartSeries>& series) {
   std::string csv = "curve,parameter,value,error,evaluations\n";
   for (const ChartSeries& one : series)
     for (const ChartPoint& point : one.points)
-      csv += fmt::format("{},{},{},{:.17g},{}\n", csvQuoted(one.label), chart.along.parameter,
+      csv += fmt::format("{},{},{},{:.17g},{}\n", csvQuoted(one.label), one.parameter,
                          csvQuoted(point.value), point.error, point.evaluations);
   return csv;
 }

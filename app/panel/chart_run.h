@@ -16,6 +16,7 @@ struct ChartPoint {
 
 struct ChartSeries {
   std::string label;
+  std::string parameter;  ///< key that the points differ in
   std::vector<ChartPoint> points;
 };
 
@@ -31,12 +32,12 @@ std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, con
 /// Order of the errors: slope of log error over the log of the chart's key, where its values are
 /// numbers, else of the cost, without its sign; least squares over the points on the straight part:
 /// error < 0.1, where the first term leads, and > 100 floor, where rounding has no part; no dearer
-/// than the least error. Nothing with fewer than three such points.
+/// than the least error. Nothing with fewer than three such points, nor along a key of its own.
 std::optional<double> observedOrder(const ChartDef& chart, const ChartSeries& series);
 
 /// Header and a row for each run: curve, parameter, value, error, evaluations – numbers that are
 /// the same on every machine.
-std::string chartCsv(const ChartDef& chart, const std::vector<ChartSeries>& series);
+std::string chartCsv(const std::vector<ChartSeries>& series);
 
 /// The plot: error to the right, cost upwards, both logarithmic, with the order behind each label.
 Chart chartOf(const ChartDef& chart, const std::vector<ChartSeries>& series);

@@ -14,8 +14,7 @@ constexpr double kPanelWidth = 800.0;
 std::size_t runsOf(const Scene& scene) {
   std::size_t runs = scene.panels.size();
   for (const ChartDef& chart : scene.charts)
-    for (const CurveDef& curve : chart.curves)
-      runs += curve.values.empty() ? chart.along.values.size() : curve.values.size();
+    for (const CurveDef& curve : chart.curves) runs += curve.along.values.size();
   return runs;
 }
 

@@ -48,6 +48,7 @@ constexpr double kReach = 100.0;  // times the least error that a curve has to r
 
 // The order in the step: slope of error over the chart's number, where the curve is straight.
 std::optional<double> stepOrder(const ChartDef& chart, ChartSeries series) {
+  if (series.parameter != chart.along.parameter) return {};
   double steepest = -std::numeric_limits<double>::infinity(), flattest = -steepest;
   double least = kCoarse, largest = 0.0;
   const ChartPoint* before = nullptr;
@@ -150,9 +151,8 @@ std::string studyCsv(const Study& study) {
   std::string csv = "curve,parameter,value,error,evaluations,cpu_seconds_per_second\n";
   for (const ChartSeries& series : study.series)
     for (const ChartPoint& point : series.points)
-      csv += fmt::format("{},{},{},{:.17g},{},{:.4g}\n", csvQuoted(series.label),
-                         study.chart.along.parameter, csvQuoted(point.value), point.error,
-                         point.evaluations, point.cpuShare);
+      csv += fmt::format("{},{},{},{:.17g},{},{:.4g}\n", csvQuoted(series.label), series.parameter,
+                         csvQuoted(point.value), point.error, point.evaluations, point.cpuShare);
   return csv;
 }
 

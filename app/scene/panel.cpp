@@ -12,10 +12,9 @@ constexpr std::size_t kMostValues = 10'000;  // of a sweep
 constexpr std::size_t kMostPanels = 100;     // of a page, and curves of a chart
 
 // The texts of a list of values.
-std::vector<std::string> readValues(Section& section, bool needed) {
+std::vector<std::string> readValues(Section& section) {
   std::vector<std::string> texts;
   const Node* values = section.find("values");
-  if (!values && !needed) return texts;
   const Array* list = values ? values->as<Array>() : nullptr;
   if (!list || list->empty() || list->size() > kMostValues) {
     section.complain("values", "expected a list of 1 to 10000 values" +
@@ -33,7 +32,7 @@ void readParameter(Section& section, std::string_view key, const char* example, 
   sweep.spot = node ? node->spot : section.spot();
   if (!isKeyPath(sweep.parameter))
     section.complain(key, std::string("expected a key, for example \"") + example + "\"");
-  sweep.values = readValues(section, true);
+  sweep.values = readValues(section);
 }
 
 // set = { "key.path" = value, … }
@@ -76,7 +75,11 @@ void readCurves(Section& chart, const std::vector<std::string>& parts, ChartDef&
     Section section(node, chart.path("curves." + std::to_string(def.curves.size() - 1)),
                     chart.findings());
     readVariant(section, "label", parts, curve.variant);
-    curve.values = readValues(section, false);
+    curve.along = def.along;
+    if (section.find("along"))
+      readParameter(section, "along", "course.step", curve.along);
+    else if (section.find("values"))
+      curve.along.values = readValues(section);
     section.finish();
   }
 }

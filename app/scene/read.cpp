@@ -81,7 +81,7 @@ class Trial {
     for (const ChartDef& chart : scene.charts)
       for (const CurveDef& curve : chart.curves) {
         Variant variant = joined(chart.variant, curve.variant);
-        variant.set.push_back(chart.along.setting(0));
+        variant.set.push_back(curve.along.setting(0));
         tryVariant(variant, "[[chart]] " + tumble::inQuotes(curve.variant.title));
       }
     if (!diagnostics_.empty()) throw SceneError(std::move(diagnostics_));

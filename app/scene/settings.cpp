@@ -48,6 +48,7 @@ void readCourse(Section& root, CourseSettings& course) {
   Section section(*node, "course", root.findings(), "course");
   section.read("integrator", course.integrator, integratorChoices());
   section.read("order", course.order, 1, kHighestOrder);
+  section.read("tolerance", course.tolerance, {kLeastTolerance, 1.0, false, {}});
   section.read("attitude", course.attitude, attitudeChoices());
   section.read("step", course.step, kStep);
   section.read("plan", course.plan, planChoices());

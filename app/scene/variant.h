@@ -43,10 +43,10 @@ struct PanelDef {
   Spot spot;
 };
 
-/// One curve of a chart: a variant for each value of the chart's key.
+/// One curve of a chart: a variant for each value of a key.
 struct CurveDef {
   Variant variant;
-  std::vector<std::string> values;  ///< instead of the chart's; none: the chart's
+  Sweep along;  ///< the chart's key and values, or its own
 };
 
 /// A [[chart]]: the error of a check against the cost of the run, for each value of a key.

@@ -55,7 +55,8 @@ struct PairDef {
 
 struct CourseSettings {
   std::string integrator = "rk4";
-  int order = 12;  ///< of an integrator of any order
+  int order = 12;            ///< of an integrator of any order
+  double tolerance = 1e-10;  ///< of an adaptive integrator, see `Choices`
   std::string attitude = "quaternion";
   double step = 1.0 / 240.0;  ///< [s]
   std::string plan = "backstep";

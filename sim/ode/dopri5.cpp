@@ -34,9 +34,6 @@ constexpr double kDenseWeights[kStages] = {
     701980252875.0 / 199316789632, -1453857185.0 / 822651844,
     69997945.0 / 29380423};
 
-/// Error allowed per substep in each number of Y: absolute + relative · |Y|, ten digits of metres,
-/// seconds and kilograms.
-constexpr double kAbsolute = 1e-10, kRelative = 1e-10;
 /// Attempts under error control in one step; then the rest is crossed in as many equal substeps.
 constexpr int kMaxAttempts = 100000;
 /// Substeps of one step that dense output remembers; it has no answer beyond the last of them.
@@ -51,7 +48,8 @@ struct Piece {
 
 class Dopri5 : public Stepper {
  public:
-  explicit Dopri5(int size) : size_(size), now_(size), next_(size), stage_(size) {
+  Dopri5(int size, double tolerance)
+      : size_(size), tolerance_(tolerance), now_(size), next_(size), stage_(size) {
     for (Numbers& k : k_) k.resize(size);
   }
 
@@ -64,11 +62,13 @@ class Dopri5 : public Stepper {
   double attempt(const System& system, double t, double h);
   void accept(double t, double h);
   void remember(double t, double h);
-  double tolerance(int i) const {
-    return kAbsolute + kRelative * std::max(std::abs(now_[i]), std::abs(next_[i]));
+  /// Error allowed per substep in number i of Y.
+  double allowed(int i) const {
+    return tolerance_ + tolerance_ * std::max(std::abs(now_[i]), std::abs(next_[i]));
   }
 
   int size_;
+  double tolerance_;
   Numbers now_, next_, stage_, k_[kStages];
   std::vector<Piece> pieces_;
   int pieceCount_ = 0;
@@ -115,8 +115,8 @@ double Dopri5::firstSubstep(const System& system, double t, double h) {
   const Numbers& f = k_[0];
   double sizeY = 0.0, sizeF = 0.0, sizeF2 = 0.0;
   for (int i = 0; i < size_; ++i) {
-    sizeY = std::max(sizeY, std::abs(now_[i]) / tolerance(i));
-    sizeF = std::max(sizeF, std::abs(f[i]) / tolerance(i));
+    sizeY = std::max(sizeY, std::abs(now_[i]) / allowed(i));
+    sizeF = std::max(sizeF, std::abs(f[i]) / allowed(i));
   }
   const bool tiny = !(sizeY > 1e-5 && sizeF > 1e-5);
   const double probe = std::min(tiny ? 1e-6 : 0.01 * sizeY / sizeF, std::abs(h));
@@ -124,7 +124,7 @@ double Dopri5::firstSubstep(const System& system, double t, double h) {
   follow(now_, signedProbe, f, stage_);
   system.derivative(t + signedProbe, stage_, k_[1]);
   for (int i = 0; i < size_; ++i) {
-    sizeF2 = std::max(sizeF2, std::abs(k_[1][i] - f[i]) / (tolerance(i) * probe));
+    sizeF2 = std::max(sizeF2, std::abs(k_[1][i] - f[i]) / (allowed(i) * probe));
   }
   const double steepest = std::max(sizeF, sizeF2);
   const double guess =
@@ -149,7 +149,7 @@ double Dopri5::attempt(const System& system, double t, double h) {
   for (int i = 0; i < size_; ++i) {
     double e = 0.0;
     for (int s = 0; s < kStages; ++s) e += kErrorWeights[s] * k_[s][i];
-    const double relative = std::abs(h * e) / tolerance(i);
+    const double relative = std::abs(h * e) / allowed(i);
     if (!std::isfinite(relative) || !std::isfinite(next_[i])) {
       return std::numeric_limits<double>::infinity();
     }
@@ -204,8 +204,8 @@ bool Dopri5::dense(double t, std::span<double> y) const {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeDopri5(int size, int /*order*/) {
-  return std::make_unique<Dopri5>(size);
+std::unique_ptr<Stepper> makeDopri5(int size, const Choices& choices) {
+  return std::make_unique<Dopri5>(size, choices.tolerance);
 }
 
 }  // namespace tumble

@@ -22,7 +22,7 @@ class Euler : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeEuler(int size, int /*order*/) {
+std::unique_ptr<Stepper> makeEuler(int size, const Choices&) {
   return std::make_unique<Euler>(size);
 }
 

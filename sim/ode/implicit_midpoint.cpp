@@ -53,7 +53,7 @@ class ImplicitMidpoint : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeImplicitMidpoint(int size, int /*order*/) {
+std::unique_ptr<Stepper> makeImplicitMidpoint(int size, const Choices&) {
   return std::make_unique<ImplicitMidpoint>(size);
 }
 

@@ -35,6 +35,13 @@ struct Keeps {
   bool manifold = false;    ///< the manifold that `normalise` serves (unit quaternions)
 };
 
+/// What some rows leave to the caller.
+struct Choices {
+  int order = 0;             ///< of a row of any order; 0 = the row's own
+  double tolerance = 1e-10;  ///< of an adaptive row: error per substep in each number y of Y,
+                             ///< relative to 1 + |y|
+};
+
 /// A row of the table: what an integrator is called, needs, keeps and achieves.
 struct Integrator {
   std::string_view name;     ///< value of `course.integrator` in a scene
@@ -45,12 +52,12 @@ struct Integrator {
   bool hasDense = false;     ///< `Stepper::dense` answers
   Offers needs = {};         ///< beside the derivative
   Keeps keeps = {};
-  std::unique_ptr<Stepper> (*create)(int size, int order);
+  std::unique_ptr<Stepper> (*create)(int size, const Choices&);
 
   /// A stepper for systems of that size.
-  /// @param chosen  order for a row of any order, 0 = the row's own
-  std::unique_ptr<Stepper> make(int size, int chosen = 0) const {
-    return create(size, anyOrder && chosen > 0 ? chosen : order);
+  std::unique_ptr<Stepper> make(int size, Choices choices = {}) const {
+    if (!anyOrder || choices.order == 0) choices.order = order;
+    return create(size, choices);
   }
 };
 
@@ -61,6 +68,8 @@ inline bool suits(const Integrator& row, const System& system) {
 
 /// The highest order that a row of any order takes.
 inline constexpr int kHighestOrder = 40;
+/// The least tolerance that an adaptive row takes: rounding spoils its estimate below.
+inline constexpr double kLeastTolerance = 1e-14;
 
 /// All integrators. To add one: write `sim/ode/<name>.cpp` and add its row in integrators.cpp.
 std::span<const Integrator> integrators();

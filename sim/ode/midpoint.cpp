@@ -24,7 +24,7 @@ class Midpoint : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeMidpoint(int size, int /*order*/) {
+std::unique_ptr<Stepper> makeMidpoint(int size, const Choices&) {
   return std::make_unique<Midpoint>(size);
 }
 

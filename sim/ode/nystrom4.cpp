@@ -35,7 +35,7 @@ class Nystrom4 : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeNystrom4(int /*size*/, int /*order*/) {
+std::unique_ptr<Stepper> makeNystrom4(int /*size*/, const Choices&) {
   return std::make_unique<Nystrom4>();
 }
 

@@ -29,6 +29,6 @@ class BlackBox : public tumble::System {
 void ode(double y0[], double yend[], int len, double t0, double t1, dydt_func dydt) {
   if (len <= 0) return;
   if (yend != y0) std::copy(y0, y0 + len, yend);
-  tumble::makeDopri5(len, 5)->step(BlackBox(len, dydt), t0, t1 - t0,
-                                   {yend, static_cast<size_t>(len)});
+  tumble::makeDopri5(len, {})->step(BlackBox(len, dydt), t0, t1 - t0,
+                                    {yend, static_cast<size_t>(len)});
 }

@@ -33,7 +33,7 @@ class Rk4 : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeRk4(int size, int /*order*/) {
+std::unique_ptr<Stepper> makeRk4(int size, const Choices&) {
   return std::make_unique<Rk4>(size);
 }
 

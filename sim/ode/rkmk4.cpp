@@ -54,7 +54,7 @@ class Rkmk4 : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeRkmk4(int size, int /*order*/) {
+std::unique_ptr<Stepper> makeRkmk4(int size, const Choices&) {
   return std::make_unique<Rkmk4>(size);
 }
 

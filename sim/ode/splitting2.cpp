@@ -22,7 +22,7 @@ void strang(const System& system, double t, double h, std::span<double> y) {
   system.kick(t + h, 0.5 * h, y);
 }
 
-std::unique_ptr<Stepper> makeSplitting2(int /*size*/, int /*order*/) {
+std::unique_ptr<Stepper> makeSplitting2(int /*size*/, const Choices&) {
   return std::make_unique<Splitting2>();
 }
 

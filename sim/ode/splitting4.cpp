@@ -28,7 +28,7 @@ class Splitting4 : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeSplitting4(int /*size*/, int /*order*/) {
+std::unique_ptr<Stepper> makeSplitting4(int /*size*/, const Choices&) {
   return std::make_unique<Splitting4>();
 }
 

@@ -8,17 +8,17 @@
 
 namespace tumble {
 
-std::unique_ptr<Stepper> makeEuler(int size, int order);
-std::unique_ptr<Stepper> makeSymplecticEuler(int size, int order);
-std::unique_ptr<Stepper> makeMidpoint(int size, int order);
-std::unique_ptr<Stepper> makeRk4(int size, int order);
-std::unique_ptr<Stepper> makeDopri5(int size, int order);
-std::unique_ptr<Stepper> makeImplicitMidpoint(int size, int order);
-std::unique_ptr<Stepper> makeSplitting2(int size, int order);
-std::unique_ptr<Stepper> makeSplitting4(int size, int order);
-std::unique_ptr<Stepper> makeNystrom4(int size, int order);
-std::unique_ptr<Stepper> makeRkmk4(int size, int order);
-std::unique_ptr<Stepper> makeTaylor(int size, int order);
+std::unique_ptr<Stepper> makeEuler(int size, const Choices&);
+std::unique_ptr<Stepper> makeSymplecticEuler(int size, const Choices&);
+std::unique_ptr<Stepper> makeMidpoint(int size, const Choices&);
+std::unique_ptr<Stepper> makeRk4(int size, const Choices&);
+std::unique_ptr<Stepper> makeDopri5(int size, const Choices&);
+std::unique_ptr<Stepper> makeImplicitMidpoint(int size, const Choices&);
+std::unique_ptr<Stepper> makeSplitting2(int size, const Choices&);
+std::unique_ptr<Stepper> makeSplitting4(int size, const Choices&);
+std::unique_ptr<Stepper> makeNystrom4(int size, const Choices&);
+std::unique_ptr<Stepper> makeRkmk4(int size, const Choices&);
+std::unique_ptr<Stepper> makeTaylor(int size, const Choices&);
 
 /// Strang's splitting, the symmetric step that the splitting methods are composed of:
 ///   kick h/2 · drift h · kick h/2

@@ -20,7 +20,7 @@ class SymplecticEuler : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeSymplecticEuler(int /*size*/, int /*order*/) {
+std::unique_ptr<Stepper> makeSymplecticEuler(int /*size*/, const Choices&) {
   return std::make_unique<SymplecticEuler>();
 }
 

@@ -50,8 +50,8 @@ class Taylor : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> makeTaylor(int size, int order) {
-  return std::make_unique<Taylor>(size, order);
+std::unique_ptr<Stepper> makeTaylor(int size, const Choices& choices) {
+  return std::make_unique<Taylor>(size, choices.order);
 }
 
 }  // namespace tumble

@@ -57,7 +57,8 @@ along = "course.step"
 values = [0.1, 0.01]
 floor = 1e-15
 set = { "world.gravity" = [0, 0, 0] }
-curves = [ { label = "E", set = { "course.integrator" = "euler" } }, { values = [1e-3] } ]
+curves = [ { label = "E", set = { "course.integrator" = "euler" } }, { values = [1e-3] },
+           { along = "course.tolerance", values = [1e-6] } ]
 )",
                                  "s.toml");
   REQUIRE(scene.panels.size() == 2);
@@ -77,10 +78,12 @@ curves = [ { label = "E", set = { "course.integrator" = "euler" } }, { values = 
   CHECK(chart.cost == "evaluations");
   CHECK(chart.floor == 1e-15);
   CHECK(chart.along.values == std::vector<std::string>{"0.1", "0.01"});
-  REQUIRE(chart.curves.size() == 2);
+  REQUIRE(chart.curves.size() == 3);
   CHECK(chart.curves[0].variant.title == "E");
-  CHECK(chart.curves[0].values.empty());
-  CHECK(chart.curves[1].values == std::vector<std::string>{"0.001"});
+  CHECK(chart.curves[0].along.values == chart.along.values);
+  CHECK(chart.curves[1].along.values == std::vector<std::string>{"0.001"});
+  CHECK(chart.curves[1].along.parameter == "course.step");
+  CHECK(chart.curves[2].along.parameter == "course.tolerance");
 }
 
 TEST_CASE("a variant is the scene with its settings, its bodies and the forces between them") {

@@ -23,7 +23,7 @@ VecX carried(const Integrator& row, SomeSystem system, double end, int steps, in
   VecX y(system.size());
   const std::span<double> numbers(y.data(), static_cast<std::size_t>(y.size()));
   system.toArray(numbers);
-  const auto stepper = row.make(system.size(), order);
+  const auto stepper = row.make(system.size(), {.order = order});
   for (int n = 0; n < steps; ++n) stepper->step(system, n * end / steps, end / steps, numbers);
   return y;
 }

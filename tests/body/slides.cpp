@@ -24,7 +24,7 @@ VecX at(double t) {
   VecX y(kStateSize);
   const std::span<double> numbers(y.data(), kStateSize);
   stateToArray(start, numbers);
-  findIntegrator("taylor")->make(kStateSize, 20)->step(system, 0.0, t, numbers);
+  findIntegrator("taylor")->make(kStateSize, {.order = 20})->step(system, 0.0, t, numbers);
   return y;
 }
 

@@ -20,7 +20,7 @@ TEST_CASE("the attitude of a tumbling brick converges with the order of each row
     const BodySystem system(Vec3::Zero(), {}, {start});
     std::vector<double> y(kStateSize);
     stateToArray(start, y);
-    const auto stepper = row.make(kStateSize, order);
+    const auto stepper = row.make(kStateSize, {.order = order});
     for (int n = 0; n < steps; ++n) stepper->step(system, 0.0, end / steps, y);
     const Quat q(y[3], y[4], y[5], y[6]);
     return 2.0 * (exact.conjugate() * q).vec().norm();

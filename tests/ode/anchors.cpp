@@ -47,7 +47,7 @@ std::vector<Anchor> anchors() {
 double errorOf(const Anchor& anchor, const Integrator& row, int steps, int order = 0) {
   std::vector<double> y = anchor.start;
   double t = 0.0;
-  const auto stepper = row.make(3, order);
+  const auto stepper = row.make(3, {.order = order});
   for (const auto& [end, equations] : anchor.pieces) {
     const int n = static_cast<int>(std::ceil((end - t) * steps));
     const double h = (end - t) / n;

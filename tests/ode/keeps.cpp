@@ -16,7 +16,7 @@ namespace {
 
 /// One step of the pendulum; a row of any order takes 4 here, so that its error is seen.
 std::array<double, 2> swing(const Integrator& row, double h, std::array<double, 2> y) {
-  row.make(2, 4)->step(Pendulum(), 0.0, h, y);
+  row.make(2, {.order = 4})->step(Pendulum(), 0.0, h, y);
   return y;
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("the energy of a symplectic row only oscillates") {
     if (row.adaptive) continue;
     std::vector<double> y = {1.2, 0.0};
     const double start = energy(y);
-    const auto stepper = row.make(2, 4);
+    const auto stepper = row.make(2, {.order = 4});
     double early = 0.0, late = 0.0;
     for (int n = 0; n < 20000; ++n) {
       stepper->step(pendulum, 0.0, 0.2, y);

@@ -185,7 +185,7 @@ class Given : public System {
 /// @param order  for a row of any order, 0 = its own
 inline void run(const Integrator& row, const System& system, double duration, int steps,
                 std::span<double> y, int order = 0) {
-  const auto stepper = row.make(system.size(), order);
+  const auto stepper = row.make(system.size(), {.order = order});
   const double h = duration / steps;
   for (int n = 0; n < steps; ++n) stepper->step(system, n * h, h, y);
 }

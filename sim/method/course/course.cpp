@@ -42,6 +42,8 @@ void checkCourse(const Model& model, std::span<const RigidBody> bodies) {
   if (course.order < 1 || course.order > kHighestOrder)
     throw Refusal("course.order",
                   "an order must be a whole number from 1 to " + std::to_string(kHighestOrder));
+  if (!(course.tolerance >= kLeastTolerance && course.tolerance <= 1.0))
+    throw Refusal("course.tolerance", "a tolerance must be a number from 1e-14 to 1");
   if (course.attitude != "quaternion" && course.attitude != "matrix")
     throw Refusal("course.attitude", "no attitude is called \"" + course.attitude +
                                          "\"; there are: quaternion, matrix");
@@ -83,7 +85,7 @@ void lookCourse(const Model& model, const State& state, double t, std::vector<Ri
 
 CourseSteppers::CourseSteppers(const Model& model, const System& system)
     : row_(*findIntegrator(model.def.course.integrator)),
-      chosen_(row_.make(system.size(), model.def.course.order)),
+      chosen_(row_.make(system.size(), {model.def.course.order, model.def.course.tolerance})),
       standIn_(findIntegrator(kStandIn)->make(system.size())) {}
 
 Course::Course(const Model& model, State& state, Report& report)
