@@ -27,6 +27,8 @@ constexpr Check kChecks[] = {
      freeSpinRows, nullptr},
     {"flips", "a spin about the middle axis turns over each half period of its elliptic function",
      flipRows, nullptr},
+    {"heavy-top", "about a held point as another method turns; energy, angular momentum, the point",
+     topRows, nullptr},
 };
 
 }  // namespace

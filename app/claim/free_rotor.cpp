@@ -1,5 +1,7 @@
 #include "app/claim/free_rotor.h"
 
+#include <cmath>
+
 namespace tumble {
 
 Vec3 FreeRotor::omega(const Quat& at) const {
@@ -21,6 +23,11 @@ Quat FreeRotor::after(double h) const {
   const Vec4 k3 = rate(y + 0.5 * h * k2);
   const Vec4 k4 = rate(y + h * k3);
   return Quat(Vec4(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))).normalized();
+}
+
+double angleBetween(const Quat& p, const Quat& q) {
+  const Quat turn = p.conjugate() * q;
+  return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
 
 }  // namespace tumble

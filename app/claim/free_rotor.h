@@ -17,4 +17,7 @@ struct FreeRotor {
   Quat after(double h) const;
 };
 
+/// Angle [rad] of the rotation from one attitude to the other, 0 to π.
+double angleBetween(const Quat& p, const Quat& q);
+
 }  // namespace tumble

@@ -16,11 +16,6 @@ struct Allowed {
 };
 constexpr Allowed kStepped{1e-3, 1e-6, 1e-9}, kExact{1e-9, 1e-12, 1e-12};
 
-double angleBetween(const Quat& p, const Quat& q) {
-  const Quat turn = p.conjugate() * q;
-  return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
-}
-
 // The body alone, in closed form.
 World alone(const Scene& scene, const Spinner& spinner) {
   WorldDef def = scene.world;

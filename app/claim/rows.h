@@ -17,5 +17,6 @@ std::vector<ClaimRow> towerRows(const Scene&, const Recording&);
 std::vector<ClaimRow> weightRows(const Scene&, const Recording&);
 std::vector<ClaimRow> freeSpinRows(const Scene&, const Recording&);
 std::vector<ClaimRow> flipRows(const Scene&, const Recording&);
+std::vector<ClaimRow> topRows(const Scene&, const Recording&);
 
 }  // namespace tumble

@@ -47,8 +47,16 @@ set ylabel "CPU seconds per simulated second"
 set grid xtics ytics linecolor rgb "#d8dbe0"
 set border linecolor rgb "#5c636e"
 set key outside right top Left reverse samplen 2 spacing 1.15
-set xrange [*:10]
 )";
+
+// The decade [10^n] that every error and the floor lie above.
+int leastDecade(const Study& study) {
+  double least = study.chart.floor.value_or(1.0);
+  for (const ChartSeries& series : study.series)
+    for (const ChartPoint& point : series.points)
+      if (point.error > 0.0) least = std::min(least, point.error);
+  return static_cast<int>(std::floor(std::log10(least)));
+}
 
 std::string curves(const Study& study) {
   std::string text;
@@ -73,7 +81,7 @@ std::string plotScript(const Study& study, const std::string& caption) {
                         quotedText(study.chart.subtitle));
   script += fmt::format("set label 2 {} at graph 0, screen 0.02 font \",9\" noenhanced\n",
                         quotedText(caption));
-  script += "set bmargin 6.5\n";
+  script += fmt::format("set bmargin 6.5\nset xrange [1e{}:10]\n", leastDecade(study));
   if (study.chart.floor && *study.chart.floor > 0.0)
     script += fmt::format(
         "set arrow 1 from {0:.3g}, graph 0 to {0:.3g}, graph 1 nohead dashtype 2 linecolor rgb "

@@ -58,6 +58,7 @@ HeavyTop::HeavyTop(const RigidBody& start, const Pivot& pivot, const Vec3& gravi
       body_(start),
       q_(start.q.w(), start.q.x(), start.q.y(), start.q.z()),
       H_B_(start.R.transpose() * momentumAbout(pivot, start)),
+      t0_(t0),
       end_(t0) {
   const Vec3 moments = principalAxes(pivot.Ibody).moments;
   const double least = moments.minCoeff();
@@ -116,6 +117,10 @@ const HeavyTop::Arc& HeavyTop::arcAt(double t) const {
 }
 
 void HeavyTop::at(double t, RigidBody& body) const {
+  if (t == t0_) {
+    body = body_;
+    return;
+  }
   const Arc& arc = arcAt(t);
   const Vec4 q = evaluate(arc.q, t - arc.t);
   body.q = Quat(q[0], q[1], q[2], q[3]).normalized();

@@ -24,7 +24,7 @@ class HeavyTop {
   /// Drops the arcs that end before t [s].
   void forget(double t);
 
-  /// Sets state and derived quantities of the body to those at t [s], which the arcs must cover.
+  /// Sets state and derived quantities of the body to those at t [s], which is t0 or covered by arcs.
   void at(double t, RigidBody& body) const;
   /// Where the body frame stands at t [s].
   Pose pose(double t) const;
@@ -52,6 +52,7 @@ class HeavyTop {
   RigidBody body_;
   Vec4 q_;        ///< attitude and
   Vec3 H_B_;      ///< angular momentum at the end of the last arc
+  double t0_;     ///< [s] the instant that `body_` shows
   double end_;    ///< [s] the same instant
   double bound_;  ///< [1/s²] the most that ω² + |ω̇| can be
   std::vector<Arc> arcs_;

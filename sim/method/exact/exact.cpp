@@ -79,6 +79,11 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
 
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                std::vector<Contact>& contacts) {
+  if (state.trail.empty()) {  // nothing has moved yet
+    bodies = state.bodies;
+    contacts.clear();
+    return;
+  }
   const Segment& segment = state.trail.back();
   if (bodies.size() != segment.start.size()) bodies = segment.start;
   bodiesAt(model, state, t, bodies);
