@@ -106,23 +106,36 @@ TEST_CASE("a top precesses steadily at the slow rate and at the fast one", "[fig
   }
 }
 
-// Oracle: closed form, a bracket. An upright top sleeps if  ω₃ > 2 √(M g l I₁)/I₃ = 44.2944691807
-// rad/s; started 1e-6 rad off, it stays within 1e-4 above and falls away below. Bracket ± 1e-3.
+// Oracle: closed form. An upright top sleeps if  ω₃ > 2 √(M g l I₁)/I₃ = 44.2944691807 rad/s: a
+// small lean p that is left to precess at I₃ ω₃/(2 I₁) goes as p cosh σt below, p cos |σ|t above,
+//   σ² = (M g l)/I₁ − (I₃ ω₃/(2 I₁))²,
+// linear in ω₃². Two spins, 0.1 % below and above, show σ²; the line through them crosses zero at
+// the threshold. Measured 2.5e-11 relative, allowed 1e-9.
 TEST_CASE("a top sleeps above its threshold and wakes below it", "[figures]") {
-  for (const double factor : {1.001, 0.999}) {
-    const double spin = 44.2944691807 * factor;
-    const Quat q = fromAxisAngle({0.0, 0.0, -1.0}, 1e-6);
-    const Held start = held(disc(), q, {0.0, -0.1, 0.0}, q * Vec3(0.0, spin, 0.0));
+  constexpr double kLean = 1e-5, kTime = 2.0;  // [rad], [s]
+  const double threshold = 2.0 * std::sqrt(1.0 * 9.81 * 0.1 * 0.0125) / 0.005;
+  CHECK(std::abs(threshold - 44.2944691807) < 1e-10);
+  const auto squaredRate = [&](double spin) {
+    const Quat q = fromAxisAngle({0.0, 0.0, -1.0}, kLean);
+    const Vec3 axis = q * Vec3::UnitY();
+    const double rate = 0.005 * spin / (2.0 * 0.0125);
+    const Held start =
+        held(disc(), q, {0.0, -0.1, 0.0}, rate * Vec3::UnitY() + (spin - rate * axis.y()) * axis);
     HeavyTop top(start.body, start.pivot, kGravity, 0.0);
-    REQUIRE(top.reach(40.0));
-    double lean = 0.0;
-    for (double t = 0.0; t <= 40.0; t += 0.05) {
-      const Vec3 axis = top.pose(t).q * Vec3::UnitY();
-      lean = std::max(lean, std::hypot(axis.x(), axis.z()));
-    }
-    WARN("upright top at " << spin << " rad/s: leans by at most " << lean << " rad in 40 s");
-    CHECK((lean < 1e-4) == (factor > 1.0));
-  }
+    REQUIRE(top.reach(kTime));
+    const Vec3 now = top.pose(kTime).q * Vec3::UnitY();
+    const double grown = std::hypot(now.x(), now.z()) / std::hypot(axis.x(), axis.z());
+    const double angle = (grown > 1.0 ? std::acosh(grown) : std::acos(grown)) / kTime;
+    return grown > 1.0 ? angle * angle : -angle * angle;
+  };
+  const double low = 0.999 * threshold, high = 1.001 * threshold;
+  const double wakes = squaredRate(low), sleeps = squaredRate(high);
+  CHECK(wakes > 0.0);
+  CHECK(sleeps < 0.0);
+  const double zero = std::sqrt(low * low + (high * high - low * low) * wakes / (wakes - sleeps));
+  WARN("an upright top sleeps above " << zero << " rad/s: off by "
+                                      << std::abs(zero / threshold - 1.0) << " relative");
+  CHECK(std::abs(zero / threshold - 1.0) < 1e-9);
 }
 
 // Oracle: two independent methods. Measured 1.6e-9, of the adaptive row; allowed 4e-8.

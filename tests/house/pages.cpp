@@ -1,0 +1,92 @@
+// The pages keep their word: what they point at is there.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/catch.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path kRoot = TUMBLE_SOURCE_DIR;
+
+std::string textOf(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What each match of the pattern has in its first group.
+std::vector<std::string> found(const std::string& text, const char* pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> all;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    all.push_back((*it)[1]);
+  return all;
+}
+
+/// A page from one heading to the next.
+std::string section(const std::string& page, const std::string& heading) {
+  const std::size_t start = page.find("## " + heading);
+  if (start == std::string::npos) return "";
+  return page.substr(start, page.find("\n## ", start) - start);
+}
+
+/// The names of all test cases of a room.
+std::string casesOf(const std::string& room) {
+  std::string names;
+  for (const auto& entry : fs::directory_iterator(kRoot / "tests" / room))
+    if (entry.path().extension() == ".cpp")
+      for (const std::string& name : found(textOf(entry.path()), R"re(TEST_CASE\(\s*"([^"]+)")re"))
+        names += "\n" + name + "\n";
+  return names;
+}
+
+/// Whether a room has a case of that name; "… rest" is the end of one.
+bool hasCase(const std::string& room, const std::string& name) {
+  const std::string ellipsis = "… ";
+  return name.starts_with(ellipsis)
+             ? casesOf(room).find(name.substr(ellipsis.size()) + "\n") != std::string::npos
+             : casesOf(room).find("\n" + name + "\n") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("every link and picture of a page is there") {
+  int count = 0;
+  for (const char* page : {"README.md", "sim/README.md", "assets/demos/README.md"}) {
+    const std::vector<std::string> links = found(textOf(kRoot / page), R"(\]\(([^)#:]+)\))");
+    for (const std::string& link : links) {
+      CAPTURE(page, link);
+      CHECK(fs::exists(kRoot / fs::path(page).parent_path() / link));
+      ++count;
+    }
+  }
+  CHECK(count > 5);
+}
+
+TEST_CASE("every file that the way from slide to file names is there") {
+  const std::string table = section(textOf(kRoot / "sim/README.md"), "From slide to file");
+  const std::vector<std::string> files = found(table, R"(`([\w/]+\.(?:h|cpp))`)");
+  CHECK(files.size() > 20);
+  for (const std::string& file : files) {
+    CAPTURE(file);
+    CHECK(fs::exists(kRoot / "sim" / file));
+  }
+}
+
+TEST_CASE("every test that the way from slide to test names is there") {
+  const std::string table = section(textOf(kRoot / "sim/README.md"), "From slide to test");
+  const std::regex cell(R"(\| `(\w+)`: ([^|]+) \|)");
+  int count = 0;
+  for (std::sregex_iterator it(table.begin(), table.end(), cell), end; it != end; ++it)
+    for (const std::string& name : found((*it)[2].str() + ";", R"(\s*([^;]+);)")) {
+      CAPTURE((*it)[1].str(), name);
+      CHECK(hasCase((*it)[1], name));
+      ++count;
+    }
+  CHECK(count > 30);
+}
