@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "app/claim/verdict.h"
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/options.h"
 #include "app/command/run.h"
-#include "app/command/verdict.h"
+#include "app/scene/demos.h"
 
 namespace tumble::command {
 

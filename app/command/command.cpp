@@ -7,7 +7,8 @@
 #include <new>
 #include <string>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
+#include "app/record/recording.h"
 #include "app/scene/findings.h"
 #include "app/scene/scene.h"
 #include "render/context/context.h"

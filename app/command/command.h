@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string_view>
 
 #include "app/scene/override.h"
@@ -24,11 +23,6 @@ enum Exit : int {
 struct Command {
   std::string_view name, summary;
   int (*run)(int argc, char** argv);
-};
-
-/// A run that stopped before there was anything to show: exit 6.
-class StoppedError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// Finds argv[1] in the table and runs it. Every error becomes one line on stderr and its exit

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/options.h"
+#include "app/file/data.h"
+#include "app/file/file.h"
 #include "app/golden/manifest.h"
-#include "app/record/file.h"
 #include "render/context/window.h"
 #include "render/renderer.h"
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/gallery_page.h"
 #include "app/command/options.h"
 #include "app/command/run.h"
 #include "app/command/shoot.h"
 #include "app/command/sweeping.h"
-#include "app/record/file.h"
+#include "app/file/file.h"
+#include "app/scene/demos.h"
 
 namespace tumble::command {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command/verdict.h"
+#include "app/claim/verdict.h"
 
 namespace tumble {
 

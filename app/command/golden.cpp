@@ -5,12 +5,13 @@
 #include <filesystem>
 
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/options.h"
+#include "app/file/data.h"
+#include "app/file/file.h"
 #include "app/golden/draw.h"
 #include "app/golden/golden.h"
 #include "app/golden/report.h"
-#include "app/record/file.h"
+#include "app/scene/demos.h"
 #include "render/renderer.h"
 
 namespace tumble::command {

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/options.h"
+#include "app/scene/demos.h"
 
 namespace tumble::command {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "app/claim/verdict.h"
 #include "app/command/command.h"
-#include "app/command/data.h"
-#include "app/command/verdict.h"
+#include "app/scene/demos.h"
 
 namespace tumble {
 

@@ -7,7 +7,7 @@
 #include "app/command/options.h"
 #include "app/command/run.h"
 #include "app/command/shoot.h"
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 namespace tumble::command {
 

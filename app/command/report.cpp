@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/options.h"
 #include "app/command/progress.h"
-#include "app/record/file.h"
+#include "app/file/data.h"
+#include "app/file/file.h"
 #include "app/report/machine.h"
 #include "app/report/page.h"
 #include "app/report/plot.h"

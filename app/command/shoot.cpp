@@ -9,8 +9,8 @@
 #include "app/command/run.h"
 #include "app/command/stamp.h"
 #include "app/command/video.h"
+#include "app/file/file.h"
 #include "app/panel/page.h"
-#include "app/record/file.h"
 #include "render/png_writer.h"
 #include "render/sheet.h"
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command/data.h"
-#include "app/record/digest.h"
-#include "app/record/file.h"
+#include "app/file/data.h"
+#include "app/file/digest.h"
+#include "app/file/file.h"
 
 namespace tumble {
 

@@ -1,6 +1,6 @@
 #include "app/command/studio.h"
 
-#include "app/command/data.h"
+#include "app/file/data.h"
 
 namespace tumble {
 

@@ -5,7 +5,7 @@
 #include "app/command/options.h"
 #include "app/command/run.h"
 #include "app/command/sweeping.h"
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 namespace tumble::command {
 

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <deque>
 
+#include "app/claim/verdict.h"
 #include "app/command/command.h"
 #include "app/command/run.h"
 #include "app/command/shoot.h"
 #include "app/command/stamp.h"
-#include "app/command/verdict.h"
+#include "app/file/file.h"
 #include "app/panel/variant_run.h"
-#include "app/record/file.h"
 #include "app/record/output.h"
 
 namespace tumble {

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 extern char** environ;
 

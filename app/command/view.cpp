@@ -4,8 +4,8 @@
 #include <backends/imgui_impl_glfw.h>
 
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/options.h"
+#include "app/file/data.h"
 #include "app/viewer/ui_context.h"
 #include "app/viewer/viewer.h"
 #include "render/context/window.h"

@@ -1,9 +1,10 @@
 #include "app/golden/draw.h"
 
-#include "app/command/data.h"
+#include "app/file/data.h"
 #include "app/panel/page.h"
 #include "app/present/present.h"
 #include "app/record/output.h"
+#include "app/scene/demos.h"
 #include "app/viewer/snapshot.h"
 
 namespace tumble {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 namespace tumble {
 

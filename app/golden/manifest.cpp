@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/record/digest.h"
-#include "app/record/file.h"
+#include "app/file/digest.h"
+#include "app/file/file.h"
 
 namespace tumble {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "app/record/html.h"
+#include "app/file/html.h"
 
 namespace tumble {
 

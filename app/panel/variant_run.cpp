@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "app/command/command.h"
-#include "app/command/verdict.h"
+#include "app/claim/verdict.h"
 #include "app/present/bodies.h"
 
 namespace tumble {

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 namespace tumble {
 

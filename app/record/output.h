@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
 #include "app/record/recording.h"
 
 namespace tumble {

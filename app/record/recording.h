@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,10 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
 /// A run that stopped early has fewer samples and says so in its report.
 /// @throws SceneError if the world refuses the scene, or for too many samples.
 Recording record(const Scene& scene, double rate, const std::function<void(double)>& progress = {});
+
+/// A run that stopped before there was anything to show: exit 6.
+class StoppedError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 }  // namespace tumble

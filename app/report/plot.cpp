@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 extern char** environ;
 

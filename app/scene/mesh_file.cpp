@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/command/data.h"
-#include "app/record/file.h"
+#include "app/file/data.h"
+#include "app/file/file.h"
 
 namespace tumble {
 

@@ -1,6 +1,6 @@
 #include "app/viewer/snapshot.h"
 
-#include "app/command/data.h"
+#include "app/file/data.h"
 #include "app/viewer/ui_context.h"
 #include "app/viewer/viewer.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/command/data.h"
+#include "app/scene/demos.h"
 
 namespace tumble {
 

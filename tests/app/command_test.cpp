@@ -12,7 +12,7 @@
 #include "app/command/stamp.h"
 #include "app/command/sweeping.h"
 #include "app/command/video.h"
-#include "app/record/file.h"
+#include "app/file/file.h"
 #include "tests/catch.h"
 
 using namespace tumble;

@@ -4,8 +4,9 @@
 #include <set>
 
 #include "app/claim/free_body.h"
-#include "app/command/data.h"
-#include "app/command/verdict.h"
+#include "app/claim/verdict.h"
+#include "app/file/data.h"
+#include "app/scene/demos.h"
 #include "app/scene/scene.h"
 #include "tests/catch.h"
 

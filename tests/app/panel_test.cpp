@@ -4,12 +4,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/claim/verdict.h"
 #include "app/command/command.h"
-#include "app/command/data.h"
 #include "app/command/shoot.h"
-#include "app/command/verdict.h"
+#include "app/file/data.h"
+#include "app/file/file.h"
 #include "app/panel/page.h"
-#include "app/record/file.h"
 #include "tests/catch.h"
 
 using namespace tumble;

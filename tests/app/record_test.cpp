@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/record/file.h"
+#include "app/file/file.h"
 #include "app/record/output.h"
 #include "app/scene/scene.h"
 #include "tests/catch.h"

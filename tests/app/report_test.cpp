@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "app/claim/claim.h"
-#include "app/command/data.h"
-#include "app/record/file.h"
+#include "app/file/data.h"
+#include "app/file/file.h"
 #include "app/report/page.h"
 #include "app/report/plot.h"
 #include "tests/catch.h"

@@ -2,9 +2,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "app/command/data.h"
+#include "app/file/data.h"
 #include "app/golden/draw.h"
 #include "app/present/present.h"
+#include "app/scene/demos.h"
 #include "render/renderer.h"
 #include "tests/catch.h"
 

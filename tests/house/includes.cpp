@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::array kChapters = {"math",    "ode",     "shape",   "body",  "flight",
                                   "collide", "problem", "contact", "joint", "method"};
+// The rooms of the program, in the order of its data; the last ones know nothing of each other.
+constexpr std::array kRooms = {"file", "scene", "record", "claim", "present", "panel"};
+constexpr std::array kLastRooms = {"golden", "report", "viewer"};
 constexpr std::array kMethods = {"course", "exact", "stepping"};
 // sim neither prints, nor reads files, clocks or the environment, nor starts threads.
 constexpr std::array kBannedInSim = {"iostream", "ostream", "istream",    "fstream", "cstdio",
@@ -56,6 +59,20 @@ std::string wrongInSim(const fs::path& file, const std::string& included) {
                                           : "";
 }
 
+std::string wrongInApp(const fs::path& file, const std::string& included) {
+  if (!startsWith(included, "app/")) return "";
+  const std::string from = file.parent_path().filename().string();
+  const std::string to = fs::path(included).parent_path().filename().string();
+  if (from == to || from == "app" || from == "command") return "";
+  const auto place = [](const std::string& room) {
+    return std::find(kRooms.begin(), kRooms.end(), room) - kRooms.begin();
+  };
+  const bool last = contains(kLastRooms, from);
+  if (!last && place(to) > place(from)) return "a later room";
+  if (last && !contains(kRooms, to) && !(from == "golden" && to == "viewer")) return "another room";
+  return "";
+}
+
 /// Why a file may not include a header, or "" if it may. Paths count from the source folder.
 std::string wrongArrow(const fs::path& file, const std::string& included) {
   const std::string room = file.begin()->string();
@@ -63,7 +80,8 @@ std::string wrongArrow(const fs::path& file, const std::string& included) {
   const bool own =
       room == "render" ? !startsWith(included, "sim/") && !startsWith(included, "app/") : true;
   if (!own) return "render knows no physics and no program";
-  return startsWith(included, "tests/") ? "a test" : "";
+  if (startsWith(included, "tests/")) return "a test";
+  return room == "app" ? wrongInApp(file, included) : "";
 }
 
 std::vector<fs::path> sourcesUnder(const fs::path& root, const std::string& room) {
@@ -121,6 +139,12 @@ TEST_CASE("a planted wrong arrow is found and a right one is not") {
                Plant{"render/renderer.cpp", "sim/world.h", true},
                Plant{"render/renderer.cpp", "app/scene/scene.h", true},
                Plant{"app/main.cpp", "tests/catch.h", true},
+               Plant{"app/scene/scene.cpp", "app/record/recording.h", true},
+               Plant{"app/claim/orbit.cpp", "app/command/run.h", true},
+               Plant{"app/report/study.cpp", "app/golden/golden.h", true},
+               Plant{"app/report/study.cpp", "app/panel/chart_run.h", false},
+               Plant{"app/golden/draw.cpp", "app/viewer/snapshot.h", false},
+               Plant{"app/command/view.cpp", "app/viewer/viewer.h", false},
                Plant{"sim/body/rigid_body.cpp", "sim/ode/system.h", false},
                Plant{"sim/method/course/course.cpp", "sim/method/model.h", false},
                Plant{"sim/world.cpp", "sim/method/course/course.h", false},

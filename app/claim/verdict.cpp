@@ -1,4 +1,4 @@
-#include "app/command/verdict.h"
+#include "app/claim/verdict.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "app/record/html.h"
+#include "app/file/html.h"
 
 namespace tumble {
 

@@ -1,4 +1,4 @@
-#include "app/record/file.h"
+#include "app/file/file.h"
 
 #include <unistd.h>
 
