@@ -24,7 +24,8 @@ class HeavyTop {
   /// Drops the arcs that end before t [s].
   void forget(double t);
 
-  /// Sets state and derived quantities of the body to those at t [s], which is t0 or covered by arcs.
+  /// Sets state and derived quantities of the body to those at t [s], which is t0 or covered by
+  /// arcs.
   void at(double t, RigidBody& body) const;
   /// Where the body frame stands at t [s].
   Pose pose(double t) const;
