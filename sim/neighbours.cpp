@@ -26,15 +26,17 @@ std::vector<int> kindsOf(const Model& model, SameKind same) {
   return kinds;
 }
 
-/// Refuses bodies that stand so near that they could meet without a contact rule.
+/// Refuses bodies that could meet without a contact rule.
 void checkRule(const Model& model, int a, int b) {
   const Shape &shapeA = model.shapes[a], &shapeB = model.shapes[b];
   if (canCollide(shapeA, shapeB)) return;
+  const bool plane = std::holds_alternative<HalfSpace>(shapeB);
   throw Refusal(bodyPath(a, ".shape"),
                 "\"" + model.def.bodies[a].name + "\" (" + std::string(shapeName(shapeA)) +
-                    ") stands so near \"" + model.def.bodies[b].name + "\" (" +
+                    ") could meet \"" + model.def.bodies[b].name + "\" (" +
                     std::string(shapeName(shapeB)) +
-                    ") that they could meet, and there is no contact rule for these two shapes");
+                    "), and there is no contact rule for these two shapes; leave one of them out" +
+                    (plane ? "" : " or move them apart"));
 }
 
 /// Refuses bodies that overlap.

@@ -1,11 +1,13 @@
 // tumble describe: what a scene contains and what it uses.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <map>
 
 #include "app/command/command.h"
 #include "app/command/options.h"
 #include "app/record/recording.h"
+#include "sim/body/principal_axes.h"
 
 namespace tumble::command {
 
@@ -26,6 +28,51 @@ std::string countShapes(const Scene& scene) {
   return join(words);
 }
 
+// "course, rk4 at 0.00416667 s, 5 s"
+std::string methodLine(const WorldDef& world) {
+  std::string steps;
+  if (world.method == "course")
+    steps = fmt::format(", {} at {:g} s", world.course.integrator, world.course.step);
+  if (world.method == "stepping")
+    steps = fmt::format(", {} at {:g} s", world.stepping.solver, world.stepping.step);
+  return fmt::format("{}{}, {:g} s", world.method, steps, world.duration);
+}
+
+// Three numbers; beside `scale` rounding is nothing.
+std::string numbers(const Vec3& v, double scale) {
+  std::string line;
+  for (const double x : v) line += fmt::format(" {:>12.6g}", std::abs(x) < 1e-13 * scale ? 0.0 : x);
+  return line;
+}
+
+// What each body weighs, in the order of the scene; of a long list the beginning.
+void printMasses(const Scene& scene) {
+  constexpr int kMost = 12;
+  int count = 0;
+  for (const BodyDef& body : scene.world.bodies) {
+    const bool solid = !std::holds_alternative<HalfSpace>(body.shape) &&
+                       !std::holds_alternative<Particle>(body.shape);
+    if (!solid || bodyMass(body) == 0.0) continue;
+    if (++count > kMost) continue;
+    if (count == 1)
+      fmt::print("weighs    mass / kg; inertia / (kg m²) about the centre of mass, body frame\n");
+    const MassProperties found = massOf(body);
+    const Mat3& I = found.inertia;
+    const double size = I.norm();
+    fmt::print("  {}: {:g} kg, by {}\n", body.name, found.mass,
+               body.inertia ? "the scene" : body.inertiaBy);
+    fmt::print("    Ixx Iyy Izz  {}\n", numbers(I.diagonal(), size));
+    const Vec3 products(I(0, 1), I(0, 2), I(1, 2));
+    if (products.norm() < 1e-13 * size) continue;
+    const PrincipalAxes principal = principalAxes(I);
+    fmt::print("    Ixy Ixz Iyz  {}\n", numbers(products, size));
+    fmt::print("    principal    {}\n", numbers(principal.moments, size));
+    for (int axis = 0; axis < 3; ++axis)
+      fmt::print("    axis {}       {}\n", axis + 1, numbers(principal.axes.col(axis), 1.0));
+  }
+  if (count > kMost) fmt::print("  and {} more\n", count - kMost);
+}
+
 }  // namespace
 
 int describe(int argc, char** argv) {
@@ -44,10 +91,15 @@ int describe(int argc, char** argv) {
   fmt::print("forces    {}\n", world.forces.size());
   fmt::print("gravity   {:g} {:g} {:g} m/s²\n", world.gravity.x(), world.gravity.y(),
              world.gravity.z());
-  fmt::print("method    {}, {:g} s\n", world.method, world.duration);
+  fmt::print("method    {}\n", methodLine(world));
   const World running = makeWorld(scene);
   fmt::print("uses      {}\n", join(running.features()));
-  fmt::print("leaves    {}\n", join(running.features(false)));
+  fmt::print("without   {}\n", join(running.features(false)));
+  printMasses(scene);
+  for (const PanelDef& panel : scene.panels) fmt::print("panel     {}\n", panel.variant.title);
+  for (const ChartDef& chart : scene.charts)
+    fmt::print("chart     {}: {} along {}, {} curves\n", chart.variant.title, chart.error,
+               chart.along.parameter, chart.curves.size());
   if (scene.sweep)
     fmt::print("sweep     {} over {}\n", scene.sweep->parameter, join(scene.sweep->values));
   return kOk;

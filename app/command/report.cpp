@@ -39,8 +39,8 @@ std::size_t pointsOf(const ChartDef& chart) {
   return points;
 }
 
-// Runs every chart of every scene and writes its numbers and its script.
-std::vector<Study> study(const Options& options, const std::string& machine) {
+// Runs every chart of every scene and writes its numbers.
+std::vector<Study> study(const Options& options) {
   std::vector<Study> studies;
   for (const std::string& path : options.scenes) {
     const Scene scene = load({path, options.overrides});
@@ -55,7 +55,6 @@ std::vector<Study> study(const Options& options, const std::string& machine) {
           runStudy(scene, k, options.budget, [&] { progress.show(++done / points); }));
       const Study& now = studies.back();
       writeFile(options.folder + "/" + now.name + ".csv", studyCsv(now));
-      writeFile(options.folder + "/" + now.name + ".gp", plotScript(now, machine));
     }
   }
   return studies;
@@ -80,11 +79,13 @@ int report(int argc, char** argv) {
   // Numbers first: they stay if gnuplot is missing.
   makeFolder(options.folder);
   const std::string machine = machineLine();
-  const std::vector<Study> studies = study(options, machine);
+  const std::vector<Study> studies = study(options);
   const std::vector<HeadlineRow> rows = headlineRows(studies);
   writeFile(options.folder + "/table.csv", headlineCsv(rows));
   writeFile(options.folder + "/table.md", headlineMarkdown(rows));
   writeFile(options.folder + "/index.html", reportPage(studies, machine, false));
+  for (const Study& one : studies)
+    writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, labelsOf(studies), machine));
   fmt::print("{}", headlineMarkdown(rows));
   for (const Study& one : studies) runGnuplot(options.folder, one.name);
   writeFile(options.folder + "/index.html", reportPage(studies, machine, true));

@@ -81,14 +81,17 @@ std::vector<std::vector<Vec3>> otherCurves(const Vec3& I) {
   return curves;
 }
 
+// The name stands to the right of the tip, that of ω to the left: L and ω may point the same way.
 void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, bool angular,
-              const char* name, Picture& picture) {
+              const std::string& name, Picture& picture) {
   if (vector.norm() < 1e-9) return;
   picture.arrows.push_back({from, from + vector, colour, 1.9f});
   if (angular) picture.arrows.push_back({from, from + 0.86 * vector, colour, 1.9f});
   Label label;
   label.anchor = from + vector;
-  label.offset = {8.0, 0.0};
+  const bool left = name == "ω";
+  label.offset = {left ? -8.0 : 8.0, 0.0};
+  label.align = left ? Align::Right : Align::Left;
   label.text = name;
   label.size = 16.0f;
   label.italic = true;

@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "app/file/file.h"
@@ -58,22 +60,34 @@ int leastDecade(const Study& study) {
   return static_cast<int>(std::floor(std::log10(least)));
 }
 
-std::string curves(const Study& study) {
+std::string curves(const Study& study, std::span<const std::string> labels) {
   std::string text;
   for (std::size_t i = 0; i < study.series.size(); ++i) {
+    const std::size_t style = static_cast<std::size_t>(
+        std::find(labels.begin(), labels.end(), study.series[i].label) - labels.begin());
     text += fmt::format(
         "{}\"{}.csv\" using (strcol(1) eq {} ? $4 : NaN):6 with linespoints linewidth {} "
         "pointtype {} pointsize {} linecolor rgb \"{}\" title {}",
         i == 0 ? "plot " : ", \\\n     ", study.name, quotedText(study.series[i].label),
-        i == 0 ? 3.5 : 1.5, kMarkers[i % kMarkers.size()], i == 0 ? 1.1 : 0.8,
-        kColours[i % kColours.size()], quotedText(curveTitle(study, i)));
+        i == 0 ? 3.5 : 1.5, kMarkers[style % kMarkers.size()], i == 0 ? 1.1 : 0.8,
+        kColours[style % kColours.size()], quotedText(curveTitle(study, i)));
   }
   return text + "\n";
 }
 
 }  // namespace
 
-std::string plotScript(const Study& study, const std::string& caption) {
+std::vector<std::string> labelsOf(std::span<const Study> studies) {
+  std::vector<std::string> labels;
+  for (const Study& study : studies)
+    for (const ChartSeries& series : study.series)
+      if (std::find(labels.begin(), labels.end(), series.label) == labels.end())
+        labels.push_back(series.label);
+  return labels;
+}
+
+std::string plotScript(const Study& study, std::span<const std::string> labels,
+                       const std::string& caption) {
   std::string script = fmt::format("# gnuplot {}.gp: draws {}.csv\n", study.name, study.name);
   script += kStyle;
   script += fmt::format("set title {} noenhanced\n", quotedText(study.chart.variant.title));
@@ -93,7 +107,7 @@ std::string plotScript(const Study& study, const std::string& caption) {
                                "pngcairo size 960,600 font \"Lato,11\""}) {
     const std::string kind(terminal, 3);
     script += fmt::format("set terminal {}\nset output \"{}.{}\"\n", terminal, study.name, kind);
-    script += curves(study);
+    script += curves(study, labels);
   }
   return script;
 }

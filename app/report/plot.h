@@ -1,6 +1,10 @@
 // A figure of the report: a gnuplot script beside its numbers, and what gnuplot makes of it.
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "app/report/study.h"
 
 namespace tumble {
@@ -8,9 +12,14 @@ namespace tumble {
 /// A script that draws <name>.csv into <name>.svg and <name>.png when gnuplot runs it in their
 /// folder: error to the right, CPU seconds per simulated second upwards, both logarithmic, the
 /// floor dashed. The first curve is drawn thick; colours (Okabe and Ito) and markers belong to the
-/// curve's place in the chart.
+/// place of the curve's label among `labels`.
+/// @param labels   of the curves of all figures that are to be told apart
 /// @param caption  one line below the axes: machine and build
-std::string plotScript(const Study& study, const std::string& caption);
+std::string plotScript(const Study& study, std::span<const std::string> labels,
+                       const std::string& caption);
+
+/// Labels of all curves of the studies, each once, in the order in which they come.
+std::vector<std::string> labelsOf(std::span<const Study> studies);
 
 /// Runs gnuplot on <name>.gp in the folder.
 /// @throws FileError if it is not there or fails.

@@ -122,7 +122,8 @@ TEST_CASE("the headline table names the cheapest run that is right to each goal"
 }
 
 TEST_CASE("the script draws every curve from the numbers beside it, the floor dashed") {
-  const std::string script = plotScript(knownStudy(), "this machine");
+  const std::string script =
+      plotScript(knownStudy(), labelsOf(std::vector{knownStudy()}), "this machine");
   CHECK(script.find("\"known.csv\" using (strcol(1) eq \"fourth\"") != std::string::npos);
   CHECK(script.find("title \"fourth  (order 4.0)\"") != std::string::npos);
   CHECK(script.find("title \"first\"") != std::string::npos);
@@ -132,7 +133,7 @@ TEST_CASE("the script draws every curve from the numbers beside it, the floor da
   CHECK(script.find("this machine") != std::string::npos);
   Study bare = knownStudy();
   bare.chart.floor.reset();
-  CHECK(plotScript(bare, "").find("dashtype") == std::string::npos);
+  CHECK(plotScript(bare, labelsOf(std::vector{bare}), "").find("dashtype") == std::string::npos);
 }
 
 TEST_CASE("the page shows figures only where they were drawn, and escapes what it quotes") {

@@ -65,3 +65,15 @@ TEST_CASE("the reference of scene files names no key that is unknown") {
       CHECK(keys.contains(key));
     }
 }
+
+TEST_CASE("the reference of scene files names every check and every integrator") {
+  const std::regex row(R"re(\n    \{(?:\.name = )?"([a-z0-9-]+)")re");
+  int count = 0;
+  for (const char* table : {"app/claim/claim.cpp", "sim/ode/integrators.cpp"})
+    for (const std::string& name : found(textOf(TUMBLE_SOURCE_DIR "/" + std::string(table)), row)) {
+      CAPTURE(table, name);
+      CHECK(kReference.find("\n| \"" + name + "\" |") != std::string::npos);
+      ++count;
+    }
+  CHECK(count > 20);
+}

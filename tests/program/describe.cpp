@@ -1,0 +1,50 @@
+// What `tumble describe` says of a scene.
+#include "tests/catch.h"
+#include "tests/program/program.h"
+
+namespace {
+
+const std::string kScene = R"(title = "Two bodies"
+checks = ["free-spin"]
+[world]
+gravity = [0, 0, 0]
+duration = 2.0
+[course]
+integrator = "rkmk4"
+step = 0.01
+[[body]]
+name = "brick"
+shape = { box = [1, 2, 3] }
+mass = 12.0
+angular_velocity = [1, 0, 0]
+[[body]]
+name = "ell"
+shape = { compound = [ { box = [1, 1, 1], position = [0, 0, 0] },
+                       { box = [1, 1, 1], position = [1, 0, 0] },
+                       { box = [1, 1, 1], position = [0, 1, 0] } ] }
+density = 1000.0
+position = [10, 0, 0]
+)";
+
+}  // namespace
+
+// Oracle: closed form. A box has m (b² + c²)/12 about a; the L of three unit cubes has 7/6 and 11/6
+// of ρ about its axes, products of 1/3 ρ, and 5/6, 3/2, 11/6 ρ about its principal axes.
+TEST_CASE("describe says how time runs, and what each body weighs") {
+  const Scratch scratch;
+  scratch.file("two.toml", kScene);
+  const Outcome outcome = tumbleRun(scratch, "describe two.toml");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.lines() == 0);
+  for (const char* line :
+       {"two: Two bodies\n", "checks    free-spin\n", "method    course, rkmk4 at 0.01 s, 2 s\n",
+        "  brick: 12 kg, by surface\n",
+        "    Ixx Iyy Izz             13           10            5\n",
+        "  ell: 3000 kg, by surface\n",
+        "    Ixx Iyy Izz        1166.67      1166.67      1833.33\n",
+        "    Ixy Ixz Iyz        333.333            0            0\n",
+        "    principal          833.333         1500      1833.33\n"}) {
+    CAPTURE(outcome.out, line);
+    CHECK(outcome.out.find(line) != std::string::npos);
+  }
+}
