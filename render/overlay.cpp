@@ -1,7 +1,9 @@
 #include "render/overlay.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "render/lines.h"
 
@@ -52,16 +54,52 @@ void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
   }
 }
 
-void drawLabel(const Label& label, const Projection& projection, Canvas& canvas) {
-  Vector2d pen = label.offset;
-  if (label.anchor) {
-    const auto place = projection.project(*label.anchor);
-    if (!place) return;
-    pen += flat(*place);
+/// Draws labels side by side: one that would stand on another moves up or down by whole lines.
+class LabelDrawer {
+ public:
+  LabelDrawer(const Projection& projection, Canvas& canvas)
+      : projection_(projection), canvas_(canvas) {}
+
+  void draw(const Label& label) {
+    const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
+    const Canvas::TextStyle style{label.size, face, label.align, label.colour};
+    Vector2d pen = label.offset;
+    if (label.anchor) {
+      const auto place = projection_.project(*label.anchor);
+      if (!place) return;
+      pen = freePlace(label, pen + flat(*place), canvas_.textWidth(label.text, style));
+    }
+    canvas_.text(pen, label.text, style);
   }
-  const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
-  canvas.text(pen, label.text, {label.size, face, label.align, label.colour});
-}
+
+ private:
+  using Box = Eigen::AlignedBox2d;
+
+  // Where the ink of a line of text is, about [px].
+  static Box inkOf(const Label& label, const Vector2d& pen, double width) {
+    const double left = label.align == Align::Left     ? 0.0
+                        : label.align == Align::Centre ? -0.5 * width
+                                                       : -width;
+    return {pen + Vector2d(left, -0.7 * label.size),
+            pen + Vector2d(left + width, 0.1 * label.size)};
+  }
+
+  Vector2d freePlace(const Label& label, const Vector2d& pen, double width) {
+    for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0}) {
+      const Vector2d moved = pen + Vector2d(0.0, lines * label.size);
+      const Box ink = inkOf(label, moved, width);
+      const auto covers = [&](const Box& other) { return other.intersects(ink); };
+      if (std::any_of(taken_.begin(), taken_.end(), covers)) continue;
+      taken_.push_back(ink);
+      return moved;
+    }
+    return pen;
+  }
+
+  const Projection& projection_;
+  Canvas& canvas_;
+  std::vector<Box> taken_;
+};
 
 void drawPageArrow(const PageArrow& arrow, const Projection& projection, Canvas& canvas) {
   const double head = std::min(13.0, 0.6 * arrow.length), halfHead = 0.46 * head,
@@ -90,7 +128,8 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
     if (line.stroke == Stroke::Dotted) drawDots(line, projection, canvas);
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
   for (const PageArrow& arrow : picture.pageArrows) drawPageArrow(arrow, projection, canvas);
-  for (const Label& label : picture.labels) drawLabel(label, projection, canvas);
+  LabelDrawer labels(projection, canvas);
+  for (const Label& label : picture.labels) labels.draw(label);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
   canvas.text({32.0, 46.0}, picture.title, {22.0, Face::Bold, Align::Left, ink::text});
   canvas.text({32.0, 70.0}, picture.subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});

@@ -282,3 +282,26 @@ TEST_CASE("a sheet holds its panels' pixels, in rows, and refuses unlike ones") 
                           {Image{30, 40, std::vector<std::uint8_t>(3600, 0)}, "", ""}};
   CHECK_THROWS_AS(drawSheet(unlike, 2, "", "", fonts), std::invalid_argument);
 }
+
+TEST_CASE("labels at one point stand above each other, not on each other") {
+  Picture picture;
+  picture.camera = straight(0.0);
+  picture.floor.visible = false;
+  const auto ink = [&] {
+    const Image image = studio().draw(picture, {.width = 640, .height = 360});
+    Picture bare = picture;
+    bare.labels.clear();
+    const Image page = studio().draw(bare, {.width = 640, .height = 360});
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) count += image.rgb[i] + 40 < page.rgb[i];
+    return count;
+  };
+  Label label;
+  label.anchor = Eigen::Vector3d::Zero();
+  label.text = "HHHH";
+  picture.labels = {label};
+  const int one = ink();
+  REQUIRE(one > 40);
+  picture.labels = {label, label, label};
+  CHECK(ink() == Approx(3 * one).epsilon(0.1));
+}
