@@ -160,7 +160,8 @@ void addPivots(Model& model, std::vector<RigidBody>& bodies) {
     need(def.velocity.isZero(0.0), bodyPath(i, ".velocity"),
          name + " turns about its pivot: give it an angular velocity alone");
     const Pivot pivot = makePivot(bodies[i], static_cast<int>(i), *def.pivot_B);
-    setVelocity(bodies[i], def.angularVelocity.cross(bodies[i].x - pivot.p), def.angularVelocity);
+    setVelocity(bodies[i], def.angularVelocity.cross(-(bodies[i].R * pivot.c_B)),
+                def.angularVelocity);
     model.pivots.push_back(pivot);
   }
 }

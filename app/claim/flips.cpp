@@ -2,7 +2,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "app/claim/free_rotor.h"
 #include "app/claim/rows.h"
 #include "app/claim/spinner.h"
 #include "sim/math/elliptic.h"
@@ -16,6 +18,8 @@ namespace {
 constexpr double kNearAxis = 0.7;
 // Allowed of a half period, to a method that takes steps and to one that does not.
 constexpr double kStepped = 1e-3, kExact = 1e-9;
+// What the quintic bridges between samples, and how far small steps go where it does not [rad].
+constexpr double kApart = 0.2, kFarthest = 20'000.0;
 
 // Motion of the unit vector l along L in the principal axes 1, 2, 3 with moments I₁ < I₂ < I₃:
 //   l₂ = a sn(u | m),  u = u₀ + rate t,  which is 0 at each u = 2 n K.
@@ -47,6 +51,10 @@ Middle::Middle(const Spinner& spinner, const Quat& q) {
   const double sc2 = dc * (d * l[c] * l[c] + db * l[1] * l[1]);
   const double complement = std::sqrt(d * (dc * l[c] * l[c] - db * l[b] * l[b]) / sc2);  // k′
   const double rate = L * std::sqrt(sc2);
+  if (!(sc2 > 0.0 && complement > 0.0)) {  // exactly on the axis, or two moments are one
+    half = std::numeric_limits<double>::infinity();
+    return;
+  }
   half = 3.14159265358979323846 / agm(1.0, complement) / rate;  // 2K/rate
 
   // u₀ = F(φ|m) with sn = l₂/a, cn² = l_b²/…, dn² = l_c²/…; l̇₂ = L l₁ l₃ (1/I₁ − 1/I₃).
@@ -76,18 +84,47 @@ double quintic(const Vec3& p, const Vec3& q, double h, double s) {
   return a + s * (b + s * (c + s * (d3 + s * (d4 + s * d5))));
 }
 
-std::vector<double> flipsOf(const Recording& recording, const Spinner& spinner,
-                            const Middle& middle) {
+/// Samples as they come, and between those that stand far apart more, by small steps of the free
+/// rotor from the one before.
+struct Close {
+  double t;     ///< [s]
+  Vec3 height;  ///< l₂ and its first two derivatives
+};
+
+std::vector<Close> closeSamples(const Recording& recording, const Spinner& spinner,
+                                const Middle& middle) {
+  constexpr double kTurn = 2e-3;  // [rad] a step
+  const Mat3 inverse = spinner.inertia.inverse();
+  const double most = spinner.fastest();
+  std::vector<Close> close;
+  for (std::size_t k = 0; k < recording.samples.size(); ++k) {
+    const Sample& now = recording.samples[k];
+    if (now.t > spinner.end) break;
+    BodySample seen = now.bodies[spinner.body];
+    close.push_back({now.t, middle.heightOf(spinner, seen)});
+    if (k + 1 == recording.samples.size()) break;
+    const double h = recording.samples[k + 1].t - now.t;
+    const int parts = static_cast<int>(std::ceil(most * h / kApart));
+    FreeRotor rotor{inverse, spinner.momentum(seen), seen.q};
+    for (int part = 1; part < parts; ++part) {
+      const int steps = 1 + static_cast<int>(most * h / parts / kTurn);
+      for (int i = 0; i < steps; ++i) rotor.q = rotor.after(h / parts / steps);
+      seen.q = rotor.q.normalized();
+      seen.omega = rotor.omega(seen.q);
+      close.push_back({now.t + h * part / parts, middle.heightOf(spinner, seen)});
+    }
+  }
+  return close;
+}
+
+std::vector<double> flipsOf(const std::vector<Close>& samples) {
   std::vector<double> flips;
-  for (std::size_t k = 0; k + 1 < recording.samples.size(); ++k) {
-    const Sample &from = recording.samples[k], &to = recording.samples[k + 1];
-    if (to.t > spinner.end) break;
-    const Vec3 p = middle.heightOf(spinner, from.bodies[spinner.body]);
-    const Vec3 q = middle.heightOf(spinner, to.bodies[spinner.body]);
+  for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+    const Vec3 &p = samples[k].height, &q = samples[k + 1].height;
     if ((p[0] > 0.0) == (q[0] > 0.0)) continue;
-    const double h = to.t - from.t;
+    const double h = samples[k + 1].t - samples[k].t;
     const auto height = [&](double s) { return quintic(p, q, h, s); };
-    flips.push_back(from.t + h * findRoot(height, 0.0, 1.0, p[0], q[0], 1e-13).lo);
+    flips.push_back(samples[k].t + h * findRoot(height, 0.0, 1.0, p[0], q[0], 1e-13).lo);
   }
   return flips;
 }
@@ -110,7 +147,12 @@ std::vector<ClaimRow> flipRows(const Scene& scene, const Recording& recording) {
     const Vec3 l = middle.axes_B.transpose() * (def.orientation.conjugate() * spinner.L);
     if (std::abs(l[1]) < kNearAxis * middle.L || !std::isfinite(middle.half)) continue;
 
-    const std::vector<double> flips = flipsOf(recording, spinner, middle);
+    const bool apart = spinner.fastest() > kApart * recording.rate;
+    if (apart && spinner.fastest() * recording.samples.back().t > kFarthest) {
+      rows.push_back(spinner.lost(def.name));
+      continue;
+    }
+    const std::vector<double> flips = flipsOf(closeSamples(recording, spinner, middle));
     const double last = std::min(spinner.end, endOf(scene, recording));
     // A flip that falls on the end itself may be seen or not.
     const auto told = [&](double slack) {

@@ -15,6 +15,7 @@ constexpr int kOrder = 24;
 constexpr double kNegligible = 2e-17;
 /// An arc that would have to be shorter than this beside the time itself ends the motion.
 constexpr double kShortest = 1e-12;
+constexpr double kLongest = 1e6;  ///< [s] an arc of a body at rest
 
 Vec4 quaternionTimes(const Vec4& q, const Vec3& w) {
   const Vec3 u = q.tail<3>();
@@ -24,20 +25,20 @@ Vec4 quaternionTimes(const Vec4& q, const Vec3& w) {
   return product;
 }
 
-/// The longest step of which the last two terms of the series are negligible, found by shortening
-/// one that is too long by a tenth again and again.
-double arcLength(const std::vector<Vec4>& q, const std::vector<Vec3>& H, double rate) {
-  const double spin = H[0].norm();
-  double h = rate > 0.0 ? 8.0 / rate : 1.0;
-  for (const int k : {kOrder - 1, kOrder}) {
-    const double size = std::max(q[k].norm(), spin > 0.0 ? H[k].norm() / spin : 0.0);
-    const auto term = [&] {
-      double power = 1.0;
-      for (int i = 0; i < k; ++i) power *= h;
-      return size * power;
-    };
-    while (term() > kNegligible) h *= 0.9;
-  }
+/// The longest step of which the last two terms of the series are negligible, to a tenth.
+/// @param most  [kg m²/s] that H can come to
+double arcLength(const std::vector<Vec4>& q, const std::vector<Vec3>& H, double most) {
+  const auto negligible = [&](double h) {
+    for (const int k : {kOrder - 1, kOrder}) {
+      double term = std::max(q[k].norm(), most > 0.0 ? H[k].norm() / most : 0.0);
+      for (int i = 0; i < k; ++i) term *= h;
+      if (!(term <= kNegligible)) return false;
+    }
+    return true;
+  };
+  double h = 1.0;
+  while (h < kLongest && negligible(h)) h *= 2.0;
+  while (h > 0.0 && !negligible(h)) h *= 0.9;
   return h;
 }
 
@@ -65,6 +66,7 @@ HeavyTop::HeavyTop(const RigidBody& start, const Pivot& pivot, const Vec3& gravi
   const double torque = weight_ * pivot.c_B.norm();
   const double energy = 0.5 * H_B_.dot(pivot.IbodyInv * H_B_) + 2.0 * torque;
   const double omega2 = 2.0 * energy / least;
+  most_ = std::sqrt(2.0 * energy * moments.maxCoeff());
   bound_ = omega2 + (torque + (moments.maxCoeff() - least) * omega2) / least;
 }
 
@@ -86,7 +88,7 @@ bool HeavyTop::addArc() {
     arc.q.push_back(0.5 * q / (k + 1));
   }
   if (!arc.q[kOrder].allFinite() || !arc.H_B[kOrder].allFinite()) return false;
-  arc.h = arcLength(arc.q, arc.H_B, std::sqrt(bound_));
+  arc.h = arcLength(arc.q, arc.H_B, most_);
   if (!(arc.h > kShortest * std::abs(end_))) return false;
   const double next = end_ + arc.h;
   arc.h = next - end_;  // so that the clock of the arcs does not round

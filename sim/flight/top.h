@@ -56,6 +56,7 @@ class HeavyTop {
   double t0_;     ///< [s] the instant that `body_` shows
   double end_;    ///< [s] the same instant
   double bound_;  ///< [1/s²] the most that ω² + |ω̇| can be
+  double most_;   ///< [kg m²/s] the most that |H| can be
   std::vector<Arc> arcs_;
 };
 

@@ -39,7 +39,8 @@ double exponential(double x) {
 }
 
 double agm(double a, double b) {
-  if (b == 0.0) return 0.0;
+  if (!std::isfinite(a + b)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(a > 0.0 && b > 0.0)) return 0.0;
   // The mean of two numbers that differ by δ is off by δ²/16.
   while (std::abs(a - b) > 1e-8 * a) {
     const double mean = 0.5 * (a + b);
@@ -50,6 +51,8 @@ double agm(double a, double b) {
 }
 
 double carlsonRF(double x, double y, double z) {
+  if (!std::isfinite(x + y + z)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(x + y > 0.0 && y + z > 0.0 && z + x > 0.0)) return std::numeric_limits<double>::infinity();
   for (;;) {
     const double mean = (x + y + z) / 3.0;
     const double X = 1.0 - x / mean, Y = 1.0 - y / mean, Z = -(X + Y);

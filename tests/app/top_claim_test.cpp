@@ -93,3 +93,20 @@ TEST_CASE("the claim of tops says when there is none") {
   CHECK_FALSE(rows[0].holds());
   CHECK(rows[0].label == "no body turns about a held point under gravity alone");
 }
+
+// Tops that are far from round about their pivot take arcs as long as they move, and their turning
+// does not depend on where they stand.
+TEST_CASE("pendulums on thin strings, far levers and far places keep the claim of tops") {
+  Scene scene = topScene("exact");
+  BodyDef& bob = scene.world.bodies[0];
+  bob.shape = Sphere{0.003};
+  bob.angularVelocity.setZero();
+  bob.pivot_B = Vec3(-1.0, 0.0, 0.0);
+  CHECK(holds(scene, record(scene, 60.0)));
+  scene = topScene("exact");
+  scene.world.bodies[0].pivot_B = Vec3(-100.0, 0.0, 0.0);
+  CHECK(holds(scene, record(scene, 60.0)));
+  scene = topScene("exact");
+  scene.world.bodies[0].position = {1e6, -3e5, 7.0};
+  CHECK(holds(scene, record(scene, 60.0)));
+}

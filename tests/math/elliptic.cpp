@@ -5,6 +5,7 @@
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
+#include <limits>
 
 #include "tests/catch.h"
 
@@ -62,4 +63,15 @@ TEST_CASE("Carlson's integral of the first kind is right in all its arguments") 
   INFO("measured " << worst * 1e16 << "e-16");
   CHECK(worst < 1e-15);
   CHECK(worst > 0.0);
+}
+
+TEST_CASE("elliptic integrals of what is not a number, or has no end, end") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  CHECK(std::isnan(agm(nan, 1.0)));
+  CHECK(std::isnan(agm(1.0, infinity)));
+  CHECK(agm(1.0, 0.0) == 0.0);
+  CHECK(std::isnan(carlsonRF(nan, 1.0, 1.0)));
+  CHECK(std::isnan(carlsonRF(infinity, 1.0, 1.0)));
+  CHECK(carlsonRF(0.0, 0.0, 1.0) == infinity);
 }

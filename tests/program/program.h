@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 /// A folder that is gone when the test ends.
@@ -32,8 +33,14 @@ struct Outcome {
   int code = -1;  ///< exit code, or 128 + number of the signal that ended it
   std::string out, err;
 
-  /// Lines on the error stream.
-  long lines() const { return std::count(err.begin(), err.end(), '\n'); }
+  /// Lines on the error stream, without those that tell a slow run's progress.
+  long lines() const {
+    long count = 0;
+    std::istringstream text(err);
+    for (std::string line; std::getline(text, line);)
+      count += line.find(" % after ") == std::string::npos;
+    return count;
+  }
   bool says(const std::string& text) const { return err.find(text) != std::string::npos; }
 };
 

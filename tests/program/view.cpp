@@ -12,8 +12,9 @@ TEST_CASE("the window opens on a virtual display, draws and closes") {
       "scene.toml",
       "[world]\nduration = 0.2\n[[body]]\nname = \"a\"\nshape = { sphere = 0.1 }\nmass = 1.0\n");
   const std::string server = "xvfb-run --auto-servernum --server-args='-screen 0 1280x800x24' ";
-  const std::string command = "cd '" + scratch.path.string() + "' && " + server + TUMBLE_PROGRAM +
-                              " view scene.toml --images 3 >log 2>&1";
+  // What the drivers of the display keep cannot be told by name once they are unloaded.
+  const std::string command = "cd '" + scratch.path.string() + "' && ASAN_OPTIONS=detect_leaks=0 " +
+                              server + TUMBLE_PROGRAM + " view scene.toml --images 3 >log 2>&1";
   const int status = std::system(command.c_str());
   CAPTURE(textOf(scratch.path / "log"));
   CHECK(WIFEXITED(status));
