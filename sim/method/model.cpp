@@ -53,4 +53,11 @@ Surface Model::surface(int a, int b) const {
   return s;
 }
 
+void requireStep(const std::string& path, double step, double duration) {
+  if (!(step > 0.0) || !std::isfinite(step))
+    throw Refusal(path, "a step must be a positive number of seconds");
+  if (duration / step > kMostSteps)
+    throw Refusal(path, "more than 1e11 steps would lead to the end; take longer ones");
+}
+
 }  // namespace tumble

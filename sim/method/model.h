@@ -97,6 +97,13 @@ class Refusal : public std::invalid_argument {
 /// Six digits of a number, for refusals and reasons; the same in every locale.
 std::string shortNumber(double value);
 
+/// The most steps that a run may ask for: a day or so.
+inline constexpr double kMostSteps = 1e11;
+
+/// @throws Refusal at that path unless the step [s] leads to the end of the duration [s] in at most
+/// kMostSteps steps.
+void requireStep(const std::string& path, double step, double duration);
+
 /// Restitution and friction of a pair of bodies.
 struct Surface {
   double restitution = 0.0, friction = 0.0;

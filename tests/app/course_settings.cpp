@@ -65,6 +65,9 @@ TEST_CASE("what a world cannot integrate or hold is told at its key") {
       "--set course.integrator=taylor: error: \"taylor\" needs a Taylor jet, which this scene does "
       "not offer");
   CHECK(refusal({"course.integrator=taylor", "course.attitude=quaternion"}).empty());
+  CHECK(refusal({"course.step=1e-12"}) ==
+        "--set course.step=1e-12: error: more than 1e11 steps would lead to the end; take longer "
+        "ones");
 }
 
 // Oracle: R itself. The corners of what is drawn are where the matrix has them, to the single

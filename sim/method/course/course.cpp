@@ -32,8 +32,7 @@ void checkCourse(const Model& model, std::span<const RigidBody> bodies) {
   const Integrator* row = findIntegrator(course.integrator);
   if (!row)
     throw Refusal("course.integrator", "no integrator is called \"" + course.integrator + "\"");
-  if (!(course.step > 0.0) || !std::isfinite(course.step))
-    throw Refusal("course.step", "a step must be a positive number of seconds");
+  requireStep("course.step", course.step, model.def.duration);
   if (course.plan != "backstep")
     throw Refusal("course.plan", "no plan is called \"" + course.plan + "\"; there is: backstep");
   if (course.contact != "constraint")

@@ -13,8 +13,7 @@ void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
   const SteppingSettings& stepping = model.def.stepping;
   if (!findSolver(stepping.solver))
     throw Refusal("stepping.solver", "no solver is called \"" + stepping.solver + "\"");
-  if (!(stepping.step > 0.0) || !std::isfinite(stepping.step))
-    throw Refusal("stepping.step", "a step must be a positive number of seconds");
+  requireStep("stepping.step", stepping.step, model.def.duration);
   if (!(stepping.tolerance > 0.0) || !std::isfinite(stepping.tolerance))
     throw Refusal("stepping.tolerance", "a tolerance must be a positive number");
   if (!model.pivots.empty())
