@@ -55,10 +55,21 @@ void readSettings(Section& section, Variant& variant) {
   }
 }
 
+// A line of a page, a legend and a table.
+void readLine(Section& section, std::string_view key, std::string& line) {
+  section.read(key, line);
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (std::any_of(line.begin(), line.end(), control))
+    section.complain(key, "expected one line without control characters, found " + inQuotes(line));
+}
+
 void readVariant(Section& section, std::string_view title, const std::vector<std::string>& parts,
                  Variant& variant) {
-  section.read(title, variant.title);
+  readLine(section, title, variant.title);
   section.read("bodies", variant.bodies);
+  const Node* bodies = section.find("bodies");
+  if (const Array* list = bodies ? bodies->as<Array>() : nullptr; list && list->empty())
+    section.complain("bodies", "expected at least one name; without this key all bodies live");
   for (const std::string& name : variant.bodies)
     if (std::find(parts.begin(), parts.end(), name) == parts.end())
       section.complain("bodies",
@@ -81,6 +92,8 @@ void readCurves(Section& chart, const std::vector<std::string>& parts, ChartDef&
     else if (section.find("values"))
       curve.along.values = readValues(section);
     section.finish();
+    if (section.good() && curve.variant.title.empty())
+      section.complain("label", "expected the curve's name, for example \"Euler\"");
   }
 }
 
@@ -166,7 +179,7 @@ void readPanels(Section& root, const std::vector<std::string>& parts, Scene& sce
     panel.spot = node.spot;
     Section section(node, "panel." + std::to_string(scene.panels.size() - 1), root.findings());
     readVariant(section, "title", parts, panel.variant);
-    section.read("subtitle", panel.subtitle);
+    readLine(section, "subtitle", panel.subtitle);
     section.read("picture", panel.picture, {"strobe", "still"});
     section.read("at", panel.at, notNegative("s"));
     if (section.find("at") && panel.picture != "still")
@@ -182,7 +195,7 @@ void readCharts(Section& root, const std::vector<std::string>& parts, Scene& sce
     ChartDef& chart = scene.charts.emplace_back();
     Section section(node, "chart." + index, root.findings(), "chart[" + index + "]");
     readVariant(section, "title", parts, chart.variant);
-    section.read("subtitle", chart.subtitle);
+    readLine(section, "subtitle", chart.subtitle);
     section.read("error", chart.error);
     if (chart.error.empty())
       section.complain("error", "expected the name of a check, whose largest error is drawn");

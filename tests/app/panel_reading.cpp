@@ -57,8 +57,8 @@ along = "course.step"
 values = [0.1, 0.01]
 floor = 1e-15
 set = { "world.gravity" = [0, 0, 0] }
-curves = [ { label = "E", set = { "course.integrator" = "euler" } }, { values = [1e-3] },
-           { along = "course.tolerance", values = [1e-6] } ]
+curves = [ { label = "E", set = { "course.integrator" = "euler" } }, { label = "F", values = [1e-3] },
+           { label = "G", along = "course.tolerance", values = [1e-6] } ]
 )",
                                  "s.toml");
   REQUIRE(scene.panels.size() == 2);
@@ -116,7 +116,8 @@ TEST_CASE("a wrong panel or chart is refused at its place, with what is meant") 
     std::string text, place, says;
   };
   const std::string chart =
-      "[[chart]]\nerror = \"arcs\"\nalong = \"course.step\"\nvalues = [1]\ncurves = [{}]\n";
+      "[[chart]]\nerror = \"arcs\"\nalong = \"course.step\"\nvalues = [1]\ncurves = [{ label = "
+      "\"E\" }]\n";
   const auto spoilt = [&](const std::string& what, const std::string& by) {
     std::string text = chart;
     return text.replace(text.find(what), what.size(), by);
@@ -142,11 +143,22 @@ TEST_CASE("a wrong panel or chart is refused at its place, with what is meant") 
       Wrong{spoilt("error = \"arcs\"", ""), "21:1", "chart.0.error: expected the name of a check"},
       Wrong{spoilt("along = \"course.step\"", ""), "21:1", "chart.0.along: expected a key"},
       Wrong{spoilt("values = [1]", "values = []"), "24:10", "expected a list of 1 to 10000"},
-      Wrong{spoilt("curves = [{}]", ""), "21:1", "chart.0.curves: expected 1 to 100 tables"},
-      Wrong{spoilt("[{}]", "[{ lable = \"a\" }]"), "25:13", "unknown key, did you mean 'label'"},
-      Wrong{spoilt("[{}]", "[{}]\ncost = \"time\""), "26:8", "valid: evaluations, cpu"},
-      Wrong{spoilt("[{}]", "[{}]\nfloor = 0"), "26:9", "chart.0.floor: expected a number > 0"},
-      Wrong{spoilt("course.step", "course.stp"), "23:9", "(as set in [[chart]] '')"});
+      Wrong{spoilt("curves = [{ label = \"E\" }]", ""), "21:1",
+            "chart.0.curves: expected 1 to 100 tables"},
+      Wrong{spoilt("label", "lable"), "25:13", "unknown key, did you mean 'label'"},
+      Wrong{spoilt("label = \"E\"", ""), "25:11",
+            "chart.0.curves.0.label: expected the curve's name"},
+      Wrong{spoilt("\"E\"", "\"\""), "25:21", "chart.0.curves.0.label: expected the curve's name"},
+      Wrong{spoilt("\"E\"", "\"E\\nF\""), "25:21", "label: expected one line without control"},
+      Wrong{spoilt("error", "title = \"a\\u001bb\"\nerror"), "22:9",
+            "chart.0.title: expected one line"},
+      Wrong{spoilt("error", "subtitle = \"a\\nb\"\nerror"), "22:12", "subtitle: expected one line"},
+      Wrong{"[[panel]]\nsubtitle = \"a\\tb\"", "22:12", "panel.0.subtitle: expected one line"},
+      Wrong{"[[panel]]\nbodies = []", "22:10", "panel.0.bodies: expected at least one name"},
+      Wrong{spoilt("error", "bodies = []\nerror"), "22:10", "chart.0.bodies: expected at least"},
+      Wrong{spoilt("}]", "}]\ncost = \"time\""), "26:8", "valid: evaluations, cpu"},
+      Wrong{spoilt("}]", "}]\nfloor = 0"), "26:9", "chart.0.floor: expected a number > 0"},
+      Wrong{spoilt("course.step", "course.stp"), "23:9", "(as set in [[chart]] 'E')"});
   CAPTURE(wrong.text);
   const std::string said = complaint(wrong.text);
   CAPTURE(said);
