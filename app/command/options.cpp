@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 #include "app/claim/verdict.h"
 #include "app/command/command.h"
@@ -44,10 +45,22 @@ void addSceneOptions(CLI::App& app, SceneOptions& options) {
   addOverrides(app, options.overrides);
 }
 
+CLI::Validator between(double lo, double hi) {
+  return CLI::Validator(
+      [lo, hi](const std::string& text) {
+        // What is no number at all is left to the conversion that follows.
+        const double value = std::strtod(text.c_str(), nullptr);
+        return value >= lo && value <= hi
+                   ? std::string()
+                   : fmt::format("expected a number from {:g} to {:g}, found {}", lo, hi, text);
+      },
+      fmt::format("from {:g} to {:g}", lo, hi));
+}
+
 void addRate(CLI::App& app, double& rate) {
   app.add_option("--rate", rate, "samples and images a second [the scene's own]")
       ->type_name("HZ")
-      ->check(CLI::Range(1e-3, 1e5));
+      ->check(between(1e-3, 1e5));
 }
 
 Scene load(const SceneOptions& options) {

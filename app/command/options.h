@@ -33,6 +33,9 @@ void addSceneOptions(CLI::App& app, SceneOptions& options);
 /// --set alone, for commands that take several scenes or none.
 void addOverrides(CLI::App& app, std::vector<std::string>& overrides);
 
+/// Refuses all but numbers in [lo, hi], NaN too.
+CLI::Validator between(double lo, double hi);
+
 /// --rate: samples or images a second; 0 stays the scene's own.
 void addRate(CLI::App& app, double& rate);
 

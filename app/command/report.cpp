@@ -71,7 +71,7 @@ int report(int argc, char** argv) {
   app.add_option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
   app.add_option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(between(0.0, 100.0));
   addOverrides(app, options.overrides);
   if (!app.read(argc, argv)) return kOk;
   if (options.scenes.empty()) options.scenes = reportScenes();

@@ -111,7 +111,13 @@ TEST_CASE("a command line that makes no sense ends with 2 and one line") {
       Slip{"render scene.toml --frames a:b", "a:b"}, Slip{"render scene.toml --size 0x0", "0x0"},
       Slip{"simulate scene.toml --set world.duration", "KEY=VALUE"},
       Slip{"simulate scene.toml --set =3", "KEY=VALUE"},
-      Slip{"simulate scene.toml --rate -5", "--rate"}, Slip{"golden no-such-demo", "no-such-demo"});
+      Slip{"simulate scene.toml --rate -5", "--rate"},
+      Slip{"simulate scene.toml --rate nan", "--rate"},
+      Slip{"render scene.toml --rate inf", "--rate"},
+      Slip{"render scene.toml --still nan", "--still"},
+      Slip{"report scene.toml --budget nan", "--budget"},
+      Slip{"report scene.toml --budget inf", "--budget"},
+      Slip{"golden no-such-demo", "no-such-demo"});
   CAPTURE(slip.arguments);
   const Scratch scratch;
   scratch.file("scene.toml", kBall);
