@@ -51,10 +51,10 @@ std::vector<Study> study(const Options& options) {
       Progress progress(scene.charts[k].variant.title);
       const double points = static_cast<double>(pointsOf(scene.charts[k]));
       double done = 0.0;
-      studies.push_back(
-          runStudy(scene, k, options.budget, [&] { progress.show(++done / points); }));
-      const Study& now = studies.back();
+      Study now = runStudy(scene, k, options.budget, [&] { progress.show(++done / points); });
+      now.name = freeName(scene.name, studies);
       writeFile(options.folder + "/" + now.name + ".csv", studyCsv(now));
+      studies.push_back(std::move(now));
     }
   }
   return studies;

@@ -112,9 +112,18 @@ double roundingFloor(const Scene& scene, const Scene& flown, const std::string& 
   return errors[static_cast<std::size_t>(members / 2)];
 }
 
+std::string freeName(const std::string& scene, std::span<const Study> earlier) {
+  const auto taken = [&](const std::string& name) {
+    return name == "table" || std::any_of(earlier.begin(), earlier.end(),
+                                          [&](const Study& study) { return study.name == name; });
+  };
+  std::string name = scene;
+  for (int number = 2; taken(name); ++number) name = scene + "-" + std::to_string(number);
+  return name;
+}
+
 Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDone& done) {
   Study study;
-  study.name = scene.name + (index == 0 ? "" : "-" + std::to_string(index + 1));
   study.scene = scene.title;
   study.chart = scene.charts[index];
   study.series = runChart(scene, study.chart, done);

@@ -1,20 +1,26 @@
 // One chart of a report: its errors, its costs, and the floor that rounding sets.
 #pragma once
 
+#include <span>
+
 #include "app/panel/chart_run.h"
 
 namespace tumble {
 
 /// A chart with everything that is measured of it. Errors and costs come from separate runs.
 struct Study {
-  std::string name;   ///< of its files: the scene's, and its number from the second chart on
+  std::string name;   ///< of its files
   std::string scene;  ///< title
   ChartDef chart;     ///< with `floor` set, cost "cpu"
   std::vector<ChartSeries> series;
   std::vector<std::optional<double>> orders;  ///< of each curve: error over the chart's number
 };
 
-/// Runs a chart of a scene.
+/// Name for the files of a scene's next study: the scene's own, or, where an earlier study or the
+/// headline table has that, with the first number from 2 on that is free.
+std::string freeName(const std::string& scene, std::span<const Study> earlier);
+
+/// Runs a chart of a scene; the study has no name yet.
 /// @param budget  [s] of CPU time for the cost of each point
 /// @throws SceneError
 Study runStudy(const Scene& scene, std::size_t chart, double budget, const RunDone& done);

@@ -136,6 +136,18 @@ TEST_CASE("the script draws every curve from the numbers beside it, the floor da
   CHECK(plotScript(bare, labelsOf(std::vector{bare}), "").find("dashtype") == std::string::npos);
 }
 
+TEST_CASE("every study writes files of its own, none over the headline table") {
+  std::vector<Study> studies;
+  for (const char* scene : {"st", "st", "st-2", "other", "st", "table"}) {
+    Study study;
+    study.name = freeName(scene, studies);
+    studies.push_back(study);
+  }
+  std::vector<std::string> names;
+  for (const Study& study : studies) names.push_back(study.name);
+  CHECK(names == std::vector<std::string>{"st", "st-2", "st-2-2", "other", "st-3", "table-2"});
+}
+
 TEST_CASE("the page shows figures only where they were drawn, and escapes what it quotes") {
   Study study = knownStudy();
   study.chart.variant.title = "A < B";

@@ -25,6 +25,10 @@ values = [0.1, 0.05]
 curves = [ { label = "RK4" } ]
 )";
 
+std::string with(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
 }  // namespace
 
 TEST_CASE("without gnuplot the numbers are there, and one line says what to install") {
@@ -45,4 +49,15 @@ TEST_CASE("a report of a scene without a chart is refused") {
   const Outcome outcome = tumbleRun(scratch, "report bare.toml -o out");
   CHECK(outcome.code == 3);
   CHECK(outcome.says("bare.toml: error: there is no [[chart]] in it"));
+}
+
+TEST_CASE("scenes of the same file name keep their numbers apart") {
+  const Scratch scratch;
+  std::filesystem::create_directories(scratch / "a");
+  std::filesystem::create_directories(scratch / "b");
+  scratch.file("a/st.toml", kScene + with(kChart, "RK4", "first"));
+  scratch.file("b/st.toml", kScene + with(kChart, "RK4", "second"));
+  tumbleRun(scratch, "report a/st.toml b/st.toml -o out --budget 0", "export PATH=/nowhere");
+  CHECK(textOf(scratch / "out/st.csv").find("first") != std::string::npos);
+  CHECK(textOf(scratch / "out/st-2.csv").find("second") != std::string::npos);
 }
