@@ -26,14 +26,28 @@ constexpr std::array kColours = {"#D55E00", "#0072B2", "#009E73", "#CC79A7", "#5
                                  "#000000", "#7F7F7F", "#882255", "#332288", "#999933"};
 constexpr std::array kMarkers = {7, 5, 9, 13, 11, 6, 4, 8, 12, 3, 10};
 
-// A text inside gnuplot's double quotes.
-std::string quotedText(const std::string& text) {
-  std::string out = "\"";
+struct Figure {
+  const char *kind, *terminal;
+};
+constexpr Figure kFigures[] = {
+    {"svg", "svg size 960,600 dynamic font 'Lato,13' background 'white'"},
+    {"png", "pngcairo size 960,600 font 'Lato,11'"},
+};
+
+// A text inside gnuplot's single quotes, where nothing but the quote has a meaning; within double
+// quotes it would run what stands between backticks.
+std::string quotedText(std::string_view text) {
+  std::string out = "'";
   for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\'') out += c;
     out += c == '\n' ? ' ' : c;
   }
-  return out + "\"";
+  return out + "'";
+}
+
+// A file beside the script, quoted; without a folder gnuplot takes a name like "<ls" for a command.
+std::string quotedFile(const Study& study, const char* kind) {
+  return quotedText(fmt::format("./{}.{}", study.name, kind));
 }
 
 std::string curveTitle(const Study& study, std::size_t i) {
@@ -41,14 +55,14 @@ std::string curveTitle(const Study& study, std::size_t i) {
   return study.orders[i] ? fmt::format("{}  (order {:.1f})", label, *study.orders[i]) : label;
 }
 
-constexpr const char* kStyle = R"(set datafile separator ","
+constexpr const char* kStyle = R"(set datafile separator ','
 set logscale xy
-set format xy "10^{%L}"
-set xlabel "error"
-set ylabel "CPU seconds per simulated second"
-set grid xtics ytics linecolor rgb "#d8dbe0"
-set border linecolor rgb "#5c636e"
-set key outside right top Left reverse samplen 2 spacing 1.15
+set format xy '10^{%L}'
+set xlabel 'error'
+set ylabel 'CPU seconds per simulated second'
+set grid xtics ytics linecolor rgb '#d8dbe0'
+set border linecolor rgb '#5c636e'
+set key outside right top Left reverse samplen 2 spacing 1.15 noenhanced
 )";
 
 // The decade [10^n] that every error and the floor lie above.
@@ -62,13 +76,16 @@ int leastDecade(const Study& study) {
 
 std::string curves(const Study& study, std::span<const std::string> labels) {
   std::string text;
+  std::size_t row = 0;  // of the numbers below their header
   for (std::size_t i = 0; i < study.series.size(); ++i) {
+    const std::size_t first = row;
+    row += study.series[i].points.size();
     const std::size_t style = static_cast<std::size_t>(
         std::find(labels.begin(), labels.end(), study.series[i].label) - labels.begin());
     text += fmt::format(
-        "{}\"{}.csv\" using (strcol(1) eq {} ? $4 : NaN):6 with linespoints linewidth {} "
-        "pointtype {} pointsize {} linecolor rgb \"{}\" title {}",
-        i == 0 ? "plot " : ", \\\n     ", study.name, quotedText(study.series[i].label),
+        "{}{} skip 1 every ::{}::{} using 4:6 with linespoints linewidth {} "
+        "pointtype {} pointsize {} linecolor rgb '{}' title {}",
+        i == 0 ? "plot " : ", \\\n     ", quotedFile(study, "csv"), first, row - 1,
         i == 0 ? 3.5 : 1.5, kMarkers[style % kMarkers.size()], i == 0 ? 1.1 : 0.8,
         kColours[style % kColours.size()], quotedText(curveTitle(study, i)));
   }
@@ -88,32 +105,31 @@ std::vector<std::string> labelsOf(std::span<const Study> studies) {
 
 std::string plotScript(const Study& study, std::span<const std::string> labels,
                        const std::string& caption) {
-  std::string script = fmt::format("# gnuplot {}.gp: draws {}.csv\n", study.name, study.name);
+  std::string script =
+      fmt::format("# gnuplot {}: draws {}\n", quotedFile(study, "gp"), quotedFile(study, "csv"));
   script += kStyle;
   script += fmt::format("set title {} noenhanced\n", quotedText(study.chart.variant.title));
-  script += fmt::format("set label 1 {} at graph 0, screen 0.055 font \",9\" noenhanced\n",
+  script += fmt::format("set label 1 {} at graph 0, screen 0.055 font ',9' noenhanced\n",
                         quotedText(study.chart.subtitle));
-  script += fmt::format("set label 2 {} at graph 0, screen 0.02 font \",9\" noenhanced\n",
+  script += fmt::format("set label 2 {} at graph 0, screen 0.02 font ',9' noenhanced\n",
                         quotedText(caption));
   script += fmt::format("set bmargin 6.5\nset xrange [1e{}:10]\n", leastDecade(study));
   if (study.chart.floor && *study.chart.floor > 0.0)
     script += fmt::format(
         "set arrow 1 from {0:.3g}, graph 0 to {0:.3g}, graph 1 nohead dashtype 2 linecolor rgb "
-        "\"#5c636e\"\nset label 3 \"rounding\" at {0:.3g}, graph 0.97 rotate by 90 right offset "
-        "0.8, 0 "
-        "font \",9\"\n",
+        "'#5c636e'\nset label 3 'rounding' at {0:.3g}, graph 0.97 rotate by 90 right offset "
+        "0.8, 0 font ',9'\n",
         *study.chart.floor);
-  for (const char* terminal : {"svg size 960,600 dynamic font \"Lato,13\" background \"white\"",
-                               "pngcairo size 960,600 font \"Lato,11\""}) {
-    const std::string kind(terminal, 3);
-    script += fmt::format("set terminal {}\nset output \"{}.{}\"\n", terminal, study.name, kind);
+  for (const Figure& figure : kFigures) {
+    script += fmt::format("set terminal {}\nset output {}\n", figure.terminal,
+                          quotedFile(study, figure.kind));
     script += curves(study, labels);
   }
   return script;
 }
 
 void runGnuplot(const std::string& folder, const std::string& name) {
-  std::string program = "gnuplot", script = name + ".gp";
+  std::string program = "gnuplot", script = "./" + name + ".gp";
   char* const arguments[] = {program.data(), script.data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -132,7 +148,7 @@ void runGnuplot(const std::string& folder, const std::string& name) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw FileError(
-        fmt::format("gnuplot could not draw '{}/{}'; see its words above", folder, script));
+        fmt::format("gnuplot could not draw '{}/{}.gp'; see its words above", folder, name));
 }
 
 }  // namespace tumble

@@ -61,3 +61,17 @@ TEST_CASE("scenes of the same file name keep their numbers apart") {
   CHECK(textOf(scratch / "out/st.csv").find("first") != std::string::npos);
   CHECK(textOf(scratch / "out/st-2.csv").find("second") != std::string::npos);
 }
+
+TEST_CASE("gnuplot runs nothing that a scene's texts say") {
+  if (std::system("command -v gnuplot >/dev/null") != 0) return;
+  const Scratch scratch;
+  const std::string label = R"('''`touch made` $(touch made) "a" 'b' @c \n {d <e> &''')";
+  scratch.file("orbit.toml", kScene + with(with(kChart, "\"RK4\"", label), "\"An orbit\"", label));
+  const Outcome outcome = tumbleRun(scratch, "report orbit.toml -o out --budget 0");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out/made"));
+  const std::string figure = textOf(scratch / "out/orbit.svg");
+  CHECK(figure.find(R"(`touch made` $(touch made) "a" 'b' @c \n {d &lt;e> &amp;)") !=
+        std::string::npos);
+}
