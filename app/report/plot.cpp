@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "app/file/file.h"
 
@@ -28,10 +29,11 @@ constexpr std::array kMarkers = {7, 5, 9, 13, 11, 6, 4, 8, 12, 3, 10};
 
 struct Figure {
   const char *kind, *terminal;
+  std::string_view end;  ///< of a whole file
 };
 constexpr Figure kFigures[] = {
-    {"svg", "svg size 960,600 dynamic font 'Lato,13' background 'white'"},
-    {"png", "pngcairo size 960,600 font 'Lato,11'"},
+    {"svg", "svg size 960,600 dynamic font 'Lato,13' background 'white'", "</svg>\n"},
+    {"png", "pngcairo size 960,600 font 'Lato,11'", "IEND\xAE\x42\x60\x82"},
 };
 
 // A text inside gnuplot's single quotes, where nothing but the quote has a meaning; within double
@@ -92,6 +94,50 @@ std::string curves(const Study& study, std::span<const std::string> labels) {
   return text + "\n";
 }
 
+std::string pathOf(const Figure& figure, const std::string& folder, const std::string& name) {
+  return fmt::format("{}/{}.{}", folder, name, figure.kind);
+}
+
+void removeFigures(const std::string& folder, const std::string& name) {
+  std::error_code ignored;
+  for (const Figure& figure : kFigures)
+    std::filesystem::remove(pathOf(figure, folder, name), ignored);
+}
+
+// gnuplot ends well even where it could not write all of a file, or nothing.
+void requireWhole(const Figure& figure, const std::string& folder, const std::string& name) {
+  const std::string path = pathOf(figure, folder, name);
+  std::string content = std::filesystem::exists(path) ? readFile(path) : "";
+  while (content.ends_with("\n\n")) content.pop_back();
+  if (!content.ends_with(figure.end))
+    throw FileError(fmt::format("gnuplot left '{}' {}; is there room on the disk?", path,
+                                content.empty() ? "empty" : "incomplete"));
+}
+
+// Runs gnuplot on <name>.gp in the folder.
+void execute(const std::string& folder, const std::string& name) {
+  std::string program = "gnuplot", script = "./" + name + ".gp";
+  char* const arguments[] = {program.data(), script.data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  pid_t process = -1;
+  const int error =
+      ::posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0)
+    throw FileError(fmt::format(
+        "cannot run gnuplot, which draws the figures: {}; install the package gnuplot-nox. The "
+        "numbers are in '{}'",
+        std::strerror(error), folder));
+  int status = -1;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw FileError(
+        fmt::format("gnuplot could not draw '{}/{}.gp'; see its words above", folder, name));
+}
+
 }  // namespace
 
 std::vector<std::string> labelsOf(std::span<const Study> studies) {
@@ -129,26 +175,15 @@ std::string plotScript(const Study& study, std::span<const std::string> labels,
 }
 
 void runGnuplot(const std::string& folder, const std::string& name) {
-  std::string program = "gnuplot", script = "./" + name + ".gp";
-  char* const arguments[] = {program.data(), script.data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t process = -1;
-  const int error =
-      ::posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0)
-    throw FileError(fmt::format(
-        "cannot run gnuplot, which draws the figures: {}; install the package gnuplot-nox. The "
-        "numbers are in '{}'",
-        std::strerror(error), folder));
-  int status = -1;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  // A figure of an earlier run would pass for one of this; after a failure none is left.
+  removeFigures(folder, name);
+  try {
+    execute(folder, name);
+    for (const Figure& figure : kFigures) requireWhole(figure, folder, name);
+  } catch (const FileError&) {
+    removeFigures(folder, name);
+    throw;
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw FileError(
-        fmt::format("gnuplot could not draw '{}/{}.gp'; see its words above", folder, name));
 }
 
 }  // namespace tumble

@@ -22,7 +22,8 @@ std::string plotScript(const Study& study, std::span<const std::string> labels,
 std::vector<std::string> labelsOf(std::span<const Study> studies);
 
 /// Runs gnuplot on <name>.gp in the folder.
-/// @throws FileError if it is not there or fails.
+/// @throws FileError if it is not there, fails, or leaves a figure that is not whole; then there is
+///         neither.
 void runGnuplot(const std::string& folder, const std::string& name);
 
 }  // namespace tumble

@@ -62,6 +62,33 @@ TEST_CASE("scenes of the same file name keep their numbers apart") {
   CHECK(textOf(scratch / "out/st-2.csv").find("second") != std::string::npos);
 }
 
+TEST_CASE("figures that gnuplot leaves out or unfinished end with 5, and none of them is left") {
+  struct Gnuplot {
+    std::string script, spoils;  ///< what it does; the figure that it is blamed for
+  };
+  const std::string svg = "echo '</svg>' >orbit.svg\n";
+  const std::string png = "printf 'IEND\\256B\\140\\202' >orbit.png\n";
+  const Gnuplot gnuplot = GENERATE_COPY(
+      Gnuplot{svg + png, ""}, Gnuplot{"exit 0", "orbit.svg"}, Gnuplot{png, "orbit.svg"},
+      Gnuplot{png + "echo '<svg>' >orbit.svg", "orbit.svg"}, Gnuplot{svg, "orbit.png"},
+      Gnuplot{svg + "echo PNG >orbit.png", "orbit.png"});
+  CAPTURE(gnuplot.script);
+  const Scratch scratch;
+  scratch.file("orbit.toml", kScene + kChart);
+  scratch.file("gnuplot", "#!/bin/sh\n" + gnuplot.script);
+  // A figure of an earlier run does not count.
+  const Outcome outcome = tumbleRun(
+      scratch, "report orbit.toml -o out --budget 0",
+      "mkdir out; echo '</svg>' >out/orbit.svg; chmod +x gnuplot; export PATH=$PWD:$PATH");
+  CAPTURE(outcome.err);
+  const bool whole = gnuplot.spoils.empty();
+  CHECK(outcome.code == (whole ? 0 : 5));
+  CHECK(outcome.lines() == (whole ? 0 : 1));
+  if (!whole) CHECK(outcome.says("out/" + gnuplot.spoils));
+  CHECK(std::filesystem::exists(scratch / "out/orbit.svg") == whole);
+  CHECK(std::filesystem::exists(scratch / "out/orbit.png") == whole);
+}
+
 TEST_CASE("gnuplot runs nothing that a scene's texts say") {
   if (std::system("command -v gnuplot >/dev/null") != 0) return;
   const Scratch scratch;
