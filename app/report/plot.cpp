@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 #include "app/file/file.h"
 
@@ -67,13 +68,17 @@ set border linecolor rgb '#5c636e'
 set key outside right top Left reverse samplen 2 spacing 1.15 noenhanced
 )";
 
-// The decade [10^n] that every error and the floor lie above.
-int leastDecade(const Study& study) {
-  double least = study.chart.floor.value_or(1.0);
+// The errors drawn: from the decade of the least, or of the floor if that is below, to 10, or as
+// far as the least needs.
+std::string errorRange(const Study& study) {
+  double least = std::numeric_limits<double>::max();
   for (const ChartSeries& series : study.series)
     for (const ChartPoint& point : series.points)
       if (point.error > 0.0) least = std::min(least, point.error);
-  return static_cast<int>(std::floor(std::log10(least)));
+  const double floor = study.chart.floor.value_or(0.0);
+  const auto decade = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };
+  return fmt::format("[1e{}:1e{}]", decade(floor > 0.0 ? std::min(least, floor) : least),
+                     std::max(1, decade(least) + 1));
 }
 
 std::string curves(const Study& study, std::span<const std::string> labels) {
@@ -159,7 +164,7 @@ std::string plotScript(const Study& study, std::span<const std::string> labels,
                         quotedText(study.chart.subtitle));
   script += fmt::format("set label 2 {} at graph 0, screen 0.02 font ',9' noenhanced\n",
                         quotedText(caption));
-  script += fmt::format("set bmargin 6.5\nset xrange [1e{}:10]\n", leastDecade(study));
+  script += fmt::format("set bmargin 6.5\nset xrange {}\n", errorRange(study));
   if (study.chart.floor && *study.chart.floor > 0.0)
     script += fmt::format(
         "set arrow 1 from {0:.3g}, graph 0 to {0:.3g}, graph 1 nohead dashtype 2 linecolor rgb "

@@ -95,6 +95,17 @@ void nudge(BodyDef& body, Random& random) {
   body.orientation = (Quat(1.0, small.x(), small.y(), small.z()) * q).normalized();
 }
 
+// Refuses a chart without a single such error where its check is named.
+void requireError(const Scene& scene, std::size_t index, const std::vector<ChartSeries>& series,
+                  bool (*such)(double error), const std::string& otherwise) {
+  for (const ChartSeries& one : series)
+    for (const ChartPoint& point : one.points)
+      if (such(point.error)) return;
+  const std::string where = fmt::format("chart[{}].error", index);
+  throw SceneError({{scene.places.at(where), where + ": the check '" + scene.charts[index].error +
+                                                 "' finds " + otherwise}});
+}
+
 }  // namespace
 
 double roundingFloor(const Scene& scene, const Scene& flown, const std::string& check,
@@ -127,6 +138,9 @@ Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDo
   study.scene = scene.title;
   study.chart = scene.charts[index];
   study.series = runChart(scene, study.chart, done);
+  requireError(
+      scene, index, study.series, [](double error) { return std::isfinite(error); },
+      "nothing in these runs that it could hold, or they all stop");
 
   // The floor, by the best method here; the orders above it.
   ChartDef& chart = study.chart;
@@ -142,6 +156,9 @@ Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDo
       for (ChartPoint& point : study.series[i].points)
         point.error = std::max(point.error, *chart.floor);
   }
+  requireError(
+      scene, index, study.series, [](double error) { return std::isfinite(error) && error > 0.0; },
+      "no error in these runs, and the axis is logarithmic");
   chart.cost = "cpu";
 
   // The costs, each from runs of its own.

@@ -22,7 +22,7 @@ std::string freeName(const std::string& scene, std::span<const Study> earlier);
 
 /// Runs a chart of a scene; the study has no name yet.
 /// @param budget  [s] of CPU time for the cost of each point
-/// @throws SceneError
+/// @throws SceneError, also if no run has an error that can be drawn.
 Study runStudy(const Scene& scene, std::size_t chart, double budget, const RunDone& done);
 
 /// The error that double precision leaves whatever the method: starts that differ by a unit in the

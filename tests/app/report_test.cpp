@@ -130,11 +130,18 @@ TEST_CASE("the script draws every curve from the numbers beside it, the floor da
   CHECK(script.find("title 'first'") != std::string::npos);
   CHECK(script.find("set output './known.svg'") != std::string::npos);
   CHECK(script.find("set output './known.png'") != std::string::npos);
+  CHECK(script.find("set xrange [1e-15:1e1]\n") != std::string::npos);
   CHECK(script.find("from 1e-15, graph 0") != std::string::npos);
   CHECK(script.find("this machine") != std::string::npos);
   Study bare = knownStudy();
   bare.chart.floor.reset();
   CHECK(plotScript(bare, labelsOf(std::vector{bare}), "").find("dashtype") == std::string::npos);
+  // The least error is in the picture however large it is.
+  Study wild = knownStudy();
+  for (ChartSeries& series : wild.series)
+    for (ChartPoint& point : series.points) point.error *= 2e15;
+  CHECK(plotScript(wild, labelsOf(std::vector{wild}), "").find("set xrange [1e-15:1e4]\n") !=
+        std::string::npos);
 }
 
 // Within gnuplot's single quotes nothing but the quote has a meaning.

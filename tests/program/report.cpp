@@ -102,3 +102,21 @@ TEST_CASE("gnuplot runs nothing that a scene's texts say") {
   CHECK(figure.find(R"(`touch made` $(touch made) "a" 'b' @c \n {d &lt;e> &amp;)") !=
         std::string::npos);
 }
+
+TEST_CASE("a chart without an error that can be drawn is refused where its check is named") {
+  const std::string free = kScene.substr(0, kScene.find("[[force]]"));
+  struct Case {
+    std::string scene, says;
+  };
+  const Case chart = GENERATE_COPY(
+      Case{free + kChart, "the check 'orbit' finds nothing in these runs"},
+      Case{with(free, "\"particle\"", "{ sphere = 0.5 }") + with(kChart, "\"orbit\"", "\"weight\""),
+           "the check 'weight' finds no error in these runs"});
+  const Scratch scratch;
+  scratch.file("orbit.toml", chart.scene);
+  const Outcome outcome = tumbleRun(scratch, "report orbit.toml -o out --budget 0");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 3);
+  CHECK(outcome.lines() == 1);
+  CHECK(outcome.says("orbit.toml:11:9: error: chart[0].error: " + chart.says));
+}
