@@ -9,6 +9,7 @@
 
 #include "app/file/data.h"
 #include "app/file/file.h"
+#include "app/scene/obj_lines.h"
 
 namespace tumble {
 
@@ -27,35 +28,39 @@ void addPoint(void* raw, double x, double y, double z, double) {
   static_cast<Raw*>(raw)->points.emplace_back(x, y, z);
 }
 
-// A file counts points from 1, or backwards from the latest by negative numbers.
+// A file counts points from 1.
 void addFace(void* target, tinyobj::index_t* indices, int count) {
   Raw& raw = *static_cast<Raw*>(target);
   std::vector<int> face;
-  for (int k = 0; k < count; ++k) {
-    const int i = indices[k].vertex_index;
-    face.push_back(i < 0 ? static_cast<int>(raw.points.size()) + i : i - 1);
-  }
+  for (int k = 0; k < count; ++k) face.push_back(indices[k].vertex_index - 1);
   raw.faces.push_back(std::move(face));
 }
 
-// Line, counted from 1, on which face number `face` stands; 0 for none.
+// Line, counted from 1, on which face number `face` of a cleaned text stands; 0 for none.
 int lineOf(const std::string& text, int face) {
   std::istringstream lines(text);
   std::string line;
   int number = 0, seen = -1;
   while (std::getline(lines, line)) {
     ++number;
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line.compare(first, 1, "f") != 0) continue;
-    const char next = first + 1 < line.size() ? line[first + 1] : '\0';
-    if ((next == ' ' || next == '\t') && ++seen == face) return number;
+    if (line.starts_with("f ") && ++seen == face) return number;
   }
   return 0;
 }
 
+// The checked text of a file, or why it is refused.
+std::string cleaned(const std::string& text, const std::string& file) {
+  try {
+    return cleanObj(text, file);
+  } catch (const ObjError& reason) {
+    throw MeshError(reason.what());
+  }
+}
+
 }  // namespace
 
-std::shared_ptr<const Polyhedron> parseMesh(const std::string& text, const std::string& file) {
+std::shared_ptr<const Polyhedron> parseMesh(const std::string& given, const std::string& file) {
+  const std::string text = cleaned(given, file);
   Raw raw;
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = addPoint;

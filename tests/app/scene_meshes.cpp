@@ -46,6 +46,18 @@ const char* kEll =
     " { box = [1, 1, 1], position = [11.5, 0.5, 0.5], orientation = [0, 1, 0, 0] },"
     " { box = [1, 1, 1], position = [10.5, 1.5, 0.5] } ] }";
 
+// Why a mesh file is refused; "" if it is not.
+std::string why(const std::string& text) {
+  try {
+    parseMesh(text, "m.obj");
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string kCorners = "# a tetrahedron\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
 }  // namespace
 
 // Oracle: the L of three cubes by hand.
@@ -107,21 +119,46 @@ TEST_CASE("what cannot be weighed is refused where it is written") {
 }
 
 TEST_CASE("a mesh file that bounds no solid is refused with its line") {
-  const auto why = [](const std::string& text) -> std::string {
-    try {
-      parseMesh(text, "m.obj");
-    } catch (const MeshError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  const std::string points = "# a tetrahedron\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string points = kCorners;
   CHECK(why(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n").empty());
   CHECK(why(points + "f 1/1/1 3//2 2\nf -4 -3 -1\ng other\nf 1 4 3\nf 2 3 4\n").empty());
   CHECK(says(why(points + "f 1 3 2\nf 1 2 4\nf 1 4 3\n"),
              "m.obj:7: the edge from point 2 (1, 0, 0) to point 4 (0, 0, 1) has a face on one"));
   CHECK(says(why(points + "f 1 3 2\n\n# turned\nf 1 4 2\nf 1 4 3\nf 2 3 4\n"), "m.obj:9: "));
   CHECK(says(why(points), "no faces"));
+}
+
+TEST_CASE("a word of a mesh file that is no number is refused where it stands") {
+  const std::string number = "expected a finite number, found '";
+  for (const std::string word : {"1,5", "1.0.0", "1d0", "1e3x", "nan", "inf", "-inf", "a", "0x0",
+                                 "1e999", "+-1", "+", "1/2"})
+    CHECK(why("v 0 " + word + " 1\n") == "m.obj:1:5: " + number + word + "'");
+  CHECK(why("v 0 0 0\n\tv 0 0\n") == "m.obj:2:2: expected three numbers or more, found 2");
+  const std::string shape = "expected the number of a point, like 3, 3/1, 3//2 or 3/1/2, found '";
+  for (const std::string word : {"1.5", "1x", "99999999999999999999", "x", "1/", "1//", "1/2/",
+                                 "/1", "1/x", "1//1.5", "1/2/3/4", "--1"})
+    CHECK(why(kCorners + "f 2 " + word + " 4 3\n") == "m.obj:6:5: " + shape + word + "'");
+  for (const std::string word : {"0", "5", "-5", "4294967297", "5/1"})
+    CHECK(why(kCorners + "f " + word + " 2 4 3\n") ==
+          "m.obj:6:3: expected a point from 1 to 4, or from -1 back to -4, found '" + word + "'");
+  CHECK(why("f 1 2 3\n") == "m.obj:1:3: expected points above the first face, found '1'");
+  CHECK(why(kCorners + "f\n") == "m.obj:6:1: expected three points or more, found 0");
+  CHECK(why(kCorners + "hello world\n") ==
+        "m.obj:6:1: expected v, f or another keyword of OBJ files, found 'hello'");
+}
+
+// Oracle: the same tetrahedron plainly written.
+TEST_CASE("a mesh file may hold comments, joined lines and what a solid does not need") {
+  const std::string plain = kCorners + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string rich =
+      "\xEF\xBB\xBFmtllib a b.mtl\r\no thing # 1\r\nv 0. 0 +0 1.0\r\nv 1 0 0 .5 .5 .5\r\n"
+      "v 0 1e0 \\\r\n 0\r\n\tv 0 0 1#up\r\nvt 0 0\r\nvn 0 0 1\r\ng a\r\ns off\r\nusemtl m\r\n"
+      "f 1/1/1 3//1 \\\r\n2/1 # below\r\nf -4 -3 -1\r\nf 1 4\\\r\n3\r\nl 1 2\r\np 1\r\nf 2 3 4";
+  CHECK(why(rich).empty());
+  CHECK(parseMesh(rich, "m.obj")->points == parseMesh(plain, "m.obj")->points);
+  CHECK(parseMesh(rich, "m.obj")->faces == parseMesh(plain, "m.obj")->faces);
+  CHECK(says(why(kCorners + "f 1 \\\n 3 2\nf 1 2 4\nf 1 4 3\n"), "m.obj:8: the edge"));
+  CHECK(says(why(kCorners + "f 1 \\\n 3 x\n"), "m.obj:7:4: "));
 }
 
 // Oracle: the parts' own areas; cosines of smooth and sharp edges.
