@@ -57,6 +57,13 @@ std::string cleaned(const std::string& text, const std::string& file) {
   }
 }
 
+// What stands at a path that is no regular file.
+std::string kindOf(fs::file_type type) {
+  if (type == fs::file_type::directory) return "a folder";
+  if (type == fs::file_type::character || type == fs::file_type::block) return "a device";
+  return "no regular file";
+}
+
 }  // namespace
 
 std::shared_ptr<const Polyhedron> parseMesh(const std::string& given, const std::string& file) {
@@ -95,7 +102,12 @@ std::string meshPath(const std::string& mesh, const std::string& sceneFile) {
   std::error_code ignored;
   for (const fs::path& place : places)
     if (fs::is_regular_file(place, ignored)) return place.string();
-  throw MeshError("no file '" + places[0].string() + "' or '" + places[1].string() + "'");
+  for (const fs::path& place : places)
+    if (const fs::file_status status = fs::status(place, ignored); fs::exists(status))
+      throw MeshError("expected an OBJ file, found " + kindOf(status.type()) + " '" +
+                      place.string() + "'");
+  const std::string second = places[1] == places[0] ? "" : " or '" + places[1].string() + "'";
+  throw MeshError("no file '" + places[0].string() + "'" + second);
 }
 
 }  // namespace tumble

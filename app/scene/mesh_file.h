@@ -25,7 +25,7 @@ std::shared_ptr<const Polyhedron> readMesh(const std::string& path);
 std::shared_ptr<const Polyhedron> parseMesh(const std::string& text, const std::string& file);
 
 /// Path of a mesh that a scene names: beside the scene, else among the program's own meshes.
-/// @throws MeshError naming the places that were tried.
+/// @throws MeshError naming the places that were tried, or what stands there instead of a file.
 std::string meshPath(const std::string& mesh, const std::string& sceneFile);
 
 }  // namespace tumble

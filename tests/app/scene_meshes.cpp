@@ -107,6 +107,12 @@ TEST_CASE("a kick sets a body moving and turning") {
 TEST_CASE("what cannot be weighed is refused where it is written") {
   CHECK(says(refusalOf("shape = { mesh = \"missing.obj\" }"),
              "s.toml:7:18: error: body.b.shape.mesh: no file 'missing.obj' or '"));
+  CHECK(says(refusalOf("shape = { mesh = \"/missing.obj\" }"), "mesh: no file '/missing.obj'"));
+  CHECK_FALSE(says(refusalOf("shape = { mesh = \"/missing.obj\" }"), " or "));
+  CHECK(says(refusalOf("shape = { mesh = \"/tmp\" }"),
+             "expected an OBJ file, found a folder '/tmp'"));
+  CHECK(says(refusalOf("shape = { mesh = \"/dev/null\" }"),
+             "expected an OBJ file, found a device '/dev/null'"));
   CHECK(says(refusalOf("shape = { compound = [] }"), "expected a list of parts"));
   CHECK(says(refusalOf("shape = { compound = [ { plane = [0, 1, 0, 0] } ] }"), "plane"));
   CHECK(says(refusalOf("shape = { compound = [ { box = [1, 1, 1], sphere = 1 } ] }"),
