@@ -60,6 +60,16 @@ RigidBody particleOf(const BodyDef& def, std::size_t i) {
   return body;
 }
 
+/// A solid at rest. A surface with pieces inside out takes mass away where there is none.
+RigidBody solidOf(const BodyDef& def, std::size_t i) {
+  const MassProperties mass = checkedMass(def, i);
+  try {
+    return makeBody(mass);
+  } catch (const std::invalid_argument& reason) {
+    throw Refusal(bodyPath(i, ".shape"), "\"" + def.name + "\" is no solid: " + reason.what());
+  }
+}
+
 RigidBody bodyOf(const BodyDef& def, std::size_t i) {
   need(def.position.allFinite(), bodyPath(i, ".position"), "a position must be finite");
   need(def.velocity.allFinite(), bodyPath(i, ".velocity"), "a velocity must be finite");
@@ -88,7 +98,7 @@ RigidBody bodyOf(const BodyDef& def, std::size_t i) {
   }
   if (def.fixed) return makeFixedBody(pose, def.velocity, def.angularVelocity);
   if (std::holds_alternative<Particle>(def.shape)) return particleOf(def, i);
-  RigidBody body = makeBody(checkedMass(def, i));
+  RigidBody body = solidOf(def, i);
   body.x = pose.x;
   body.q = pose.q;
   updateDerived(body);

@@ -153,6 +153,29 @@ TEST_CASE("a word of a mesh file that is no number is refused where it stands") 
         "m.obj:6:1: expected v, f or another keyword of OBJ files, found 'hello'");
 }
 
+TEST_CASE("a surface that weighs like no solid is refused at the shape of its body") {
+  Polyhedron apart;  // a cube, and one inside out where no mass is
+  for (int k = 0; k < 16; ++k)
+    apart.points.push_back((k < 8 ? 1.0 : 0.5) * Vec3(k & 1, k >> 1 & 1, k >> 2 & 1) +
+                           Vec3(k < 8 ? 0.0 : 5.0, 0.0, 0.0));
+  for (std::vector<int> face : std::vector<std::vector<int>>{
+           {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    apart.faces.push_back(face);
+    std::reverse(face.begin(), face.end());
+    for (int& i : face) i += 8;
+    apart.faces.push_back(face);
+  }
+  Scene scene = parseScene(bodyWith("shape = { sphere = 1 }"), "s.toml");
+  scene.world.bodies[0].shape = Mesh{std::make_shared<const Polyhedron>(apart), Vec3::Zero()};
+  try {
+    World world(scene.world);
+    FAIL("not refused");
+  } catch (const Refusal& refusal) {
+    CHECK(format(locate(scene, refusal)) ==
+          "s.toml:7:9: error: \"b\" is no solid: inertia: must be symmetric and positive definite");
+  }
+}
+
 // Oracle: the same tetrahedron plainly written.
 TEST_CASE("a mesh file may hold comments, joined lines and what a solid does not need") {
   const std::string plain = kCorners + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
