@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "sim/shape/shells.h"
+
 namespace tumble {
 namespace {
 
@@ -161,6 +163,7 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
   checkFaces(solid, given);
   checkEdges(solid, given);
   checkOutside(solid, given);
+  checkShells(solid);
 
   std::vector<std::vector<int>> flat;
   for (std::vector<int>& face : solid.faces) {

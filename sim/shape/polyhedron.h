@@ -32,8 +32,8 @@ class NotASolid : public std::invalid_argument {
 /// from all, so that a body far from its author's origin keeps all its digits. A face that is not
 /// flat to 1e-12 of its size is cut into triangles.
 /// @throws NotASolid  with the offending edge, for an index without a point, an edge of no length,
-///                    a face without area, an edge with one face, with three, or with two that run
-///                    the same way, a polyhedron that is inside out, or one without faces.
+///                    a face without area, an edge with one face, with three, or two that run the
+///                    same way, shells that overlap or are inside out, or a list without faces.
 Polyhedron makePolyhedron(std::vector<Vec3> points, std::vector<std::vector<int>> faces);
 
 /// Twice the area vector [m²] of a face, outward:  Σ (pᵢ − p₀) × (pᵢ₊₁ − p₀)  (Newell).

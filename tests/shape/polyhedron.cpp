@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/body/mass_properties.h"
+#include "sim/math/rotation.h"
 #include "tests/body/solids.h"
 #include "tests/catch.h"
 
@@ -18,6 +20,22 @@ std::string refusal(const solids::Raw& raw) {
     return reason.what();
   }
   return "";
+}
+
+/// Two surfaces in one list, the second turned inside out at will.
+solids::Raw both(solids::Raw a, const solids::Raw& b, bool turned) {
+  const int first = static_cast<int>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (std::vector<int> face : b.faces) {
+    for (int& i : face) i += first;
+    if (turned) std::reverse(face.begin() + 1, face.end());
+    a.faces.push_back(face);
+  }
+  return a;
+}
+
+solids::Raw cube(const Vec3& lo, double edge) {
+  return solids::box(lo, lo + Vec3::Constant(edge));
 }
 
 bool says(const std::string& text, const char* part) {
@@ -62,6 +80,52 @@ TEST_CASE("a surface that bounds no solid is refused with the offending edge") {
   missing.faces[0][0] = 8;
   CHECK(says(refusal(missing), "names point 9 of 8"));
   CHECK(says(refusal({{}, {}}), "no faces"));
+}
+
+TEST_CASE("shells that are counted twice or as less than nothing are refused") {
+  const solids::Raw unit = cube(Vec3::Zero(), 1.0);
+  const std::string second = "the shell of face 7 at point 9 ", first = "the shell of face 1";
+  const std::string overlap =
+      second + "overlaps " + first + " at point 1; what they share would be counted twice";
+  CHECK(refusal(both(unit, unit, false)) == overlap);
+  for (const Vec3& aside :
+       {Vec3(0.5, 0.0, 0.0), Vec3(0.0, -0.5, 0.0), Vec3(0.9, 0.9, -0.8), Vec3(0.3, 0.2, 0.1)})
+    for (const bool turned : {false, true})
+      CHECK(refusal(both(unit, cube(aside, 0.9), turned)) == overlap);
+  CHECK(refusal(both(unit, cube(Vec3(5.0, 0.0, 0.0), 0.5), true)) ==
+        second + "is inside out, and no other is around it");
+  CHECK(refusal(both(unit, cube(Vec3(0.25, 0.3, 0.35), 0.3), false)) ==
+        second + "lies inside " + first +
+            " and is counted twice; the faces of a cavity run the other way round");
+  CHECK(refusal(both(cube(Vec3(0.25, 0.3, 0.35), 0.3), unit, false)) ==
+        "the shell of face 1 at point 1 lies inside the shell of face 7 and is counted twice; the "
+        "faces of a cavity run the other way round");
+  const solids::Raw hollow = both(unit, cube(Vec3(0.1, 0.1, 0.1), 0.8), true);
+  CHECK(refusal(both(hollow, cube(Vec3(0.3, 0.3, 0.3), 0.2), true)) ==
+        "the shell of face 13 at point 17 is inside out, and so is the cavity around it");
+}
+
+// Oracle: volumes by hand.
+TEST_CASE("shells may lie apart, touch, and bound cavities with solids in them") {
+  const solids::Raw unit = cube(Vec3::Zero(), 1.0);
+  const auto volume = [](const solids::Raw& raw) { return tumble::volume(raw.mesh()); };
+  for (const Vec3& aside : {Vec3(5.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, -1.0, 0.0),
+                            Vec3(1.0, 0.5, 0.5), Vec3(1.0, 1.0, 1.0), Vec3(0.0, 1.0, 0.3)})
+    for (const double angle : {0.0, 0.7}) {
+      const Quat tilt = fromAxisAngle(Vec3(1.0, 2.0, 3.0).normalized(), angle);
+      const solids::Raw pair = solids::turned(both(unit, cube(aside, 1.0), false), tilt);
+      CHECK(volume(pair) == Approx(2.0).epsilon(1e-13));
+    }
+  const solids::Raw hollow = both(unit, cube(Vec3(0.01, 0.01, 0.01), 0.98), true);
+  CHECK(volume(hollow) == Approx(1.0 - 0.98 * 0.98 * 0.98).epsilon(1e-13));
+  const solids::Raw core = both(hollow, cube(Vec3(0.3, 0.3, 0.3), 0.5), false);
+  CHECK(volume(core) == Approx(1.125 - 0.98 * 0.98 * 0.98).epsilon(1e-13));
+  // One ring through another: their boxes meet, they do not.
+  solids::Raw ring = solids::torus(1.0, 0.3, 24, 12);
+  const double one = volume(ring);
+  for (Vec3& p : ring.points) p = Vec3(p.x() + 1.0, -p.z(), p.y());
+  CHECK(volume(both(solids::torus(1.0, 0.3, 24, 12), ring, false)) ==
+        Approx(2.0 * one).epsilon(1e-13));
 }
 
 // Oracle: areas by hand.
