@@ -112,7 +112,8 @@ std::string contactsCsv(const Recording& recording, const Scene& scene) {
 std::string summaryJson(const Recording& recording, const Scene& scene) {
   nlohmann::ordered_json json;
   for (const auto& [key, number] : kCertificateFields)
-    std::visit([&](auto field) { json[key] = recording.report.certificate.*field; }, number);
+    std::visit([&, key = key](auto field) { json[key] = recording.report.certificate.*field; },
+               number);
   json["cpu_seconds"] = recording.cpuSeconds;
   json["method"] = scene.world.method;
   json["features"] = recording.features;

@@ -10,7 +10,7 @@ for compiler in g++ clang++; do
     build=$root/$compiler-$level
     cmake -G Ninja -S . -B "$build" -DTUMBLE_TESTS=OFF -DCMAKE_CXX_COMPILER=$compiler \
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-$level" >/dev/null
-    cmake --build "$build" --target tumble >/dev/null
+    cmake --build "$build" --target tumble >"$build/log" || { cat "$build/log" && exit 1; }
     for scene in assets/demos/*.toml; do
       "$build/tumble" simulate "$scene" -o "$build/out/$(basename "$scene" .toml)" >/dev/null
     done
