@@ -7,8 +7,10 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
 cmake --install "$1" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
-# The consumer is compiled with the flags of the build: those of the sanitizers have to agree.
-flags=$(sed -n 's/^CMAKE_CXX_FLAGS:STRING=//p' "$1/CMakeCache.txt")
+# The consumer is compiled with the flags of the build: those of the sanitizers have to agree, and
+# those of the processor, by which Eigen aligns.
+flags=$(sed -n -e 's/^CMAKE_CXX_FLAGS:STRING=//p' -e 's/^CMAKE_CXX_FLAGS_RELEASE:STRING=//p' "$1/CMakeCache.txt" |
+  tr '\n' ' ')
 cmake -G Ninja -S "$house/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
   -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="$flags" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 cmake --build "$scratch/build"

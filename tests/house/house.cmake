@@ -11,8 +11,10 @@ set(house ${CMAKE_CURRENT_SOURCE_DIR}/house)
 house_test("sources are laid out as .clang-format says" quick 60 ${house}/format.sh)
 house_test("scene files survive ten minutes of fuzzing" long 1800 ${house}/fuzz.sh)
 if(TUMBLE_APP)
-  house_test("every demo gives its approved images and numbers" quick 1200
-             $<TARGET_FILE:tumble> golden -o ${PROJECT_BINARY_DIR}/golden)
+  if(NOT CMAKE_CXX_FLAGS_RELEASE MATCHES "march=native")  # there bits are not promised
+    house_test("every demo gives its approved images and numbers" quick 1200
+               $<TARGET_FILE:tumble> golden -o ${PROJECT_BINARY_DIR}/golden)
+  endif()
   house_test("a project of ten lines finds the installed package" quick 120
              ${house}/consumer.sh ${PROJECT_BINARY_DIR})
   house_test("both compilers give the same bits at -O1 and -O3" long 3600
