@@ -93,7 +93,6 @@ struct Close {
 
 std::vector<Close> closeSamples(const Recording& recording, const Spinner& spinner,
                                 const Middle& middle) {
-  constexpr double kTurn = 2e-3;  // [rad] a step
   const Mat3 inverse = spinner.inertia.inverse();
   const double most = spinner.fastest();
   std::vector<Close> close;
@@ -107,8 +106,7 @@ std::vector<Close> closeSamples(const Recording& recording, const Spinner& spinn
     const int parts = static_cast<int>(std::ceil(most * h / kApart));
     FreeRotor rotor{inverse, spinner.momentum(seen), seen.q};
     for (int part = 1; part < parts; ++part) {
-      const int steps = 1 + static_cast<int>(most * h / parts / kTurn);
-      for (int i = 0; i < steps; ++i) rotor.q = rotor.after(h / parts / steps);
+      rotor.advance(h / parts, most);
       seen.q = rotor.q.normalized();
       seen.omega = rotor.omega(seen.q);
       close.push_back({now.t + h * part / parts, middle.heightOf(spinner, seen)});

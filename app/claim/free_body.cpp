@@ -60,6 +60,25 @@ Vec3 angularMomentum(const Mat3& inertia, const Quat& q, const Vec3& omega) {
   return q * L_B;
 }
 
+double spinRounding(const Mat3& inertia) {
+  return 4e-16 * inertia.norm() * inertia.inverse().norm();
+}
+
+double untouchedUntil(const Scene& scene, const Recording& recording, int body) {
+  double end = scene.world.duration;
+  for (const Event& event : recording.report.events)
+    if (event.a == body || event.b == body) end = std::min(end, event.t);
+  return end;
+}
+
+WorldDef aloneOf(const Scene& scene, int body) {
+  WorldDef def = scene.world;
+  def.forces.clear();
+  def.pairs.clear();
+  def.bodies = {scene.world.bodies[body]};
+  return def;
+}
+
 Surface surfaceOf(const WorldDef& world, int a, int b) {
   Model model;
   model.def = world;

@@ -1,10 +1,10 @@
-// What claims ask of a body alone: its mass, its acceleration in free flight, how far its shape
-// reaches.
+// What claims ask of a body alone: its acceleration in free flight, how far its shape reaches,
+// until when nothing touches it.
 #pragma once
 
 #include <optional>
 
-#include "sim/method/model.h"
+#include "app/record/recording.h"
 
 namespace tumble {
 
@@ -21,6 +21,16 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n);
 
 /// Angular momentum R I Rᵀ ω [kg m²/s] about the centre of mass, world frame.
 Vec3 angularMomentum(const Mat3& inertia, const Quat& q, const Vec3& omega);
+
+/// The relative error that rounding of the angular momentum and the attitude makes of ω: a unit in
+/// the last place times the largest moment over the smallest. No method can mend it.
+double spinRounding(const Mat3& inertia);
+
+/// The first event [s] that the body takes part in, or the end of the run.
+double untouchedUntil(const Scene& scene, const Recording& recording, int body);
+
+/// The body without all others, their forces and their rules.
+WorldDef aloneOf(const Scene& scene, int body);
 
 /// Restitution and friction that the scene's rules give a pair of bodies.
 Surface surfaceOf(const WorldDef& world, int a, int b);

@@ -25,6 +25,11 @@ Quat FreeRotor::after(double h) const {
   return Quat(Vec4(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))).normalized();
 }
 
+void FreeRotor::advance(double time, double fastest) {
+  const int steps = 1 + static_cast<int>(fastest * time / kTurn);
+  for (int i = 0; i < steps; ++i) q = after(time / steps);
+}
+
 double angleBetween(const Quat& p, const Quat& q) {
   const Quat turn = p.conjugate() * q;
   return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));

@@ -15,6 +15,10 @@ struct FreeRotor {
   Vec3 omega(const Quat& at) const;
   /// The attitude after one classical step of h [s].
   Quat after(double h) const;
+  /// Turns for `time` [s] by steps of at most kTurn.
+  /// @param fastest  [rad/s] the most that the body turns with
+  void advance(double time, double fastest);
+  static constexpr double kTurn = 2e-3;  ///< [rad]
 };
 
 /// Angle [rad] of the rotation from one attitude to the other, 0 to π.

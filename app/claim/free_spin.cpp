@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/claim/free_body.h"
 #include "app/claim/free_rotor.h"
 #include "app/claim/rows.h"
 #include "app/claim/spinner.h"
@@ -14,19 +15,13 @@ namespace {
 struct Allowed {
   double attitude, energy, momentum;  // [rad], relative, relative
 };
-// What rounding of L and q makes of ω, times the largest moment over the smallest: no method can
-// mend it.
-constexpr double kRounding = 4e-16;
 constexpr Allowed kStepped{1e-3, 1e-6, 1e-9}, kExact{1e-9, 1e-12, 1e-12};
 
 // The body alone, in closed form.
 World alone(const Scene& scene, const Spinner& spinner) {
-  WorldDef def = scene.world;
+  WorldDef def = aloneOf(scene, spinner.body);
   def.method = "exact";
   def.gravity = spinner.acceleration;
-  def.forces.clear();
-  def.pairs.clear();
-  def.bodies = {scene.world.bodies[spinner.body]};
   World world(def);
   world.advance(def.duration);
   return world;
@@ -46,12 +41,11 @@ void seeAgainstFlight(const Scene& scene, const Recording& recording, const Spin
 // A run in closed form is held to the equation of motion itself: from each sample, small steps must
 // lead to the next. Their own error, (|ω| h)⁴ of the angle, is far below what is allowed.
 void seeStepByStep(const Recording& recording, const Spinner& spinner, WorstRow& worst) {
-  constexpr double kTurn = 2e-3;      // [rad] a step
   constexpr double kSteps = 4e6;      // of all intervals together
   constexpr std::size_t kMost = 400;  // intervals a body
   const std::vector<Sample>& samples = recording.samples;
   const Mat3 inverse = spinner.inertia.inverse();
-  const double each = 1.0 + spinner.fastest() / recording.rate / kTurn;  // steps
+  const double each = 1.0 + spinner.fastest() / recording.rate / FreeRotor::kTurn;  // steps
   const std::size_t most =
       std::clamp(static_cast<std::size_t>(kSteps / each), std::size_t{1}, kMost);
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / most);
@@ -60,8 +54,7 @@ void seeStepByStep(const Recording& recording, const Spinner& spinner, WorstRow&
     if (samples[k + 1].t > spinner.end) break;
     const BodySample& from = samples[k].bodies[spinner.body];
     FreeRotor rotor{inverse, spinner.momentum(from), from.q};
-    const int steps = 1 + static_cast<int>(spinner.fastest() * h / kTurn);
-    for (int i = 0; i < steps; ++i) rotor.q = rotor.after(h / steps);
+    rotor.advance(h, spinner.fastest());
     const double error = angleBetween(rotor.q, samples[k + 1].bodies[spinner.body].q);
     worst.see(error, 0.0, error);
   }
@@ -70,7 +63,7 @@ void seeStepByStep(const Recording& recording, const Spinner& spinner, WorstRow&
 void addConserved(const Scene& scene, const Recording& recording, const Spinner& spinner,
                   const Allowed& allowed, std::vector<ClaimRow>& rows) {
   const std::string& name = scene.world.bodies[spinner.body].name;
-  const double rounding = kRounding * spinner.condition();
+  const double rounding = spinRounding(spinner.inertia);
   WorstRow energy(name + ": energy of rotation / J", std::max(allowed.energy, rounding));
   WorstRow momentum(name + ": |L| / (kg m²/s)", std::max(allowed.momentum, rounding));
   const BodyDef& def = scene.world.bodies[spinner.body];
@@ -102,7 +95,7 @@ std::vector<ClaimRow> freeSpinRows(const Scene& scene, const Recording& recordin
     const double angle = 1.0 + spinner.fastest() / recording.rate;  // [rad] between samples
     WorstRow attitude(
         name + (exact ? ": attitude from sample to sample / rad" : ": attitude / rad"),
-        std::max(allowed.attitude, kRounding * spinner.condition() * angle));
+        std::max(allowed.attitude, spinRounding(spinner.inertia) * angle));
     if (exact)
       seeStepByStep(recording, spinner, attitude);
     else

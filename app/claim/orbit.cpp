@@ -69,9 +69,7 @@ std::vector<Orbit> orbitsOf(const Scene& scene, const Recording& recording) {
     if (!a || fields[i][0]->rotation.isZero(0.0)) continue;
     Orbit orbit = orbitOf(others.bodies[i], *fields[i][0], *a);
     orbit.body = i;
-    orbit.end = others.duration;
-    for (const Event& event : recording.report.events)
-      if (event.a == i || event.b == i) orbit.end = std::min(orbit.end, event.t);
+    orbit.end = untouchedUntil(scene, recording, i);
     if (orbit.amplitude() > 0.0) orbits.push_back(orbit);
   }
   return orbits;

@@ -1,6 +1,5 @@
 #include "app/claim/spinner.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/claim/free_body.h"
@@ -15,10 +14,6 @@ double Spinner::fastest() const {
   const Mat3 inverse = inertia.inverse();
   // ω² ≤ 2 T/I_min, and 1/I_min ≤ |I⁻¹|.
   return std::sqrt(omega_B.dot(inertia * omega_B) * inverse.norm());
-}
-
-double Spinner::condition() const {
-  return inertia.norm() * inertia.inverse().norm();
 }
 
 bool Spinner::canBeFollowed(const Recording& recording) const {
@@ -38,15 +33,10 @@ std::vector<Spinner> spinnersOf(const Scene& scene, const Recording& recording) 
     const std::optional<Vec3> acceleration = freeAcceleration(scene.world, body);
     if (!acceleration) continue;
     const Mat3 inertia = massOf(def).inertia;
-    Spinner spinner{body,
-                    *acceleration,
-                    inertia,
-                    angularMomentum(inertia, def.orientation, def.angularVelocity),
-                    def.orientation.conjugate() * def.angularVelocity,
-                    scene.world.duration};
-    for (const Event& event : recording.report.events)
-      if (event.a == body || event.b == body) spinner.end = std::min(spinner.end, event.t);
-    spinners.push_back(spinner);
+    spinners.push_back({body, *acceleration, inertia,
+                        angularMomentum(inertia, def.orientation, def.angularVelocity),
+                        def.orientation.conjugate() * def.angularVelocity,
+                        untouchedUntil(scene, recording, body)});
   }
   return spinners;
 }

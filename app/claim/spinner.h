@@ -21,8 +21,6 @@ struct Spinner {
   Vec3 momentum(const BodySample& seen) const;
   /// The most [rad/s] that the energy lets it turn with.
   double fastest() const;
-  /// How much rounding L matters to ω: the largest moment over the smallest.
-  double condition() const;
   /// Whether small steps can lead from a sample to the next.
   bool canBeFollowed(const Recording& recording) const;
   /// The row of a body that cannot be followed; fails and says what to do.

@@ -51,9 +51,7 @@ std::vector<Top> topsOf(const Scene& scene, const Recording& recording) {
             c,
             def.position + def.orientation * c,
             mass.inertia + mass.mass * shift,
-            scene.world.duration};
-    for (const Event& event : recording.report.events)
-      if (event.a == body || event.b == body) top.end = std::min(top.end, event.t);
+            untouchedUntil(scene, recording, body)};
     tops.push_back(top);
   }
   return tops;
@@ -70,13 +68,10 @@ double fastest(const Top& top, const BodySample& start) {
 // with series of order 20.
 World otherWay(const Scene& scene, const Top& top, double rate) {
   constexpr double kTurn = 0.5;  // [rad] a step: small enough for order 20, and few roundings
-  WorldDef def = scene.world;
+  WorldDef def = aloneOf(scene, top.body);
   def.method = scene.world.method == "exact" ? "course" : "exact";
   def.course = CourseSettings{.integrator = "taylor", .order = 20};
   if (rate > 0.0) def.course.step = std::min(def.course.step, kTurn / rate);
-  def.forces.clear();
-  def.pairs.clear();
-  def.bodies = {scene.world.bodies[top.body]};
   return World(def);
 }
 
@@ -124,8 +119,7 @@ std::vector<ClaimRow> topRows(const Scene& scene, const Recording& recording) {
   std::vector<ClaimRow> rows;
   for (const Top& top : topsOf(scene, recording)) {
     const std::string& name = scene.world.bodies[top.body].name;
-    // What rounding of H and q makes of ω: no method can mend it.
-    const double rounding = 4e-16 * top.inertia.norm() * top.inertia.inverse().norm();
+    const double rounding = spinRounding(top.inertia);
     const double turned =
         1.0 + fastest(top, recording.samples.front().bodies[top.body]) * scene.world.duration;
     WorstRow attitude(name + ": attitude / rad", std::max(allowed.attitude, rounding * turned));

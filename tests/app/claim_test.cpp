@@ -2,10 +2,9 @@
 #include <cmath>
 #include <functional>
 
-#include "app/claim/claim.h"
 #include "app/claim/fall.h"
 #include "app/claim/free_body.h"
-#include "tests/catch.h"
+#include "tests/app/claims.h"
 
 using namespace tumble;
 
@@ -68,19 +67,6 @@ Recording bouncing(const Scene& scene, double e, double h, double g) {
     recording.report.events.push_back(
         {rest, EventKind::Rest, 1, 0, Vec3::Zero(), Vec3::UnitY(), 0.0, 0.0});
   return recording;
-}
-
-bool holds(const char* check, const Scene& scene, const Recording& recording) {
-  const std::vector<ClaimRow> rows = findCheck(check)->rows(scene, recording);
-  bool all = !rows.empty();
-  for (const ClaimRow& row : rows) all = all && row.holds();
-  return all;
-}
-
-bool holdsBroken(const char* check, const Scene& scene, Recording recording,
-                 const std::function<void(Recording&)>& breakIt) {
-  breakIt(recording);
-  return holds(check, scene, recording);
 }
 
 }  // namespace

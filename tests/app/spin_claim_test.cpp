@@ -2,9 +2,8 @@
 #include <cmath>
 #include <functional>
 
-#include "app/claim/claim.h"
 #include "sim/math/rotation.h"
-#include "tests/catch.h"
+#include "tests/app/claims.h"
 
 using namespace tumble;
 
@@ -24,23 +23,6 @@ Scene brickScene(const char* method, double wobble = 1e-3) {
   scene.world.bodies = {brick};
   scene.world.gravity.setZero();
   return scene;
-}
-
-bool holds(const char* check, const Scene& scene, const Recording& recording) {
-  const std::vector<ClaimRow> rows = findCheck(check)->rows(scene, recording);
-  bool all = !rows.empty();
-  for (const ClaimRow& row : rows) {
-    UNSCOPED_INFO(row.label << ": " << row.measured << ", " << row.exact << ", error " << row.error
-                            << ", allowed " << row.allowed);
-    all = all && row.holds();
-  }
-  return all;
-}
-
-bool holdsBroken(const char* check, const Scene& scene, Recording recording,
-                 const std::function<void(Recording&)>& breakIt) {
-  breakIt(recording);
-  return holds(check, scene, recording);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // The claim of heavy tops accepts runs that are true and refuses each kind of untruth.
 #include <functional>
 
-#include "app/claim/claim.h"
 #include "sim/math/rotation.h"
-#include "tests/catch.h"
+#include "tests/app/claims.h"
 
 using namespace tumble;
 
@@ -25,18 +24,8 @@ Scene topScene(const char* method) {
   return scene;
 }
 
-std::vector<ClaimRow> rowsOf(const Scene& scene, const Recording& recording) {
-  return findCheck("heavy-top")->rows(scene, recording);
-}
-
 bool holds(const Scene& scene, const Recording& recording) {
-  const std::vector<ClaimRow> rows = rowsOf(scene, recording);
-  bool all = !rows.empty();
-  for (const ClaimRow& row : rows) {
-    UNSCOPED_INFO(row.label << ": error " << row.error << ", allowed " << row.allowed);
-    all = all && row.holds();
-  }
-  return all;
+  return tumble::holds("heavy-top", scene, recording);
 }
 
 }  // namespace
@@ -88,7 +77,7 @@ TEST_CASE("the claim of tops fails for coarse steps and for samples that lie") {
 TEST_CASE("the claim of tops says when there is none") {
   Scene scene = topScene("course");
   scene.world.bodies[0].pivot_B.reset();
-  const std::vector<ClaimRow> rows = rowsOf(scene, record(scene, 60.0));
+  const std::vector<ClaimRow> rows = findCheck("heavy-top")->rows(scene, record(scene, 60.0));
   REQUIRE(rows.size() == 1);
   CHECK_FALSE(rows[0].holds());
   CHECK(rows[0].label == "no body turns about a held point under gravity alone");
