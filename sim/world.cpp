@@ -115,12 +115,13 @@ void checkShape(const Shape& shape, std::size_t i) {
         if constexpr (std::is_same_v<S, Sphere>) return positive(s.r);
         if constexpr (std::is_same_v<S, Box>)
           return positive(s.half.minCoeff()) && s.half.allFinite();
-        if constexpr (std::is_same_v<S, Cylinder>) return positive(s.r) && positive(s.h);
+        if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Capsule>)
+          return positive(s.r) && positive(s.h);
         if constexpr (std::is_same_v<S, HalfSpace>)
           return std::abs(s.n.norm() - 1.0) < 1e-9 && std::isfinite(s.d);
         if constexpr (std::is_same_v<S, Particle>)
           return s.radius >= 0.0 && std::isfinite(s.radius);
-        if constexpr (std::is_same_v<S, Mesh>) return s.solid != nullptr;
+        if constexpr (std::is_same_v<S, Hull> || std::is_same_v<S, Mesh>) return s.solid != nullptr;
         if constexpr (std::is_same_v<S, Compound>) return !s.parts.empty();
       },
       shape);

@@ -38,12 +38,15 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n) {
   if (const Particle* particle = std::get_if<Particle>(&shape)) return particle->radius;
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
     return 0.5 * cylinder->h * std::abs(n_B.y()) + cylinder->r * std::hypot(n_B.x(), n_B.z());
+  if (const Capsule* capsule = std::get_if<Capsule>(&shape))
+    return 0.5 * capsule->h * std::abs(n_B.y()) + capsule->r;
   double far = -std::numeric_limits<double>::infinity();
-  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) {
-    for (const Vec3& point : mesh->solid->points)
-      far = std::max(far, n_B.dot(point - mesh->origin));
+  const auto reachOf = [&](const auto& s) {
+    for (const Vec3& point : s.solid->points) far = std::max(far, n_B.dot(point - s.origin));
     return far;
-  }
+  };
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return reachOf(*hull);
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return reachOf(*mesh);
   if (const Compound* compound = std::get_if<Compound>(&shape)) {
     for (const Part& part : compound->parts) {
       const Pose pose = poseInBody(*compound, part);

@@ -47,6 +47,7 @@ Moments byTetrahedra(const Polyhedron& solid, double mass) {
 
 Moments exactMoments(const BodyDef& body) {
   const double mass = bodyMass(body);
+  if (const Hull* hull = std::get_if<Hull>(&body.shape)) return byTetrahedra(*hull->solid, mass);
   if (const Mesh* mesh = std::get_if<Mesh>(&body.shape)) return byTetrahedra(*mesh->solid, mass);
   const MassProperties properties = solidMass(body.shape, mass);
   return {properties.centre, properties.inertia};

@@ -127,6 +127,22 @@ Polyhedron solidOf(const Box& box) {
 Polyhedron solidOf(const Cylinder& c) {
   return turnedSolid({{-0.5 * c.h, c.r}, {0.5 * c.h, c.r}});
 }
+Polyhedron solidOf(const Capsule& c) {
+  constexpr int kRings = kSides / 4;
+  std::vector<std::pair<double, double>> rings;
+  for (int k = 0; k <= kRings; ++k) {
+    double sine = 1.0, cosine = 0.0;
+    if (k < kRings) sinCos(0.5 * EIGEN_PI * (k + 0.5) / kRings, sine, cosine);
+    rings.emplace_back(-0.5 * c.h - c.r * cosine, c.r * sine);
+  }
+  for (int k = kRings; k >= 0; --k) rings.emplace_back(-rings[k].first, rings[k].second);
+  return turnedSolid(rings);
+}
+Polyhedron solidOf(const Hull& hull) {
+  Polyhedron solid = *hull.solid;
+  for (Vec3& p : solid.points) p -= hull.origin;
+  return solid;
+}
 Polyhedron solidOf(const Sphere& sphere) {
   std::vector<std::pair<double, double>> rings;
   for (int k = 0; k < kSides / 2; ++k) {
@@ -162,14 +178,20 @@ void forEachSolid(const Shape& shape, Action act) {
     act(solidOf(*sphere), Pose{});
   } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape)) {
     act(solidOf(*cylinder), Pose{});
+  } else if (const Capsule* capsule = std::get_if<Capsule>(&shape)) {
+    act(solidOf(*capsule), Pose{});
+  } else if (const Hull* hull = std::get_if<Hull>(&shape)) {
+    act(solidOf(*hull), Pose{});
   }
 }
 
 }  // namespace
 
 std::shared_ptr<const Facets> facetsOf(const Shape& shape) {
-  if (!std::holds_alternative<Mesh>(shape) && !std::holds_alternative<Compound>(shape))
-    return nullptr;
+  const bool drawnSo = std::holds_alternative<Capsule>(shape) ||
+                       std::holds_alternative<Hull>(shape) || std::holds_alternative<Mesh>(shape) ||
+                       std::holds_alternative<Compound>(shape);
+  if (!drawnSo) return nullptr;
   auto facets = std::make_shared<Facets>();
   forEachSolid(shape,
                [&](const Polyhedron& solid, const Pose& pose) { addSolid(solid, pose, *facets); });

@@ -153,18 +153,24 @@ void BodyList::add(BodyEntry entry, Spot spot, Section& section) {
   scene_.world.bodies.push_back(std::move(entry.def));
 }
 
-// Copies of one mesh share its points.
+// Copies of one hull or mesh share its points.
 void BodyList::share(Shape& shape) {
-  Mesh* mesh = std::get_if<Mesh>(&shape);
-  if (!mesh) return;
+  if (Hull* hull = std::get_if<Hull>(&shape)) share(hull->solid);
+  if (Mesh* mesh = std::get_if<Mesh>(&shape)) share(mesh->solid);
+  if (Compound* compound = std::get_if<Compound>(&shape))
+    for (Part& part : compound->parts)
+      if (Hull* hull = std::get_if<Hull>(&part.solid)) share(hull->solid);
+}
+
+void BodyList::share(std::shared_ptr<const Polyhedron>& solid) {
   const auto same = [&](const std::shared_ptr<const Polyhedron>& other) {
-    return other->points == mesh->solid->points && other->faces == mesh->solid->faces;
+    return other->points == solid->points && other->faces == solid->faces;
   };
-  const auto found = std::find_if(meshes_.begin(), meshes_.end(), same);
-  if (found == meshes_.end())
-    meshes_.push_back(mesh->solid);
+  const auto found = std::find_if(solids_.begin(), solids_.end(), same);
+  if (found == solids_.end())
+    solids_.push_back(solid);
   else
-    mesh->solid = *found;
+    solid = *found;
 }
 
 bool BodyList::full(Spot spot, Findings& findings) const {

@@ -38,10 +38,11 @@ class BodyList {
 
  private:
   void share(Shape& shape);
+  void share(std::shared_ptr<const Polyhedron>& solid);
 
   Scene& scene_;
   std::map<std::string, int> indices_;
-  std::vector<std::shared_ptr<const Polyhedron>> meshes_;
+  std::vector<std::shared_ptr<const Polyhedron>> solids_;
 };
 
 /// Reads [[body]].

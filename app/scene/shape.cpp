@@ -110,6 +110,8 @@ std::optional<Shape> readCompound(Section& shape) {
     if (const Sphere* sphere = std::get_if<Sphere>(&*solid)) part.solid = *sphere;
     if (const Box* box = std::get_if<Box>(&*solid)) part.solid = *box;
     if (const Cylinder* cylinder = std::get_if<Cylinder>(&*solid)) part.solid = *cylinder;
+    if (const Capsule* capsule = std::get_if<Capsule>(&*solid)) part.solid = *capsule;
+    if (const Hull* hull = std::get_if<Hull>(&*solid)) part.solid = *hull;
     compound.parts.push_back(part);
   }
   if (shape.good() && compound.parts.empty())

@@ -31,6 +31,12 @@ double volumeOf(const Box& b) {
 double volumeOf(const Cylinder& c) {
   return kPi * c.r * c.r * c.h;
 }
+double volumeOf(const Capsule& c) {
+  return kPi * c.r * c.r * (c.h + 4.0 / 3.0 * c.r);
+}
+double volumeOf(const Hull& hull) {
+  return integrate(*hull.solid).volume;
+}
 double volumeOf(const HalfSpace&) {
   return kInfinity;
 }
@@ -65,6 +71,16 @@ Vec3 momentsOf(const Cylinder& c) {
   return {across, along, across};
 }
 
+/// The caps are two half-balls whose centres of mass stand h/2 + 3/8 r from the middle.
+Vec3 momentsOf(const Capsule& c) {
+  const double caps = 4.0 / 3.0 * c.r / (c.h + 4.0 / 3.0 * c.r), middle = 1.0 - caps;
+  const double square = c.r * c.r;
+  const double along = (0.5 * middle + 0.4 * caps) * square;
+  const double across = middle * (3.0 * square + c.h * c.h) / 12.0 +
+                        caps * (0.4 * square + c.h * (0.25 * c.h + 0.375 * c.r));
+  return {across, along, across};
+}
+
 Vec3 momentsOf(const HalfSpace&) {
   throw std::invalid_argument("shape: a half-space has no finite mass");
 }
@@ -79,9 +95,17 @@ MassProperties weigh(const S& shape, double mass) {
   return {mass, (mass * momentsOf(shape)).asDiagonal()};
 }
 
-MassProperties weigh(const Mesh& mesh, double mass) {
-  const VolumeIntegrals integrals = integrate(*mesh.solid);
+MassProperties weighSurface(const Polyhedron& solid, double mass) {
+  const VolumeIntegrals integrals = integrate(solid);
   return {mass, (mass / integrals.volume) * integrals.inertia, integrals.centre};
+}
+
+MassProperties weigh(const Hull& hull, double mass) {
+  return weighSurface(*hull.solid, mass);
+}
+
+MassProperties weigh(const Mesh& mesh, double mass) {
+  return weighSurface(*mesh.solid, mass);
 }
 
 /// Inertia of a mass at a point that is d away [m].
@@ -94,13 +118,15 @@ MassProperties weigh(const Compound& compound, double mass) {
   std::vector<MassProperties> parts;
   MassProperties sum{mass, Mat3::Zero()};
   for (const Part& part : compound.parts) {
-    parts.push_back(solidMass(shapeOf(part), density * volume(shapeOf(part))));
-    sum.centre += parts.back().mass / mass * part.pose.x;
+    const Shape solid = shapeOf(part);
+    parts.push_back(solidMass(solid, density * volume(solid)));
+    parts.back().centre = toWorld(part.pose, parts.back().centre - originOf(solid));
+    sum.centre += parts.back().mass / mass * parts.back().centre;
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Mat3 R = rotationMatrix(compound.parts[i].pose.q);
-    sum.inertia += R * parts[i].inertia * R.transpose() +
-                   steiner(parts[i].mass, compound.parts[i].pose.x - sum.centre);
+    sum.inertia +=
+        R * parts[i].inertia * R.transpose() + steiner(parts[i].mass, parts[i].centre - sum.centre);
   }
   // Rounding of the products must not make the tensor lopsided.
   sum.inertia = 0.5 * (sum.inertia + sum.inertia.transpose()).eval();

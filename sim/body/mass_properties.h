@@ -19,8 +19,10 @@ double volume(const Shape& shape);
 
 /// A solid of uniform density with the given mass [kg] > 0, in closed form:
 ///   sphere 2/5 m r²;  box m/12 (b² + c²), full edges;  cylinder ½ m r² about Y, m/12 (3r² + h²)
-///   across;  mesh: `integrate`;  compound: Σ Rᵢ Iᵢ Rᵢᵀ + mᵢ (dᵢ² 1 − dᵢ dᵢᵀ), Steiner, with dᵢ
-///   from the common centre of mass to the part's;  particle 0.
+///   across;  capsule: the cylinder, m h/(h + 4/3 r), and two half-balls, each 2/5 m r² about Y,
+///   m (2/5 r² + h²/4 + 3/8 h r) across;  hull and mesh: `integrate`;  compound: Σ Rᵢ Iᵢ Rᵢᵀ +
+///   mᵢ (dᵢ² 1 − dᵢ dᵢᵀ), Steiner, with dᵢ from the common centre of mass to the part's;
+///   particle 0.
 /// @throws std::invalid_argument for a half-space, or if mass is not a positive finite number.
 MassProperties solidMass(const Shape& shape, double mass);
 

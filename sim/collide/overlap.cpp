@@ -25,12 +25,48 @@ Vec3 farthest(const Cylinder& c, const Vec3& d) {
   return {scale * d.x(), d.y() < 0.0 ? -0.5 * c.h : 0.5 * c.h, scale * d.z()};
 }
 
+Vec3 farthest(const Capsule& c, const Vec3& d) {
+  return Vec3(0.0, d.y() < 0.0 ? -0.5 * c.h : 0.5 * c.h, 0.0) + c.r * d.normalized();
+}
+Vec3 farthest(const Hull& hull, const Vec3& d) {
+  const auto before = [&](const Vec3& p, const Vec3& q) { return d.dot(p) < d.dot(q); };
+  const std::vector<Vec3>& points = hull.solid->points;
+  return *std::max_element(points.begin(), points.end(), before) - hull.origin;
+}
+
+/// A point inside a solid, own frame.
+template <class S>
+Vec3 middleOf(const S&) {
+  return Vec3::Zero();
+}
+Vec3 middleOf(const Hull& hull) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : hull.solid->points) sum += p;
+  return sum / static_cast<double>(hull.solid->points.size()) - hull.origin;
+}
+Vec3 middleOf(const Part& part) {
+  return toWorld(part.pose, std::visit([](const auto& s) { return middleOf(s); }, part.solid));
+}
+
+/// Radius [m] of a ball about the middle that holds a part.
+double sizeOf(const Part& part) {
+  const Shape solid = shapeOf(part);
+  if (const Hull* hull = std::get_if<Hull>(&part.solid))
+    return boundingRadius(withOrigin(solid, middleOf(*hull) + hull->origin));
+  return boundingRadius(solid);
+}
+
 /// Outermost point of a part, made smaller by twice the rounding that is let pass.
 Vec3 farthest(const Part& part, const Vec3& d) {
   const Mat3 R = rotationMatrix(part.pose.q);
   const Vec3 d_B = R.transpose() * d;
-  const Vec3 p_B = std::visit([&](const auto& solid) { return farthest(solid, d_B); }, part.solid);
-  return part.pose.x + (1.0 - 2.0 * kRounding) * (R * p_B);
+  return std::visit(
+      [&](const auto& solid) -> Vec3 {
+        const Vec3 middle = middleOf(solid);
+        const Vec3 p_B = middle + (1.0 - 2.0 * kRounding) * (farthest(solid, d_B) - middle);
+        return part.pose.x + R * p_B;
+      },
+      part.solid);
 }
 
 /// Nearest point to the origin of the flat through some corners, if it lies between them.
@@ -69,8 +105,8 @@ Vec3 nearestOf(std::vector<Vec3>& corners) {
 }  // namespace
 
 bool overlap(const Part& a, const Part& b) {
-  const double size = boundingRadius(shapeOf(a)) + boundingRadius(shapeOf(b));
-  Vec3 v = a.pose.x - b.pose.x;
+  const double size = sizeOf(a) + sizeOf(b);
+  Vec3 v = middleOf(a) - middleOf(b);
   if (v.norm() < kRounding * size) return true;
   std::vector<Vec3> corners;
   for (int step = 0; step < 100; ++step) {

@@ -15,6 +15,16 @@ bool holds(const Box& box, const Vec3& p) {
 bool holds(const Cylinder& c, const Vec3& p) {
   return std::abs(p.y()) < 0.5 * c.h && p.x() * p.x() + p.z() * p.z() < c.r * c.r;
 }
+bool holds(const Capsule& c, const Vec3& p) {
+  const double y = std::max(std::abs(p.y()) - 0.5 * c.h, 0.0);
+  return p.x() * p.x() + y * y + p.z() * p.z() < c.r * c.r;
+}
+bool holds(const Hull& hull, const Vec3& p) {
+  const Polyhedron& solid = *hull.solid;
+  return std::all_of(solid.faces.begin(), solid.faces.end(), [&](const std::vector<int>& face) {
+    return areaVector(solid, face).dot(p - solid.points[static_cast<std::size_t>(face[0])]) < 0.0;
+  });
+}
 bool holds(const HalfSpace& h, const Vec3& p) {
   return h.n.dot(p) < h.d;
 }
@@ -23,7 +33,7 @@ bool holds(const Particle&, const Vec3&) {
 }
 bool holds(const Compound& compound, const Vec3& p) {
   return std::any_of(compound.parts.begin(), compound.parts.end(), [&](const Part& part) {
-    const Vec3 p_B = toBody(part.pose, p);
+    const Vec3 p_B = toBody(part.pose, p) + originOf(shapeOf(part));
     return std::visit([&](const auto& solid) { return holds(solid, p_B); }, part.solid);
   });
 }

@@ -27,6 +27,10 @@ Vec3 halfWidths(const Cylinder& c, const Mat3& R) {
   return disc + 0.5 * c.h * u.cwiseAbs();
 }
 
+Vec3 halfWidths(const Capsule& c, const Mat3& R) {
+  return Vec3::Constant(c.r) + 0.5 * c.h * R.col(1).cwiseAbs();
+}
+
 Vec3 halfWidths(const HalfSpace&, const Mat3&) {
   return Vec3::Constant(kInfinity);
 }
@@ -42,13 +46,21 @@ Aabb boxOf(const S& shape, const Mat3& R) {
   return {-width, width};
 }
 
-Aabb boxOf(const Mesh& mesh, const Mat3& R) {
+Aabb boxOf(const std::vector<Vec3>& points, const Vec3& origin, const Mat3& R) {
   Aabb box{Vec3::Constant(kInfinity), Vec3::Constant(-kInfinity)};
-  for (const Vec3& point : mesh.solid->points) {
-    const Vec3 p = R * (point - mesh.origin);
+  for (const Vec3& point : points) {
+    const Vec3 p = R * (point - origin);
     box = {box.lo.cwiseMin(p), box.hi.cwiseMax(p)};
   }
   return box;
+}
+
+Aabb boxOf(const Hull& hull, const Mat3& R) {
+  return boxOf(hull.solid->points, hull.origin, R);
+}
+
+Aabb boxOf(const Mesh& mesh, const Mat3& R) {
+  return boxOf(mesh.solid->points, mesh.origin, R);
 }
 
 Aabb boxOf(const Compound& compound, const Mat3& R) {
@@ -56,8 +68,8 @@ Aabb boxOf(const Compound& compound, const Mat3& R) {
   for (const Part& part : compound.parts) {
     const Vec3 x = R * (part.pose.x - compound.origin);
     const Mat3 turn = R * part.pose.q.toRotationMatrix();
-    const Vec3 width = std::visit([&](const auto& s) { return halfWidths(s, turn); }, part.solid);
-    box = {box.lo.cwiseMin(x - width), box.hi.cwiseMax(x + width)};
+    const Aabb piece = std::visit([&](const auto& s) { return boxOf(s, turn); }, part.solid);
+    box = {box.lo.cwiseMin(x + piece.lo), box.hi.cwiseMax(x + piece.hi)};
   }
   return box;
 }
@@ -71,6 +83,9 @@ double radius(const Box& box) {
 double radius(const Cylinder& c) {
   return std::sqrt(c.r * c.r + 0.25 * c.h * c.h);
 }
+double radius(const Capsule& c) {
+  return c.r + 0.5 * c.h;
+}
 double radius(const HalfSpace&) {
   return kInfinity;
 }
@@ -78,11 +93,16 @@ double radius(const Particle& p) {
   return p.radius;
 }
 
-double radius(const Mesh& mesh) {
+double radius(const std::vector<Vec3>& points, const Vec3& origin) {
   double square = 0.0;
-  for (const Vec3& point : mesh.solid->points)
-    square = std::max(square, (point - mesh.origin).squaredNorm());
+  for (const Vec3& point : points) square = std::max(square, (point - origin).squaredNorm());
   return std::sqrt(square);
+}
+double radius(const Hull& hull) {
+  return radius(hull.solid->points, hull.origin);
+}
+double radius(const Mesh& mesh) {
+  return radius(mesh.solid->points, mesh.origin);
 }
 double radius(const Compound& compound) {
   double far = 0.0;
@@ -100,6 +120,12 @@ std::string_view name(const Box&) {
 }
 std::string_view name(const Cylinder&) {
   return "cylinder";
+}
+std::string_view name(const Capsule&) {
+  return "capsule";
+}
+std::string_view name(const Hull&) {
+  return "hull";
 }
 std::string_view name(const HalfSpace&) {
   return "half-space";
@@ -143,12 +169,14 @@ double boundingRadius(const Shape& shape) {
 }
 
 Shape withOrigin(Shape shape, const Vec3& origin) {
+  if (Hull* hull = std::get_if<Hull>(&shape)) hull->origin = origin;
   if (Mesh* mesh = std::get_if<Mesh>(&shape)) mesh->origin = origin;
   if (Compound* compound = std::get_if<Compound>(&shape)) compound->origin = origin;
   return shape;
 }
 
 Vec3 originOf(const Shape& shape) {
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->origin;
   if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->origin;
   if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->origin;
   return Vec3::Zero();
@@ -160,6 +188,17 @@ Shape shapeOf(const Part& part) {
 
 Pose poseInBody(const Compound& compound, const Part& part) {
   return {part.pose.x - compound.origin, part.pose.q};
+}
+
+std::vector<PosedPart> convexParts(const Shape& shape) {
+  std::vector<PosedPart> parts;
+  if (const Compound* compound = std::get_if<Compound>(&shape)) {
+    for (const Part& part : compound->parts)
+      parts.push_back({shapeOf(part), poseInBody(*compound, part)});
+  } else if (touchesAnything(shape) && !std::holds_alternative<Mesh>(shape)) {
+    parts.push_back({contactShape(shape), Pose{}});
+  }
+  return parts;
 }
 
 }  // namespace tumble

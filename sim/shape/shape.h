@@ -26,6 +26,18 @@ struct Cylinder {
   double r = 0.5, h = 1.0;
 };
 
+/// Cylinder with half-balls for caps: all points within r [m] of the segment of length h [m] along
+/// body Y, which is centred at the body origin.
+struct Capsule {
+  double r = 0.5, h = 1.0;  ///< h without the caps
+};
+
+/// Convex hull of points, shared by all bodies that are made of it.
+struct Hull {
+  std::shared_ptr<const Polyhedron> solid;  ///< made by `convexHull`
+  Vec3 origin = Vec3::Zero();               ///< [m] the body origin, in the polyhedron's frame
+};
+
 /// Solid half-space n·p < d. World frame, n unit; always fixed.
 struct HalfSpace {
   Vec3 n = Vec3::UnitY();
@@ -46,7 +58,7 @@ struct Mesh {
 
 /// A convex piece of a compound, in the compound's frame.
 struct Part {
-  std::variant<Sphere, Box, Cylinder> solid;
+  std::variant<Sphere, Box, Cylinder, Capsule, Hull> solid;
   Pose pose;
 };
 
@@ -56,7 +68,8 @@ struct Compound {
   Vec3 origin = Vec3::Zero();  ///< [m] the body origin, in the parts' frame
 };
 
-using Shape = std::variant<Sphere, Box, Cylinder, HalfSpace, Particle, Mesh, Compound>;
+using Shape =
+    std::variant<Sphere, Box, Cylinder, Capsule, Hull, HalfSpace, Particle, Mesh, Compound>;
 
 /// Axis-aligned box in the world frame [m].
 struct Aabb {
@@ -66,11 +79,11 @@ struct Aabb {
   }
 };
 
-/// "sphere", "box", "cylinder", "half-space", "particle", "mesh" or "compound".
+/// "sphere", "box", "cylinder", "capsule", "hull", "half-space", "particle", "mesh" or "compound".
 std::string_view shapeName(const Shape& shape);
 
 /// The shape with its body origin at a point [m] of the frame in which it was given; others than
-/// meshes and compounds are symmetric about their origin and stay as they are.
+/// hulls, meshes and compounds are symmetric about their origin and stay as they are.
 Shape withOrigin(Shape shape, const Vec3& origin);
 
 /// The body origin [m] in the frame in which the shape was given.
@@ -79,6 +92,17 @@ Vec3 originOf(const Shape& shape);
 /// A part as a shape of its own, and where it stands in the body frame.
 Shape shapeOf(const Part& part);
 Pose poseInBody(const Compound& compound, const Part& part);
+
+/// A convex solid and where it stands in the body frame.
+struct PosedPart {
+  Shape solid;
+  Pose pose;
+};
+
+/// The convex parts that a shape is the union of: those of a compound; of any other the shape
+/// itself at the body origin, a particle with a radius as its ball. A mesh has none, nor has a
+/// particle without a radius.
+std::vector<PosedPart> convexParts(const Shape& shape);
 
 /// Smallest axis-aligned box around a posed shape, grown by `margin` [m] on every side.
 /// A half-space has none: ±infinity.

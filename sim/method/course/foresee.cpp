@@ -7,11 +7,24 @@
 namespace tumble {
 namespace {
 
+/// Distance [m] of the nearest face from the origin.
+double innerRadius(const Hull& hull) {
+  const Polyhedron& solid = *hull.solid;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<int>& face : solid.faces) {
+    const Vec3 p = solid.points[static_cast<std::size_t>(face[0])] - hull.origin;
+    least = std::min(least, areaVector(solid, face).normalized().dot(p));
+  }
+  return least;
+}
+
 /// Radius [m] of the largest ball about the origin that fits inside a shape.
 double innerRadius(const Shape& shape) {
   if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return sphere->r;
   if (const Box* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
   if (const Cylinder* c = std::get_if<Cylinder>(&shape)) return std::min(c->r, 0.5 * c->h);
+  if (const Capsule* capsule = std::get_if<Capsule>(&shape)) return capsule->r;
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return innerRadius(*hull);
   return std::numeric_limits<double>::infinity();
 }
 
