@@ -9,8 +9,11 @@ namespace tumble {
 namespace {
 
 constexpr ImpactLaw kLaws[] = {
+    {"reflections", "Newton's law at all approaching contacts at once, again and again",
+     impactReflections},
     {"simultaneous", "Newton's law at all contacts at once, as one LCP", impactSimultaneous},
     {"sequential", "Newton's law at one contact after the other", impactSequential},
+    {"poisson", "what compression took is given back in part", impactPoisson},
 };
 
 /// Tangent plane of one struck contact and its Coulomb bound.

@@ -44,6 +44,19 @@ const ImpactLaw* findImpactLaw(std::string_view name);
 /// lands flat leaves flat. Repeated while friction or a break-away leaves a contact approaching.
 ImpactReport impactSimultaneous(const Impact& impact);
 
+/// Newton's law at the contacts that approach, all at once, until none does: elastic impacts are
+/// reflections of the velocity of the whole heap, and a blow runs through a row of balls to the
+/// last. Keeps energy (e = 1), momentum and symmetry; bodies can break away; impulses only push.
+///   Smith, Kaufman, Vouga, Tamstorf, Grinspun, Reflections on Simultaneous Impact, 2012, §5.
+///   Departure: each contact has its own e; contacts at rest that do not rebound take part at once.
+ImpactReport impactReflections(const Impact& impact);
+
+/// Poisson's law: an inelastic impact takes j_c; then every contact gives e j_c back, and what
+/// still approaches is stopped. Where unlike e would add energy, all give back the same smaller
+/// share.
+///   Glocker and Pfeiffer, Multiple impacts with friction in rigid multibody systems, 1995.
+ImpactReport impactPoisson(const Impact& impact);
+
 /// Newton's law for one contact at a time, the fastest approach first (slide SD46).
 ImpactReport impactSequential(const Impact& impact);
 

@@ -14,7 +14,8 @@ Flight::Flight(const RigidBody& start, const Vec3& acceleration, double t0)
       parabola_{start.x, start.v, unlessFixed(start, acceleration)},
       P0_(start.P),
       force_(unlessFixed(start, start.M * acceleration)),
-      L_(start.L) {
+      L_(start.L),
+      q0_(start.q) {
   // A fixed body turns steadily, a particle not at all.
   if (start.fixed()) {
     rotor_ = Rotor(start.q, start.omega);
@@ -26,16 +27,22 @@ Flight::Flight(const RigidBody& start, const Vec3& acceleration, double t0)
 }
 
 void Flight::at(double t, RigidBody& body) const {
-  const Pose now = pose(t);
-  body.x = now.x;
-  body.q = now.q;
+  // What does not turn has only a place and a velocity.
+  const bool asBefore = turning() == 0.0 && body.q.coeffs() == q0_.coeffs();
+  if (!asBefore) body.q = attitude(t);
+  body.x = parabola_.position(t - t0_);
   body.P = P0_ + (t - t0_) * force_;
   body.L = L_;
-  updateDerived(body);
+  if (!asBefore) return updateDerived(body);
+  if (!body.fixed()) body.v = body.invM * body.P, body.omega = body.Iinv * body.L;
 }
 
 Pose Flight::pose(double t) const {
-  return {parabola_.position(t - t0_), rotor_.attitude(t - t0_)};
+  return {parabola_.position(t - t0_), attitude(t)};
+}
+
+Quat Flight::attitude(double t) const {
+  return turning() == 0.0 ? q0_ : rotor_.attitude(t - t0_);
 }
 
 double Flight::accelBound(double r) const {

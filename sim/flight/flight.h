@@ -33,11 +33,19 @@ class Flight {
 
   /// Where the body frame stands at t [s].
   Pose pose(double t) const;
+  Quat attitude(double t) const;
+
+  /// The way of the centre of mass, counted from `start`.
+  const Parabola& path() const { return parabola_; }
+  /// [s] the instant that the flight begins at.
+  double start() const { return t0_; }
 
   /// A bound [m/s²] on the acceleration of every body point within r [m] of the centre of mass, for
   /// all time:  |a| + r (½ ω² + √(¼ ω⁴ + ω̇²)), the greatest ω and ω̇ on the way
   /// (`Polhode::turning`).
   double accelBound(double r) const;
+  /// The part of it that the turning of the body gives, per metre [1/s²].
+  double turning() const { return rotor_.turning(); }
 
  private:
   double t0_;
@@ -45,6 +53,7 @@ class Flight {
   Rotor rotor_;
   Vec3 P0_, force_;  ///< [kg m/s], [N]: P = P0 + t force
   Vec3 L_;           ///< [kg m²/s]
+  Quat q0_;          ///< the attitude at t0
 };
 
 }  // namespace tumble

@@ -10,8 +10,8 @@ namespace {
 constexpr Method kMethods[] = {
     {"course", "the notes: ODE black box, back up to the collision, impulses, resting forces",
      checkCourse, advanceCourse, lookCourse, true},
-    {"exact", "closed-form flight for bodies that never meet; stops where two touch", checkExact,
-     advanceExact, lookExact, false},
+    {"exact", "from event to event in closed form: no step, no overlap, no missed hit", checkExact,
+     advanceExact, lookExact, true},
     {"stepping", "one velocity-level contact problem per step, for stacks and piles", checkStepping,
      advanceStepping, lookStepping, true},
 };

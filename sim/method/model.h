@@ -73,7 +73,7 @@ struct SteppingSettings {
 struct WorldDef {
   Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
   std::string method = "course";
-  std::string impact = "simultaneous";
+  std::string impact = "reflections";
   double duration = 5.0;  ///< [s] the last step ends there
   CourseSettings course;
   SteppingSettings stepping;

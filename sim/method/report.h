@@ -30,6 +30,7 @@ struct Certificate {
   long steps = 0, events = 0;
   long evaluations = 0;              ///< of the forces on all bodies; a Taylor jet counts its order
   double max_penetration = 0.0;      ///< [m] max(0, −separation)
+  double max_closed_height = 0.0;    ///< [m] of bounces that were left out at the end of a row
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
@@ -49,6 +50,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"events", &Certificate::events},
     {"evaluations", &Certificate::evaluations},
     {"max_penetration", &Certificate::max_penetration},
+    {"max_closed_height", &Certificate::max_closed_height},
     {"max_complementarity", &Certificate::max_complementarity},
     {"energy_start", &Certificate::energy_start},
     {"energy_end", &Certificate::energy_end},

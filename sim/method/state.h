@@ -13,6 +13,8 @@
 #include "sim/contact/contact.h"
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
+#include "sim/method/report.h"
+#include "sim/shape/outline.h"
 
 namespace tumble {
 
@@ -23,7 +25,6 @@ struct Segment {
   std::vector<RigidBody> end;  ///< the bodies at t1, before its events; only if the method needs it
   std::vector<Contact>
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
-  std::vector<Flight> flights = {};  ///< of `exact`: how each body gets from start to any instant
 };
 
 /// Time, bodies, and what a method remembers from step to step.
@@ -64,17 +65,46 @@ struct State {
   int backUpsSpent = 0;   ///< of the store that every whole step refills
   int stalled = 0;        ///< events in a row that moved time by nothing
 
-  // What only `exact` remembers: the way of each centre, how far to look ahead, what lies there.
-  std::vector<Parabola> paths;
+  // What only `exact` remembers: how every body flies, and what is to happen next.
+  /// Per body: its flights, each from the end of the one before; the last has no end yet.
+  std::vector<std::vector<Flight>> flights;
   std::vector<HeavyTop> tops;  ///< in place of the flights of bodies with pivots, as Model::pivots
-  double lookedAt = 0.0;       ///< [s] end of the advance before this one
-  std::vector<Shape> hulls;    ///< what stands for each body when it is watched: never smaller
-  double window = 0.0;         ///< [s]
+  std::vector<std::vector<Convex>> parts;  ///< per body: what others can touch
+  std::vector<Vec3> start, startP;         ///< [m], [kg m/s] per body: x and P at t = 0
+  std::vector<Vec3> outer;                 ///< [N] per body: constant force, gravity included
+  double lookedAt = 0.0;                   ///< [s] end of the advance before this one
+
+  /// One stretch of time that is looked through at once, in a frame that may drift and fall.
+  struct Window {
+    double t0 = 0.0, t1 = 0.0;        ///< [s]
+    double length = 0.0;              ///< [s] what the last one was made for
+    Vec3 drift = Vec3::Zero();        ///< [m/s] of the frame at t0
+    Vec3 fall = Vec3::Zero();         ///< [m/s²] of the frame
+    std::vector<int> finite, planes;  ///< bodies that can touch something
+    std::vector<Aabb> swept;          ///< per body of the model: what it can reach until t1
+    long renewals = 0;                ///< flights begun inside
+  };
+  Window window;
+
+  /// Two bodies that will touch unless one of them changes its flight before.
   struct Touch {
     double t = 0.0;  ///< [s]
     int a = 0, b = 0;
+    long flightA = 0, flightB = 0;  ///< which flights of theirs this was found for
   };
-  std::optional<Touch> touch;  ///< at state.t; the motion is not known beyond
+  std::vector<Touch> queue;       ///< a heap, the earliest first
+  std::vector<long> flightCount;  ///< per body
+
+  /// The contacts that last from an instant on, with their forces.
+  struct Hold {
+    double t = 0.0;
+    std::vector<Contact> contacts;
+  };
+  std::vector<Hold> holds;
+  std::vector<Event> closing;  ///< rests whose last bounces are under way
+  double booked = 0.0;         ///< [s] up to which lasting contacts are in the books
+  Vec3 struck = Vec3::Zero();  ///< [N·s] from fixed bodies
+  double work = 0.0;           ///< [J] of fixed bodies that move
 };
 
 }  // namespace tumble

@@ -17,7 +17,10 @@ constexpr double kTouch = 1e-9;
 // A body with all that an approach asks for.
 struct Flown {
   Flown(const Shape& s, const Pose& pose, const Vec3& v, const Vec3& omega, const Vec3& a)
-      : shape(s), body(start(s, pose, v, omega)), flight(body, a, 0.0), path{body.x, body.v, a} {}
+      : shape(s),
+        convex{s, {}, outlineOf(s)},
+        body(start(s, pose, v, omega)),
+        flight(body, a, 0.0) {}
 
   static RigidBody start(const Shape& s, const Pose& pose, const Vec3& v, const Vec3& omega) {
     if (std::holds_alternative<HalfSpace>(s)) return makeFixedBody(pose, v, omega);
@@ -28,12 +31,12 @@ struct Flown {
     setVelocity(b, v, omega);
     return b;
   }
-  Flyer flyer() { return {&flight, &path, &shape, &body}; }
+  Flyer flyer() { return {&flight, &convex, &body}; }
 
   Shape shape;
+  Convex convex;
   RigidBody body;
   Flight flight;
-  Parabola path;
 };
 
 std::optional<double> touchOf(Flown& a, Flown& b, double t1, bool begins = false) {

@@ -1,37 +1,30 @@
 #include "sim/method/exact/approach.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "sim/collide/collide.h"
-#include "sim/contact/contact.h"
 #include "sim/method/exact/quadratic.h"
 
 namespace tumble {
 namespace {
 
-/// Balls further apart than this part of their radii need no look at the corners.
+/// Balls further apart than this part of their radii need no look at the points inside.
 constexpr double kFar = 0.1;
 /// Steps at less than the touching distance before bodies that hover there count as touching, and
 /// steps in which bodies that touch at the start must have parted.
 constexpr int kPatience = 10'000, kParting = 100;
 /// [s] the first span for which a turning plane is tried.
 constexpr double kShortest = 1e-9;
+/// Passes down the parabolas before the chord, which is never too long, ends the search.
+constexpr int kPasses = 32;
+/// The instant for which bodies that touch are not watched: in it their paths bend by less than
+/// kRounding of their size, and it is no longer than kInstant [s].
+constexpr double kRounding = 1e-13, kInstant = 1e-6;
 
-/// Corners in the body frame; a ball is a corner with a radius.
-int cornersOf(const Shape& shape, Vec3* corners, double& round) {
-  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
-    corners[0].setZero();
-    round = sphere->r;
-    return 1;
-  }
-  const Box* box = std::get_if<Box>(&shape);
-  if (!box) return 0;
-  for (int k = 0; k < 8; ++k)
-    corners[k] = {k & 1 ? box->half.x() : -box->half.x(), k & 2 ? box->half.y() : -box->half.y(),
-                  k & 4 ? box->half.z() : -box->half.z()};
-  return 8;
+Pose placed(const Vec3& x, const Quat& q, const Pose& part) {
+  return {x + q * part.x, q * part.q};
 }
 
 }  // namespace
@@ -39,56 +32,64 @@ int cornersOf(const Shape& shape, Vec3* corners, double& round) {
 Approach::Approach(const Flyer& a, const Flyer& b, double touch) : touch_(touch) {
   side_[0].flyer = a;
   side_[1].flyer = b;
-  if (std::holds_alternative<HalfSpace>(*a.shape)) std::swap(side_[0], side_[1]);
-  plane_ = std::get_if<HalfSpace>(side_[1].flyer.shape);
-  acceleration_ = side_[0].flyer.path->g;  // a top's is its slack
-  if (!plane_) acceleration_ -= side_[1].flyer.path->g;
+  if (std::holds_alternative<HalfSpace>(a.convex->shape)) std::swap(side_[0], side_[1]);
+  plane_ = std::get_if<HalfSpace>(&side_[1].flyer.convex->shape);
+  acceleration_.setZero();
   for (Side& side : side_) {
     if (&side == &side_[1] && plane_) continue;
-    side.radius = boundingRadius(*side.flyer.shape);
-    side.count = cornersOf(*side.flyer.shape, side.corners_B, side.round);
-    for (int k = 0; k < side.count; ++k)
-      side.corner = std::max(side.corner, side.corners_B[k].norm());
+    const Outline& outline = side.flyer.convex->outline;
+    side.corner = outline.corner;
+    side.round = outline.round;
+    side.isPoint = outline.points.size() == 1 && outline.rims.empty();
     if (const HeavyTop* top = side.flyer.top) {
       side.slack = top->accelBound(0.0);
       side.turning = top->accelBound(1.0) - side.slack;
       continue;
     }
-    // What the bound leaves when the fall of the centre is taken off, rounding included.
-    const double all = side.flyer.flight->accelBound(1.0), fall = side.flyer.path->g.norm();
-    side.turning = std::max(0.0, all - fall) + 1e-15 * all;
-    if (side.flyer.body->omega.isZero(0.0)) side.turning = 0.0;
+    side.turning = side.flyer.flight->turning() * (1.0 + 1e-12);
+    const Vec3& fall = side.flyer.flight->path().g;
+    acceleration_ += &side == &side_[0] ? fall : Vec3(-fall);
   }
+  size_ = side_[0].corner + side_[0].round + side_[1].corner + side_[1].round;
 }
 
 void Approach::lookAt(double t) {
+  ++evaluations_;
   // A top is where it is; any other centre runs along its parabola.
   const auto centre = [t](const Flyer& flyer, Vec3& x, Vec3& v) {
-    if (flyer.top) flyer.top->at(t, *flyer.body);
-    x = flyer.top ? flyer.body->x : flyer.path->position(t);
-    v = flyer.top ? flyer.body->v : flyer.path->velocity(t);
+    if (flyer.top) {
+      flyer.top->at(t, *flyer.body);
+      x = flyer.body->x;
+      v = flyer.body->v;
+    } else {
+      const double s = t - flyer.flight->start();
+      x = flyer.flight->path().position(s);
+      v = flyer.flight->path().velocity(s);
+    }
   };
   const Flyer &a = side_[0].flyer, &b = side_[1].flyer;
   centre(a, offset_, velocity_);
   if (plane_) {
     ballNormal_ = plane_->n;
-    ballGap_ = ballNormal_.dot(offset_) - plane_->d - side_[0].radius;
+    ballGap_ = ballNormal_.dot(offset_) - plane_->d - side_[0].corner - side_[0].round;
     return;
   }
-  if (a.top || b.top) {
+  if (a.top || b.top || a.flight->start() != b.flight->start()) {
     Vec3 x, v;
     centre(b, x, v);
     offset_ -= x;
     velocity_ -= v;
   } else {
     // Differences first: bodies far from the origin, or long under way, lose nothing.
-    const Parabola apart{a.path->x0 - b.path->x0, a.path->v0 - b.path->v0, acceleration_};
-    offset_ = apart.position(t);
-    velocity_ = apart.velocity(t);
+    const Parabola &p = a.flight->path(), &q = b.flight->path();
+    const Parabola apart{p.x0 - q.x0, p.v0 - q.v0, acceleration_};
+    const double s = t - a.flight->start();
+    offset_ = apart.position(s);
+    velocity_ = apart.velocity(s);
   }
   const double distance = offset_.norm();
   ballNormal_ = distance > 0.0 ? Vec3(offset_ / distance) : Vec3::UnitY();
-  ballGap_ = distance - side_[0].radius - side_[1].radius;
+  ballGap_ = distance - size_;
 }
 
 double Approach::ballStep() const {
@@ -97,19 +98,14 @@ double Approach::ballStep() const {
                    ballNormal_.dot(acceleration_) - side_[0].slack - side_[1].slack);
 }
 
-void Approach::placeCorners(double t) {
-  for (Side& side : side_) {
-    if (side.count == 0) continue;
-    RigidBody& body = *side.flyer.body;
-    if (!side.flyer.top) side.flyer.flight->at(t, body);
-    for (int k = 0; k < side.count; ++k) {
-      side.corners[k] = body.R * side.corners_B[k];
-      side.rates[k] = body.omega.cross(side.corners[k]);
-    }
-  }
-  const RigidBody &a = *side_[0].flyer.body, &b = *side_[1].flyer.body;
-  wide_ = separatingPlane(*side_[0].flyer.shape, {offset_, a.q}, *side_[1].flyer.shape,
-                          {Vec3::Zero(), plane_ ? Quat::Identity() : b.q});
+void Approach::findPlane(double t) {
+  for (Side& side : side_)
+    if (!side.flyer.top && !(&side == &side_[1] && plane_))
+      side.flyer.flight->at(t, *side.flyer.body);
+  const Flyer &a = side_[0].flyer, &b = side_[1].flyer;
+  wide_ =
+      separatingPlane(a.convex->shape, placed(offset_, a.body->q, a.convex->pose), b.convex->shape,
+                      plane_ ? Pose{} : placed(Vec3::Zero(), b.body->q, b.convex->pose));
 }
 
 /// Angular velocity [rad/s] at which the plane turns with what it is tied to.
@@ -135,54 +131,78 @@ Vec3 Approach::planeTurn() const {
   return turn.allFinite() ? turn : Vec3::Zero();
 }
 
-Approach::Heights Approach::heights(int which, const Vec3& n, const Vec3& rate) const {
-  const Side& side = side_[which];
-  Heights h;
-  if (side.count == 0) {  // a plane stands where it is
-    h.at[0] = plane_->d;
-    h.rate[0] = 0.0;
-    h.count = 1;
-    return h;
+// A point p of the body moves along the turning n at  p·(ṅ + n × ω) = p·((Ω − ω) × n).
+Approach::Seen Approach::see(const Side& side, const Vec3& n, const Vec3& turn) const {
+  if (side.isPoint && side.corner == 0.0) return {n, Vec3::Zero()};
+  const RigidBody& body = *side.flyer.body;
+  return {body.R.transpose() * n, body.R.transpose() * (turn - body.omega).cross(n)};
+}
+
+Approach::Reach Approach::outermost(const Side& side, const Seen& seen, double s,
+                                    double sign) const {
+  if (side.isPoint && side.corner == 0.0) return {sign * side.round, 0.0};
+  const Outline& outline = side.flyer.convex->outline;
+  const Vec3 m = seen.n + s * seen.rate;
+  double most = -std::numeric_limits<double>::infinity();
+  Vec3 best = Vec3::Zero();
+  for (const Vec3& p : outline.points) {
+    const double height = sign * m.dot(p);
+    if (height > most) most = height, best = p;
   }
-  const bool isA = which == 0;
-  const double round = isA ? -side.round : side.round;
-  const double centre = isA ? n.dot(offset_) : 0.0;
-  const double centreRate = isA ? n.dot(velocity_) + rate.dot(offset_) : 0.0;
-  for (int k = 0; k < side.count; ++k) {
-    h.at[k] = centre + n.dot(side.corners[k]) + round;
-    h.rate[k] = centreRate + n.dot(side.rates[k]) + rate.dot(side.corners[k]);
+  for (const Outline::Rim& rim : outline.rims) {
+    const double x = sign * m.dot(rim.u), y = sign * m.dot(rim.v);
+    const double length = std::sqrt(x * x + y * y);
+    const double height = sign * m.dot(rim.centre) + rim.r * length;
+    if (height <= most) continue;
+    most = height;
+    best = rim.centre + (length > 0.0 ? rim.r / length : 0.0) * (x * rim.u + y * rim.v);
   }
-  h.count = side.count;
-  return h;
+  return {seen.n.dot(best) + sign * side.round, seen.rate.dot(best)};
+}
+
+/// The curvature c [m/s²] of the parabolas below which no point gets within `limit` [s].
+double Approach::bound(const Vec3& n, double spin, double limit) const {
+  const Side &a = side_[0], &b = side_[1];
+  const double bend = a.bend() + b.bend();
+  if (spin == 0.0) return n.dot(acceleration_) - bend;
+  const double fall = acceleration_.norm() + a.slack + b.slack;
+  const double speed = velocity_.norm() + fall * limit + a.corner * std::sqrt(a.turning) +
+                       b.corner * std::sqrt(b.turning);
+  const double distance = offset_.norm() + a.corner + b.corner + speed * limit;
+  return -fall - bend - spin * (spin * distance + 2.0 * speed);
 }
 
 double Approach::stepAlong(const Vec3& n, const Vec3& turn, double limit, bool begins) const {
   const Vec3 rate = turn.cross(n);
-  const Heights a = heights(0, n, rate), b = heights(1, n, rate);
-  const Side &sideA = side_[0], &sideB = side_[1];
-  const double bend = sideA.bend() + sideB.bend();
-  const double spin = turn.norm();
-  double c = n.dot(acceleration_) - bend;
-  if (spin > 0.0) {
-    const double fall = acceleration_.norm() + sideA.slack + sideB.slack;
-    const double speed = velocity_.norm() + fall * limit + sideA.corner * std::sqrt(sideA.turning) +
-                         sideB.corner * std::sqrt(sideB.turning);
-    const double distance = offset_.norm() + sideA.corner + sideB.corner + speed * limit;
-    c = -fall - bend - spin * (spin * distance + 2.0 * speed);
+  const Seen seenA = see(side_[0], n, turn), seenB = see(side_[1], n, turn);
+  const double offset = n.dot(offset_) - (plane_ ? plane_->d : 0.0);
+  const double offsetRate = n.dot(velocity_) + (plane_ ? 0.0 : rate.dot(offset_));
+  const auto lowestAt = [&](double s) -> Reach {
+    const Reach a = outermost(side_[0], seenA, s, -1.0);
+    const Reach b = plane_ ? Reach{} : outermost(side_[1], seenB, s, 1.0);
+    return {offset + a.at - b.at, offsetRate + a.rate - b.rate};
+  };
+  double c = bound(n, turn.norm(), limit);
+  const Reach now = lowestAt(0.0);
+  // What touches at the start to rounding starts from zero.
+  const double lift = begins && now.at <= kRounding * size_ ? -now.at : 0.0;
+  if (now.at + lift < 0.0) return 0.0;
+  if (seenA.rate.isZero(0.0) && seenB.rate.isZero(0.0))
+    return std::min(limit, firstZero(now.at + lift, now.rate, c));
+
+  c = std::min(c, 0.0);
+  double s = limit;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Reach low = lowestAt(s);
+    const double alpha = low.at + lift, height = alpha + s * (low.rate + 0.5 * c * s);
+    if (height >= 0.0) return s;
+    const double zero = alpha < 0.0 ? 0.0 : firstZero(alpha, low.rate, c);
+    if (zero >= s) return s;  // only rounding is left
+    s = zero;
   }
-  double first = limit;
-  for (int k = 0; k < a.count; ++k) {
-    for (int l = 0; l < b.count; ++l) {
-      double alpha = a.at[k] - b.at[l];
-      const double beta = a.rate[k] - b.rate[l];
-      // Corners that touch at the start must not come nearer; others must not touch.
-      if (begins && alpha <= touch_) alpha = 0.0;
-      if (alpha < 0.0) return 0.0;
-      if (c <= 0.0 && alpha + first * (beta + 0.5 * c * first) > 0.0) continue;
-      first = std::min(first, firstZero(alpha, beta, c));
-    }
-  }
-  return first;
+  const Reach low = lowestAt(s);
+  const double height = low.at + lift + s * (low.rate + 0.5 * c * s);
+  return s * (now.at + lift) / (now.at + lift - std::min(height, 0.0));
 }
 
 double Approach::cornerStep(double limit, bool begins) const {
@@ -201,7 +221,7 @@ double Approach::cornerStep(double limit, bool begins) const {
 }
 
 std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
-  double t = t0;
+  double t = t0, deepest = 0.0;
   int hovering = 0;
   while (t < t1) {
     // While the balls around them are well apart, only the centres matter.
@@ -209,20 +229,27 @@ std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
     const double balls = ballStep();
     if (balls >= t1 - t) return std::nullopt;
     if (ballGap_ > touch_) begins = false;
-    if (ballGap_ > kFar * (side_[0].radius + side_[1].radius) && t + balls > t) {
+    if (ballGap_ > kFar * size_ && t + balls > t) {
       t += balls;
       continue;
     }
-    placeCorners(t);
-    if (wide_.separation > touch_) begins = false;
+    findPlane(t);
+    // What hovers at the start may still be about to part.
+    if (wide_.separation > (t == t0 ? touch_ : 0.0)) begins = false;
     if (!begins && wide_.separation <= 0.0) return t;
+    if (begins && t == t0) deepest = std::min(wide_.separation, 0.0) - 4.0 * kRounding * size_;
+    if (begins && (wide_.separation < deepest || ++hovering > kParting)) return t0;
     double step = cornerStep(t1 - t, begins);
-    if (begins) step = step < t1 - t ? 0.5 * step : step;  // half way they have parted most
+    if (begins && step < t1 - t) {
+      // Half way they have parted most; what is shorter than an instant is not watched.
+      const double bend = std::abs(bound(wide_.n, planeTurn().norm(), kInstant));
+      step = std::max(0.5 * step, std::min(kInstant, std::sqrt(kRounding * size_ / bend)));
+    }
     if (!begins) step = std::max(step, balls);
     const double next = t + step;
     if (next >= t1) return std::nullopt;
-    if (next <= t || (begins && hovering >= kParting)) return begins ? t0 : t;
-    if (wide_.separation <= touch_ && ++hovering >= kPatience) return t;
+    if (next <= t) return t;
+    if (!begins && wide_.separation <= touch_ && ++hovering >= kPatience) return t;
     t = next;
   }
   return std::nullopt;

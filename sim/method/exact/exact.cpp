@@ -10,17 +10,16 @@
 namespace tumble {
 namespace {
 
-/// The shortest digits that give the same number again, the same in every locale.
-std::string digits(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-/// The shape itself where bodies can meet it; for any other the box around it, in the body frame.
-Shape hullOf(const Shape& shape) {
-  if (canCollide(shape, Sphere{})) return shape;
+/// The convex parts of a body. What has none of its own is watched by the box around it.
+std::vector<Convex> partsOf(const Shape& shape) {
+  std::vector<Convex> parts;
+  for (const PosedPart& part : convexParts(shape))
+    parts.push_back({part.solid, part.pose, outlineOf(part.solid, part.pose)});
+  if (!parts.empty() || !touchesAnything(shape)) return parts;
   const Aabb box = boundingBox(shape, Pose{});
-  return Box{box.lo.cwiseAbs().cwiseMax(box.hi.cwiseAbs())};
+  const Pose pose{0.5 * (box.lo + box.hi), Quat::Identity()};
+  const Shape around = Box{0.5 * (box.hi - box.lo)};
+  return {{around, pose, outlineOf(around, pose)}};
 }
 
 /// Whether a force leaves the acceleration of a body constant and its spin free.
@@ -37,20 +36,12 @@ bool pushes(const Force& force, int body) {
   return wind && (wind->body == kNoBody || wind->body == body);
 }
 
-/// Every body at t, by its flight or as a top.
-void bodiesAt(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies) {
-  const std::vector<Flight>& flights = state.trail.back().flights;
-  for (std::size_t i = 0; i < bodies.size(); ++i) flights[i].at(t, bodies[i]);
-  for (std::size_t k = 0; k < state.tops.size(); ++k)
-    state.tops[k].at(t, bodies[model.pivots[k].body]);
-}
-
-bool isFinite(const RigidBody& body) {
-  return body.x.allFinite() && body.q.coeffs().allFinite() && body.v.allFinite() &&
-         body.omega.allFinite();
-}
-
 }  // namespace
+
+std::string digits(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
 
 void checkExact(const Model& model, std::span<const RigidBody>) {
   const std::vector<Force>& forces = model.def.forces;
@@ -70,133 +61,93 @@ void checkExact(const Model& model, std::span<const RigidBody>) {
 
 void advanceExact(const Model& model, State& state, double t_end, Report& report) {
   Exact exact(model, state, report);
-  if (state.trail.empty()) exact.takeOff();
+  if (state.flights.empty()) exact.takeOff();
   for (HeavyTop& top : state.tops) top.forget(state.lookedAt);
-  while (state.t < t_end && !state.touch && !report.stopped) exact.fly();
-  if (state.touch && state.touch->t <= t_end) exact.stop();
+  for (std::vector<Flight>& flights : state.flights) {
+    auto past = flights.begin();
+    while (past + 1 < flights.end() && (past + 1)->start() <= state.lookedAt) ++past;
+    flights.erase(flights.begin(), past);
+  }
+  while (state.holds.size() > 1 && state.holds[1].t <= state.lookedAt)
+    state.holds.erase(state.holds.begin());
+  while (state.t < t_end && !report.stopped) exact.next(t_end);
   state.lookedAt = t_end;
 }
 
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                std::vector<Contact>& contacts) {
-  if (state.trail.empty()) {  // nothing has moved yet
-    bodies = state.bodies;
-    contacts.clear();
-    return;
-  }
-  const Segment& segment = state.trail.back();
-  if (bodies.size() != segment.start.size()) bodies = segment.start;
-  bodiesAt(model, state, t, bodies);
   contacts.clear();
+  if (bodies.size() != state.bodies.size()) bodies = state.bodies;
+  for (std::size_t i = 0; i < state.flights.size(); ++i) {
+    const std::vector<Flight>& flights = state.flights[i];
+    std::size_t k = flights.size() - 1;
+    while (k > 0 && flights[k].start() > t) --k;
+    flights[k].at(t, bodies[i]);
+  }
+  for (std::size_t k = 0; k < state.tops.size(); ++k)
+    state.tops[k].at(t, bodies[model.pivots[k].body]);
+  std::size_t k = state.holds.size();
+  while (k > 0 && state.holds[k - 1].t > t) --k;
+  if (k == 0) return;
+  contacts = state.holds[k - 1].contacts;
+  for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
 }
 
 Exact::Exact(const Model& model, State& state, Report& report)
-    : model_(model), state_(state), report_(report) {}
+    : model_(model),
+      state_(state),
+      report_(report),
+      tolerance_(ContactTolerance::forSize(model.size)) {}
 
 void Exact::takeOff() {
-  // What acts besides gravity stays the same all the way.
-  sumForces(Vec3::Zero(), model_.def.forces, state_.bodies);
-  Segment segment;
-  segment.start = state_.bodies;
-  segment.flights.reserve(state_.bodies.size());
-  for (const RigidBody& body : state_.bodies) {
-    const Vec3 acceleration =
-        body.fixed() ? Vec3(Vec3::Zero()) : Vec3(model_.def.gravity + body.invM * body.force);
-    segment.flights.emplace_back(body, acceleration, 0.0);
-    state_.paths.push_back({body.x, body.v, acceleration});
+  // What acts on a body stays the same all the way.
+  const std::size_t n = state_.bodies.size();
+  sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
+  state_.flights.resize(n);
+  state_.flightCount.assign(n, 0);
+  state_.window.length = model_.def.duration;
+  for (std::size_t i = 0; i < n; ++i) {
+    const RigidBody& body = state_.bodies[i];
+    state_.outer.push_back(body.force);
+    state_.start.push_back(body.x);
+    state_.startP.push_back(body.P);
+    state_.parts.push_back(partsOf(model_.shapes[i]));
+    state_.flights[i].emplace_back(body, body.invM * body.force, 0.0);
   }
-  state_.trail.push_back(std::move(segment));
-  for (const Pivot& pivot : model_.pivots) {
+  for (const Pivot& pivot : model_.pivots)
     state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, 0.0);
-    state_.paths[pivot.body] = {pivot.p, Vec3::Zero(), Vec3::Zero()};
-  }
-  state_.window = model_.def.duration;
-  for (const Shape& shape : model_.shapes) state_.hulls.push_back(hullOf(shape));
-  report_.certificate.steps = model_.count();
   report_.certificate.evaluations = 1;
+  report_.certificate.steps = model_.count();
+
+  // The events of t = 0, one cluster of bodies after the other.
+  openWindow();
+  std::vector<char> settled(n, 0);
+  for (const int i : model_.solid) {
+    if (settled[i] || model_.fixed(i) || report_.stopped) continue;
+    const int seeds[] = {i};
+    Cluster cluster = gather(0.0, seeds);
+    for (const int body : cluster.bodies) settled[body] = 1;
+    if (cluster.contacts.empty()) continue;
+    if (collides(cluster)) respond(0.0, cluster);
+    hold(0.0, cluster);
+  }
+  keepBooks(0.0);
 }
 
-void Exact::fly() {
-  choosePairs();
-  spinTops();
+void Exact::next(double t_end) {
+  if (state_.t >= state_.window.t1) openWindow();
   if (report_.stopped) return;
-  double t1 = t1_;
-  for (const int plane : planes_)
-    for (const int body : finite_)
-      if (!model_.fixed(body)) lookFor(std::minmax(plane, body), t1);
-  for (const Pair& pair : pairs_) lookFor(pair, t1);
-  moveTo(t1);
-}
-
-void Exact::lookFor(Pair pair, double& t1) {
-  const auto flyer = [&](int i) -> Flyer {
-    Flyer flyer{&state_.trail.back().flights[i], &state_.paths[i], &state_.hulls[i],
-                &state_.bodies[i]};
-    for (std::size_t k = 0; k < state_.tops.size(); ++k)
-      if (model_.pivots[k].body == i) flyer.top = &state_.tops[k];
-    return flyer;
-  };
-  const auto [b, a] = pair;
-  const double touch = ContactTolerance::forSize(model_.size).touch;
-  Approach approach(flyer(a), flyer(b), touch);
-  if (const auto t = approach.firstTouch(state_.t, t1, state_.t == 0.0)) {
-    state_.touch = {*t, a, b};
-    t1 = *t;
-  }
-}
-
-void Exact::spinTops() {
-  for (std::size_t k = 0; k < state_.tops.size() && !report_.stopped; ++k) {
-    if (state_.tops[k].reach(t1_)) continue;
-    report_.stopped = true;
-    report_.reason = "\"" + model_.def.bodies[model_.pivots[k].body].name +
-                     "\" leaves the range of numbers before t = " + digits(t1_) + " s";
-  }
-}
-
-void Exact::moveTo(double t) {
-  bodiesAt(model_, state_, t, state_.bodies);
-  for (int i = 0; i < model_.count(); ++i) {
-    if (isFinite(state_.bodies[i])) continue;
-    report_.stopped = true;
-    report_.reason = "\"" + model_.def.bodies[i].name +
-                     "\" leaves the range of numbers before t = " + digits(t) + " s";
+  dropStale();
+  const double until = std::min(t_end, state_.window.t1);
+  if (!state_.queue.empty() && state_.queue.front().t <= until) {
+    const State::Touch touch = state_.queue.front();
+    closeRests(touch.t);
+    strike(touch.t, touch.a, touch.b);
     return;
   }
-  state_.t = t;
-  state_.trail.back().t1 = t;
-  keepBooks(t);
-}
-
-void Exact::keepBooks(double t) {
-  const Segment& segment = state_.trail.back();
-  state_.externalImpulse.setZero();
-  double work = 0.0;
-  for (std::size_t i = 0; i < segment.start.size(); ++i) {
-    const RigidBody& start = segment.start[i];
-    if (start.fixed()) continue;
-    const Parabola& path = state_.paths[i];
-    state_.externalImpulse += t * (start.M * path.g);
-    if (model_.def.bodies[i].pivot_B)  // the pivot gives what momentum it gains, and no work
-      state_.externalImpulse += state_.bodies[i].P - start.P;
-    work += t * start.force.dot(path.v0 + 0.5 * t * path.g);  // none for a top
-  }
-  report_.certificate.work_of_forces = work;
-  account(model_, state_, report_);
-}
-
-void Exact::stop() {
-  const auto [t, a, b] = *state_.touch;
-  const bool known = canCollide(model_.shapes[a], model_.shapes[b]);
-  report_.stopped = true;
-  report_.reason = "\"" + model_.def.bodies[a].name +
-                   (known ? "\" touches \"" : "\" comes near \"") + model_.def.bodies[b].name +
-                   "\" at t = " + digits(t) + " s";
-  report_.reason += known ? "; the exact method knows free flight alone, so use method \"course\" "
-                            "or \"stepping\""
-                          : ", and there is no contact rule for " +
-                                std::string(shapeName(model_.shapes[a])) + " and " +
-                                std::string(shapeName(model_.shapes[b])) + "; keep them apart";
+  closeRests(until);
+  if (until == state_.window.t1 || until == model_.def.duration) keepBooks(until);
+  state_.t = until;
 }
 
 }  // namespace tumble

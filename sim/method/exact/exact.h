@@ -1,7 +1,10 @@
-// Bodies that never come near each other fly in closed form: no step, and no error that grows with
-// the number of steps. Where two touch, the run stops and says when, and which.
+// From event to event, without a step: bodies fly in closed form, the first instant at which two of
+// them touch is found and never passed, an impact law gives them new flights, and what stays in
+// contact is held by constant forces. The order is that of the flow chart of slide SD39; there is
+// no illegal state to come back from.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,40 +21,80 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                std::vector<Contact>& contacts);
 
+/// Bodies that touch each other at one instant, directly or through others that can move, and
+/// where.
+struct Cluster {
+  std::vector<int> bodies;        ///< in the model, in order of discovery
+  std::vector<Contact> contacts;  ///< all that touch, bodies as in the model
+};
+
 /// The method at work on one world.
 class Exact {
  public:
   Exact(const Model& model, State& state, Report& report);
 
-  /// Gives every body its flight from t = 0 on.
+  /// Gives every body its flight from t = 0 on, after the events of t = 0.
   void takeOff();
-  /// One window of time: to its end, or to the first touch inside.
-  void fly();
-  /// Ends the run at the touch that was found.
-  void stop();
+  /// Goes on to the next event, to the end of the window, or to t_end, whichever is first.
+  void next(double t_end);
 
  private:
   using Pair = std::pair<int, int>;
 
-  /// Pairs whose swept boxes overlap during the next `window_` seconds; shortens the window until
-  /// they are few. Half-spaces apart.
-  void choosePairs();
-  /// Boxes that hold the finite bodies from now to t1, in a frame that falls and drifts with them.
-  void sweptBoxes(double t1, std::vector<Aabb>& boxes) const;
-  /// Keeps the earliest touch before t1 in state_.touch.
-  void lookFor(Pair pair, double& t1);
+  // window.cpp: what may meet.
+  void openWindow();
+  /// Pairs whose swept boxes overlap in the window; shortens it until they are few.
+  std::vector<Pair> choosePairs();
+  void chooseFrame();
+  /// What a body can reach from t until the window's end, seen from its frame.
+  Aabb sweptBox(int body, double t) const;
   /// Covers the window with the arcs of all tops.
   void spinTops();
-  void moveTo(double t);
+  bool bothFixed(int i, int j) const { return model_.fixed(i) && model_.fixed(j); }
+
+  // touch.cpp: when they do.
+  /// The earliest touch of two bodies from t to the window's end goes into the queue.
+  void lookFor(Pair pair, double t);
+  /// New touches of a body that has just got a new flight.
+  void lookAround(int body, double t);
+  void dropStale();
+
+  // strike.cpp: what happens then.
+  void strike(double t, int a, int b);
+  Cluster gather(double t, std::span<const int> seeds);
+  bool collides(const Cluster& cluster) const;
+  void respond(double t, const Cluster& cluster);
+  double restitutionNow(double t, const Contact& contact);
+  void recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,
+                     std::span<const Vec3> impulse);
+
+  // hold.cpp: what stays together.
+  /// Finds the forces of contacts that last, and gives all bodies of the cluster their flights.
+  void hold(double t, Cluster& cluster);
+  std::vector<Contact> restingOf(const Cluster& cluster) const;
+  void solveForces(std::vector<Contact>& resting);
+  bool steady(const Contact& contact) const;
+  void changeHolds(double t, const Cluster& cluster, const std::vector<Contact>& now);
+  bool lasts(int i, int j) const;
+  void renew(double t, int body, const Vec3& acceleration);
+  void closeRests(double t);
+
+  // books.cpp: the certificate.
+  void bookHolds(double t);
   void keepBooks(double t);
+  void bringTo(double t, int body);
+  void stop(std::string reason);
+  const std::string& nameOf(int body) const { return model_.def.bodies[body].name; }
 
   const Model& model_;
   State& state_;
   Report& report_;
-  std::vector<int> finite_, planes_;  ///< bodies that can touch something
-  Vec3 drift_ = Vec3::Zero();         ///< [m/s] mean velocity of the bodies that are free
-  double t1_ = 0.0;                   ///< [s] end of the window
-  std::vector<Pair> pairs_;           ///< b < a
+  ContactTolerance tolerance_;
+  /// When the last bounces of pairs that come to rest now would be over, b < a.
+  std::vector<std::pair<Pair, double>> ends_;
 };
+
+/// The shortest digits that give the same number again, the same in every locale.
+std::string digits(double value);
 
 }  // namespace tumble

@@ -19,84 +19,125 @@ constexpr double kArcs = 10.0;
 /// What is added to swept boxes for rounding, relative to their coordinates.
 constexpr double kRounding = 1e-14;
 
-/// Range of  x + v t + ½ a t²  over [t0, t1].
-void stretch(double x, double v, double a, double t0, double t1, double& lo, double& hi) {
+/// Range of  x + v t + ½ a t²  over [0, h].
+void stretch(double x, double v, double a, double h, double& lo, double& hi) {
   const auto at = [&](double t) { return x + t * (v + 0.5 * t * a); };
-  lo = std::min(at(t0), at(t1));
-  hi = std::max(at(t0), at(t1));
+  lo = std::min(x, at(h));
+  hi = std::max(x, at(h));
   const double turn = -v / a;
-  if (!(turn > t0 && turn < t1)) return;
+  if (!(turn > 0.0 && turn < h)) return;
   lo = std::min(lo, at(turn));
   hi = std::max(hi, at(turn));
 }
 
 }  // namespace
 
-void Exact::sweptBoxes(double t1, std::vector<Aabb>& boxes) const {
-  const double t0 = state_.t;
-  boxes.clear();
-  for (const int i : finite_) {
-    const RigidBody& start = state_.trail.back().start[i];
-    const Parabola& path = state_.paths[i];
-    const Vec3 v = path.v0 - drift_, a = path.g - model_.def.gravity;
-    // A body that does not turn keeps its own box; any other stays within its ball.
-    Vec3 reach = Vec3::Constant(boundingRadius(state_.hulls[i]));
-    const std::optional<Vec3>& pivot_B = model_.def.bodies[i].pivot_B;
-    if (pivot_B) {
-      reach += Vec3::Constant(pivot_B->norm());
-    } else if (start.omega.isZero(0.0)) {
-      const Aabb own = boundingBox(state_.hulls[i], {Vec3::Zero(), start.q});
-      reach = own.hi;
-    }
-    Aabb box;
-    for (int k = 0; k < 3; ++k) stretch(path.x0[k], v[k], a[k], t0, t1, box.lo[k], box.hi[k]);
-    reach += kRounding * (reach + box.lo.cwiseAbs() + box.hi.cwiseAbs());
-    box.lo -= reach;
-    box.hi += reach;
-    boxes.push_back(box);
+Aabb Exact::sweptBox(int i, double t) const {
+  const State::Window& w = state_.window;
+  const Flight& flight = state_.flights[i].back();
+  const std::optional<Vec3>& pivot_B = model_.def.bodies[i].pivot_B;
+  const double since = t - flight.start(), late = t - w.t0, h = w.t1 - t;
+  Vec3 x = flight.path().position(since), v = flight.path().velocity(since), a = flight.path().g;
+  double radius = boundingRadius(model_.shapes[i]);
+  if (pivot_B) {  // the pivot stays, and the body within a ball about it
+    const RigidBody& body = state_.bodies[i];
+    x = body.x + body.q * *pivot_B;
+    v = a = Vec3::Zero();
+    radius += pivot_B->norm();
   }
+  x -= late * (w.drift + 0.5 * late * w.fall);
+  v -= w.drift + late * w.fall;
+  a -= w.fall;
+  // A body that does not turn keeps its own box; any other stays within its ball.
+  Aabb own{Vec3::Constant(-radius), Vec3::Constant(radius)};
+  if (flight.turning() == 0.0 && !pivot_B)
+    own = boundingBox(model_.shapes[i], {Vec3::Zero(), flight.pose(t).q});
+  Aabb box;
+  for (int k = 0; k < 3; ++k) stretch(x[k], v[k], a[k], h, box.lo[k], box.hi[k]);
+  box.lo += own.lo;
+  box.hi += own.hi;
+  const Vec3 more = Vec3::Constant(tolerance_.touch) +
+                    kRounding * (box.lo.cwiseAbs() + box.hi.cwiseAbs() + x.cwiseAbs());
+  return {box.lo - more, box.hi + more};
 }
 
-void Exact::choosePairs() {
-  finite_.clear();
-  planes_.clear();
-  drift_.setZero();
-  int free = 0;
-  for (const int i : model_.solid)
-    (std::holds_alternative<HalfSpace>(model_.shapes[i]) ? planes_ : finite_).push_back(i);
-  for (int i = 0; i < model_.count(); ++i) {
-    if (model_.fixed(i)) continue;
-    drift_ += state_.paths[i].v0;
-    ++free;
+void Exact::chooseFrame() {
+  // Bodies that all fly free are seen from a frame that falls and drifts with them.
+  State::Window& w = state_.window;
+  w.drift.setZero();
+  w.fall.setZero();
+  int count = 0;
+  for (const int i : w.finite) {
+    if (model_.fixed(i)) return w.drift.setZero(), void();
+    const Flight& flight = state_.flights[i].back();
+    w.drift += flight.path().velocity(w.t0 - flight.start());
+    ++count;
   }
-  if (free > 0) drift_ /= free;
+  if (count == 0 || !w.planes.empty()) return w.drift.setZero(), void();
+  w.drift /= count;
+  w.fall = model_.def.gravity;
+}
 
+std::vector<Exact::Pair> Exact::choosePairs() {
+  State::Window& w = state_.window;
+  const double left = model_.def.duration - w.t0;
+  const long n = static_cast<long>(w.finite.size());
+  std::vector<Aabb> boxes;
+  std::vector<Pair> pairs;
+  const auto sweep = [&](double t1, const SweepCount& most) {
+    w.t1 = t1;
+    boxes.clear();
+    for (const int i : w.finite) boxes.push_back(sweptBox(i, w.t0));
+    return sweepPairs(boxes, most, pairs);
+  };
   // However short the window, there are the pairs that are near now.
   constexpr long kMost = std::numeric_limits<long>::max();
-  const double left = model_.def.duration - state_.t;
-  const long n = static_cast<long>(finite_.size());
-  std::vector<Aabb> boxes;
   SweepCount most{kAnyway, kAnyway};
   if (n * (n - 1) / 2 > kAnyway) {
-    sweptBoxes(state_.t, boxes);
-    const SweepCount now = *sweepPairs(boxes, {kMost, kMost}, pairs_);
+    const SweepCount now = *sweep(w.t0, {kMost, kMost});
     most.pairs = std::max(kPairsPerBody * n, kTimesNow * now.pairs);
     most.comparisons = std::max(kComparisonsPerBody * n, kTimesNow * now.comparisons);
   }
   // Twice the last window, and halved until its pairs are few.
   const double furthest = std::min(left, state_.tops.empty() ? left : kArcs);
-  for (double window = std::min(furthest, 2.0 * state_.window);; window *= 0.5) {
-    t1_ = window < left ? state_.t + window : model_.def.duration;
-    state_.window = window;
-    sweptBoxes(t1_, boxes);
-    if (sweepPairs(boxes, most, pairs_) || t1_ <= state_.t) break;
+  for (double length = std::min(furthest, 2.0 * w.length);; length *= 0.5) {
+    w.length = length;
+    const double t1 = length < left ? w.t0 + length : model_.def.duration;
+    if (sweep(t1, most) || t1 <= w.t0) break;
   }
-  for (auto& [b, a] : pairs_) {
-    b = finite_[b];
-    a = finite_[a];
+  w.swept.resize(model_.shapes.size());
+  for (std::size_t k = 0; k < w.finite.size(); ++k) w.swept[w.finite[k]] = boxes[k];
+  for (auto& [b, a] : pairs) {
+    b = w.finite[b];
+    a = w.finite[a];
   }
-  std::erase_if(pairs_,
-                [&](const Pair& p) { return model_.fixed(p.first) && model_.fixed(p.second); });
+  return pairs;
+}
+
+void Exact::openWindow() {
+  State::Window& w = state_.window;
+  w.t0 = state_.t;
+  w.renewals = 0;
+  w.finite.clear();
+  w.planes.clear();
+  for (const int i : model_.solid)
+    (std::holds_alternative<HalfSpace>(model_.shapes[i]) ? w.planes : w.finite).push_back(i);
+  for (const Pivot& pivot : model_.pivots) bringTo(w.t0, pivot.body);
+  chooseFrame();
+  const std::vector<Pair> pairs = choosePairs();
+  spinTops();
+  if (report_.stopped) return;
+  state_.queue.clear();
+  for (const int plane : w.planes)
+    for (const int body : w.finite) lookFor({plane, body}, w.t0);
+  for (const Pair& pair : pairs) lookFor(pair, w.t0);
+}
+
+void Exact::spinTops() {
+  for (std::size_t k = 0; k < state_.tops.size() && !report_.stopped; ++k)
+    if (!state_.tops[k].reach(state_.window.t1))
+      stop("\"" + nameOf(model_.pivots[k].body) +
+           "\" leaves the range of numbers before t = " + digits(state_.window.t1) + " s");
 }
 
 }  // namespace tumble

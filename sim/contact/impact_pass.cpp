@@ -1,0 +1,122 @@
+// One pass of an impact law: Newton's law at some contacts at once, as a linear complementarity
+// problem.
+#include "sim/contact/impact_pass.h"
+
+#include <algorithm>
+
+#include "sim/contact/rows.h"
+
+namespace tumble {
+namespace {
+
+constexpr int kSweeps = 500;
+
+/// The contacts that take part, and their rows.
+struct Strike {
+  Problem problem;
+  std::vector<int> contacts;
+};
+
+void addContact(const Impact& impact, int i, double bias, bool withFriction, Strike& strike) {
+  const Contact& c = impact.contacts[i];
+  const RigidBody &a = impact.bodies[c.a], &b = impact.bodies[c.b];
+  Problem& problem = strike.problem;
+  strike.contacts.push_back(i);
+  const bool cone = withFriction && c.friction > 0.0;
+  problem.cones.push_back({.kind = cone ? ConeKind::Friction : ConeKind::Push,
+                           .row = static_cast<int>(problem.rows.size()),
+                           .mu = cone ? c.friction : 0.0});
+  problem.rows.push_back(pointRow(impact.bodies, c.a, c.b, c.point.p, c.point.n, bias));
+  if (!cone) return;
+  Vec3 t1, t2;
+  tangents(c.point.n, slipVelocity(a, b, c.point), t1, t2);
+  for (const Vec3& t : {t1, t2})
+    problem.rows.push_back(pointRow(impact.bodies, c.a, c.b, c.point.p, t, 0.0));
+}
+
+/// Gives the impulses of a solved pass, first along the normals, then across them.
+std::vector<double> give(const Impact& impact, const Strike& strike, const Solution& solution,
+                         ImpactReport& report) {
+  std::vector<double> j;
+  for (std::size_t k = 0; k < strike.contacts.size(); ++k) {
+    const Cone& cone = strike.problem.cones[k];
+    j.push_back(solution.lambda[cone.row]);
+    const ImpulseEnergy normal = applyContactImpulse(
+        impact, strike.contacts[k], j.back() * strike.problem.rows[cone.row].linear);
+    report.lostNormal += normal.lost;
+    report.work += normal.work;
+    if (cone.kind != ConeKind::Friction) continue;
+    const Vec3 across = solution.lambda[cone.row + 1] * strike.problem.rows[cone.row + 1].linear +
+                        solution.lambda[cone.row + 2] * strike.problem.rows[cone.row + 2].linear;
+    const ImpulseEnergy friction = applyContactImpulse(impact, strike.contacts[k], across);
+    report.lostFriction += friction.lost;
+    report.work += friction.work;
+  }
+  return j;
+}
+
+/// Whether a contact takes part, by how it moves now.
+bool takesPart(PassKind kind, ContactClass now, double restitution) {
+  switch (kind) {
+    case PassKind::Touching:
+      return now != ContactClass::Separating;
+    case PassKind::Approaching:
+      return now == ContactClass::Colliding || (now == ContactClass::Resting && restitution == 0.0);
+    case PassKind::Inelastic:
+      return true;
+  }
+  return true;
+}
+
+}  // namespace
+
+void strikeOnce(const Impact& impact, PassKind kind, ImpactReport& report) {
+  Strike pass;
+  beginVelocityProblem(impact.bodies, pass.problem);
+  const std::vector<int> reached = reachOfImpact(impact);
+  const auto vrel = [&](int i) {
+    const Contact& c = impact.contacts[i];
+    return approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point);
+  };
+  const bool inelastic = kind == PassKind::Inelastic;
+  const bool together = inelastic || std::none_of(reached.begin(), reached.end(), [&](int i) {
+                          return impact.restitution[i] > 0.0 && vrel(i) < -impact.tolerance.rest;
+                        });
+  for (int i : reached) {
+    const ContactClass now = classify(vrel(i), impact.tolerance.rest);
+    if (!takesPart(kind, now, impact.restitution[i])) continue;
+    const bool bounces = now == ContactClass::Colliding && !inelastic;
+    addContact(impact, i, bounces ? impact.restitution[i] * vrel(i) : 0.0, together, pass);
+  }
+
+  const bool friction = pass.problem.rows.size() > pass.problem.cones.size();
+  Solution solution;
+  const SolveReport solved = solveByIslands(*findSolver(friction ? "pgs" : "pivoting"),
+                                            pass.problem, {.maxIterations = kSweeps}, solution);
+  report.residual = std::max(report.residual, solved.residual);
+  const std::vector<double> j = give(impact, pass, solution, report);
+  if (together) return;
+  const ImpulseEnergy energy = frictionImpulses(impact, pass.contacts, j);
+  report.lostFriction += energy.lost;
+  report.work += energy.work;
+}
+
+bool anyApproaching(const Impact& impact) {
+  return std::any_of(impact.contacts.begin(), impact.contacts.end(), [&](const Contact& c) {
+    return approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point) <
+           -impact.tolerance.rest;
+  });
+}
+
+ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes) {
+  ImpactReport report;
+  for (int pass = 0; pass < passes && anyApproaching(impact); ++pass)
+    strikeOnce(impact, kind, report);
+  if (anyApproaching(impact)) {
+    strikeOnce(impact, PassKind::Inelastic, report);
+    report.finishedInelastic = true;
+  }
+  return report;
+}
+
+}  // namespace tumble

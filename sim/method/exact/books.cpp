@@ -1,0 +1,77 @@
+// The certificate of a run without steps: everything is known in closed form, so the books are
+// kept where something changes.
+#include "sim/method/exact/exact.h"
+
+namespace tumble {
+
+void Exact::bringTo(double t, int body) {
+  state_.flights[body].back().at(t, state_.bodies[body]);
+  for (std::size_t k = 0; k < state_.tops.size(); ++k)
+    if (model_.pivots[k].body == body) state_.tops[k].at(t, state_.bodies[body]);
+}
+
+void Exact::stop(std::string reason) {
+  report_.stopped = true;
+  report_.reason = std::move(reason);
+  keepBooks(state_.t);
+}
+
+/// What lasting contacts did since they were last booked: constant forces along paths that are
+/// known at both ends and at constant acceleration between.
+void Exact::bookHolds(double t) {
+  const double h = t - state_.booked;
+  if (h > 0.0 && !state_.lasting.empty()) {
+    const auto way = [&](int i) -> Vec3 {
+      RigidBody body = state_.bodies[i];
+      state_.flights[i].back().at(state_.booked, body);
+      const Vec3 v = body.v;
+      state_.flights[i].back().at(t, body);
+      return 0.5 * h * (v + body.v);
+    };
+    Certificate& books = report_.certificate;
+    for (const Contact& c : state_.lasting) {
+      const Vec3 wayA = way(c.a), wayB = way(c.b);
+      books.energy_lost_friction -= c.force.dot(wayA - wayB);
+      if (model_.fixed(c.b)) {
+        state_.struck += h * c.force;
+        state_.work += c.force.dot(wayB);
+      } else if (model_.fixed(c.a)) {
+        state_.struck -= h * c.force;
+        state_.work -= c.force.dot(wayA);
+      }
+    }
+  }
+  state_.booked = t;
+}
+
+void Exact::keepBooks(double t) {
+  for (int i = 0; i < model_.count(); ++i) {
+    bringTo(t, i);
+    const RigidBody& body = state_.bodies[i];
+    if (report_.stopped || (body.x.allFinite() && body.q.coeffs().allFinite() &&
+                            body.v.allFinite() && body.omega.allFinite()))
+      continue;
+    report_.stopped = true;
+    report_.reason =
+        "\"" + nameOf(i) + "\" leaves the range of numbers before t = " + digits(t) + " s";
+    return;
+  }
+  bookHolds(t);
+  state_.t = t;
+  state_.externalImpulse = state_.struck;
+  double work = state_.work;
+  for (int i = 0; i < model_.count(); ++i) {
+    const RigidBody& body = state_.bodies[i];
+    if (body.fixed()) continue;
+    if (model_.def.bodies[i].pivot_B) continue;
+    state_.externalImpulse += t * state_.outer[i];
+    // Gravity has a potential; of what acts besides, work is force times way.
+    work += (state_.outer[i] - body.M * model_.def.gravity).dot(body.x - state_.start[i]);
+  }
+  for (const Pivot& pivot : model_.pivots)  // gives what momentum its body gains, and no work
+    state_.externalImpulse += state_.bodies[pivot.body].P - state_.startP[pivot.body];
+  report_.certificate.work_of_forces = work;
+  account(model_, state_, report_);
+}
+
+}  // namespace tumble

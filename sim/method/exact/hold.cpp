@@ -1,0 +1,214 @@
+// What stays in contact: constant forces that hold it, as long as these are constant.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact/rest.h"
+#include "sim/method/exact/exact.h"
+
+namespace tumble {
+namespace {
+
+/// Forces and accelerations below this part of the largest are rounding.
+constexpr double kRounding = 1e-10;
+/// No pull towards zero: flights in contact have no error that grows. [s]
+constexpr double kNoPull = 1e15;
+
+/// Acceleration [m/s²] of the material point at p under the body's force and torque.
+Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
+  if (body.fixed()) return Vec3::Zero();
+  const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
+  return body.invM * body.force + alpha.cross(p - body.x);
+}
+
+}  // namespace
+
+bool Exact::lasts(int i, int j) const {
+  const auto [b, a] = std::minmax(i, j);
+  return std::any_of(state_.lasting.begin(), state_.lasting.end(),
+                     [&, b = b, a = a](const Contact& c) { return c.a == a && c.b == b; });
+}
+
+std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
+  std::vector<Contact> resting;
+  for (Contact c : cluster.contacts) {
+    const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+    const double vrel = approachVelocity(a, b, c.point);
+    if (classify(vrel, tolerance_.rest) != ContactClass::Resting) continue;
+    c.lasting = true;
+    c.anchor = anchorOf(a, b, c.point);
+    const Vec3 slip = slipVelocity(a, b, c.point);
+    c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
+    if (c.sliding) c.slipDirection = slip.normalized();
+    resting.push_back(c);
+  }
+  return resting;
+}
+
+void Exact::solveForces(std::vector<Contact>& resting) {
+  std::vector<RigidBody> bodies;
+  std::vector<int> local(state_.bodies.size(), -1), global;
+  const auto place = [&](int i) {
+    if (local[i] < 0) {
+      local[i] = static_cast<int>(bodies.size());
+      global.push_back(i);
+      bodies.push_back(state_.bodies[i]);
+      bodies.back().force = state_.outer[i];
+      bodies.back().torque.setZero();
+    }
+    return local[i];
+  };
+  std::vector<Contact> contacts = resting;
+  for (Contact& c : contacts) {
+    c.a = place(c.a);
+    c.b = place(c.b);
+  }
+  const SolveReport solved = RestForces(kNoPull).apply(bodies, contacts);
+  Certificate& books = report_.certificate;
+  books.max_complementarity = std::max(books.max_complementarity, solved.residual);
+  ++books.evaluations;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    state_.bodies[global[k]].force = bodies[k].force;
+    state_.bodies[global[k]].torque = bodies[k].torque;
+  }
+  for (std::size_t k = 0; k < resting.size(); ++k) resting[k].force = contacts[k].force;
+}
+
+// A contact lasts with a constant force if its normal and its gap stay: faces that do not turn, and
+// on them balls, or bodies that do not turn either; other features if nothing moves along them.
+bool Exact::steady(const Contact& c) const {
+  const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+  const Vec3 n = c.point.n;
+  const double size = std::max(1.0, model_.size), still = tolerance_.rest / size;
+  const auto turnsAlong = [&](const RigidBody& body) {  // steadily about n, or not at all
+    if (body.particle) return true;
+    if (body.omega.cross(n).norm() > still) return false;
+    return body.fixed() || body.omega.cross(body.L).norm() <= kRounding * body.L.norm();
+  };
+  const auto torqueFree = [&](const RigidBody& body, int i) {
+    const double scale = boundingRadius(model_.shapes[i]) * body.force.norm() +
+                         boundingRadius(model_.shapes[i]) * state_.outer[i].norm();
+    return body.fixed() || body.torque.norm() <= kRounding * scale;
+  };
+  if (!torqueFree(a, c.a) || !torqueFree(b, c.b)) return false;
+  const bool onB = c.point.tie == NormalTie::FaceOfB, onA = c.point.tie == NormalTie::FaceOfA;
+  const Vec3 slip = slipVelocity(a, b, c.point);
+  const Vec3 pull = pointAcceleration(a, c.point.p) - pointAcceleration(b, c.point.p);
+  const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+  const Vec3 slipRate = pull - pull.dot(n) * n;
+  const bool slides = slip.norm() > tolerance_.stick || slipRate.norm() > kRounding * weight;
+  if (!onA && !onB) return !slides && a.omega.norm() <= still && b.omega.norm() <= still;
+  const RigidBody &owner = onB ? b : a, &other = onB ? a : b;
+  const double round = onB ? c.point.ra : c.point.rb;
+  if (!turnsAlong(owner) || !(round > 0.0 || turnsAlong(other))) return false;
+  if (!slides) return true;
+  // Only a plane has no edge to slide over; a slip that friction brakes keeps its line.
+  const bool endless = std::holds_alternative<HalfSpace>(model_.shapes[onB ? c.b : c.a]);
+  const bool straight =
+      c.friction == 0.0 || slip.cross(slipRate).norm() <= kRounding * slip.norm() * weight;
+  return endless && straight;
+}
+
+void Exact::hold(double t, Cluster& cluster) {
+  std::vector<Contact> resting = restingOf(cluster);
+  for (const int i : cluster.bodies) {
+    state_.bodies[i].force = state_.outer[i];
+    state_.bodies[i].torque.setZero();
+  }
+  if (!resting.empty()) solveForces(resting);
+  // What is neither pushed nor pressed goes its way.
+  double strongest = 0.0;
+  for (const Contact& c : resting) strongest = std::max(strongest, c.force.norm());
+  std::erase_if(resting, [&](const Contact& c) {
+    const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+    const double apart =
+        c.point.n.dot(pointAcceleration(a, c.point.p) - pointAcceleration(b, c.point.p)) +
+        normalAccelerationBias(a, b, c.point);
+    const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+    return c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
+  });
+  changeHolds(t, cluster, resting);
+  for (const Contact& c : resting)
+    if (!steady(c))
+      return stop("\"" + nameOf(c.a) + "\" stays on \"" + nameOf(c.b) + "\" at t = " + digits(t) +
+                  " s, rolling, tipping or sliding over an edge; the exact method holds what rests "
+                  "or slides on a plane, so use method \"course\" or \"stepping\"");
+  std::vector<int> renewed;
+  for (const int i : cluster.bodies) {
+    const RigidBody& body = state_.bodies[i];
+    if (body.fixed()) continue;
+    Vec3 acceleration = body.invM * body.force;
+    const bool pushed = body.force != state_.outer[i];
+    if (pushed && acceleration.norm() <= kRounding * body.invM * state_.outer[i].norm())
+      acceleration.setZero();
+    RigidBody unchanged = body;
+    state_.flights[i].back().at(t, unchanged);
+    if (unchanged.P == body.P && unchanged.L == body.L &&
+        state_.flights[i].back().path().g == acceleration)
+      continue;
+    renew(t, i, acceleration);
+    renewed.push_back(i);
+  }
+  for (const int i : renewed) lookAround(i, t);
+  // Many new flights make the rest of the window worthless: begin another.
+  State::Window& w = state_.window;
+  w.renewals += static_cast<long>(renewed.size());
+  const long most = 64 + 4 * static_cast<long>(w.finite.size());
+  if (w.renewals > most && w.swept.size() > 64 && t > w.t0) {
+    w.length = t - w.t0;
+    w.t1 = t;
+    keepBooks(t);
+  }
+}
+
+void Exact::renew(double t, int i, const Vec3& acceleration) {
+  std::vector<Flight>& flights = state_.flights[i];
+  if (flights.back().start() == t) flights.pop_back();
+  flights.emplace_back(state_.bodies[i], acceleration, t);
+  ++state_.flightCount[i];
+  ++report_.certificate.steps;
+}
+
+void Exact::changeHolds(double t, const Cluster& cluster, const std::vector<Contact>& now) {
+  const auto inCluster = [&](const Contact& c) {
+    const auto has = [&](int body) {
+      return !model_.fixed(body) &&
+             std::find(cluster.bodies.begin(), cluster.bodies.end(), body) != cluster.bodies.end();
+    };
+    return has(c.a) || has(c.b);
+  };
+  std::vector<Contact> before;
+  std::copy_if(state_.lasting.begin(), state_.lasting.end(), std::back_inserter(before), inCluster);
+  if (before.empty() && now.empty()) return;
+  bookHolds(t);
+  std::erase_if(state_.lasting, inCluster);
+  state_.lasting.insert(state_.lasting.end(), now.begin(), now.end());
+  std::stable_sort(
+      state_.lasting.begin(), state_.lasting.end(),
+      [](const Contact& p, const Contact& q) { return std::pair(p.b, p.a) < std::pair(q.b, q.a); });
+  if (!state_.holds.empty() && state_.holds.back().t == t) state_.holds.pop_back();
+  state_.holds.push_back({t, state_.lasting});
+
+  // A rest at the end of a row of bounces is told when the last of them would be over.
+  Report changes;
+  recordChanges(before, now, t, changes);
+  for (Event event : changes.events) {
+    const auto same = [&](const Event& e) { return e.a == event.a && e.b == event.b; };
+    if (event.kind == EventKind::Separate && std::erase_if(state_.closing, same) > 0) continue;
+    for (const auto& [pair, end] : ends_)
+      if (event.kind == EventKind::Rest && pair == Pair(event.b, event.a))
+        event.t = std::max(event.t, end);
+    (event.t > t ? state_.closing : report_.events).push_back(event);
+  }
+}
+
+void Exact::closeRests(double t) {
+  std::stable_sort(state_.closing.begin(), state_.closing.end(),
+                   [](const Event& p, const Event& q) { return p.t < q.t; });
+  while (!state_.closing.empty() && state_.closing.front().t <= t) {
+    const Event event = state_.closing.front();
+    state_.closing.erase(state_.closing.begin());
+    report_.events.push_back(event);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,185 @@
+// What happens when bodies touch: the contacts of that instant, and their impulses.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collide/collide.h"
+#include "sim/contact/impact.h"
+#include "sim/method/exact/exact.h"
+
+namespace tumble {
+namespace {
+
+/// [m] per size of the world: a bounce that would rise less than this is the last of its row. The
+/// bounces left out would take  2 v/(a (1 − e)), after which the contact counts as at rest.
+constexpr double kLowest = 1e-12;
+/// Events that leave time where it is, in a row, before the run stops.
+constexpr int kStalled = 1000;
+
+/// Relative normal acceleration [m/s²] of a contact under constant forces alone.
+double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  const auto of = [](const RigidBody& body, const Vec3& p) -> Vec3 {
+    if (body.fixed()) return Vec3::Zero();
+    const Vec3 alpha = body.Iinv * -body.omega.cross(body.L);
+    return body.invM * body.force + alpha.cross(p - body.x);
+  };
+  return c.n.dot(of(a, c.p) - of(b, c.p)) + normalAccelerationBias(a, b, c);
+}
+
+}  // namespace
+
+void Exact::strike(double t, int a, int b) {
+  state_.stalled = t > state_.t ? 0 : state_.stalled + 1;
+  state_.t = t;
+  const long flightA = state_.flightCount[a], flightB = state_.flightCount[b];
+  const auto held = [&](int i) { return model_.def.bodies[i].pivot_B.has_value(); };
+  if (!canCollide(model_.shapes[a], model_.shapes[b]))
+    return stop("\"" + nameOf(a) + "\" comes near \"" + nameOf(b) + "\" at t = " + digits(t) +
+                " s, and there is no contact rule for " + std::string(shapeName(model_.shapes[a])) +
+                " and " + std::string(shapeName(model_.shapes[b])) + "; keep them apart");
+  if (held(a) || held(b))
+    return stop("\"" + nameOf(a) + "\" touches \"" + nameOf(b) + "\" at t = " + digits(t) +
+                " s; a body with a pivot has no contacts");
+  if (state_.stalled > kStalled)
+    return stop("\"" + nameOf(a) + "\" and \"" + nameOf(b) +
+                "\" hit each other without end at t = " + digits(t) + " s");
+
+  const std::size_t firstEvent = report_.events.size();
+  ends_.clear();
+  const int seeds[] = {a, b};
+  Cluster cluster = gather(t, seeds);
+  if (collides(cluster)) respond(t, cluster);
+  if (!report_.stopped) hold(t, cluster);
+  sortEvents(report_, firstEvent);
+  // Whom nothing changed may still meet later.
+  if (flightA == state_.flightCount[a] && flightB == state_.flightCount[b] && !report_.stopped)
+    state_.flightCount[model_.fixed(a) ? b : a]++, lookAround(model_.fixed(a) ? b : a, t);
+}
+
+Cluster Exact::gather(double t, std::span<const int> seeds) {
+  Cluster cluster;
+  std::vector<int> open;
+  const auto visit = [&](int body) {
+    auto& list = cluster.bodies;
+    if (std::find(list.begin(), list.end(), body) != list.end()) return;
+    list.push_back(body);
+    bringTo(t, body);
+    if (!model_.fixed(body)) open.push_back(body);
+  };
+  std::vector<Pair> met;
+  for (const int seed : seeds) visit(seed);
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const int i = open[k];
+    const State::Window& w = state_.window;
+    const auto meet = [&](int j) {
+      const Pair pair = std::minmax(i, j);
+      if (std::find(met.begin(), met.end(), pair) != met.end()) return;
+      const double reach = boundingRadius(model_.shapes[i]) + boundingRadius(model_.shapes[j]);
+      bringTo(t, j);
+      if ((state_.bodies[i].x - state_.bodies[j].x).norm() > reach + tolerance_.touch) return;
+      const std::size_t before = cluster.contacts.size();
+      findContacts(model_, state_.bodies, pair, tolerance_.touch, cluster.contacts);
+      if (cluster.contacts.size() == before) return;
+      met.push_back(pair);
+      visit(j);
+    };
+    for (const int plane : w.planes) meet(plane);
+    for (const int j : w.finite)
+      if (j != i && w.swept[i].overlaps(w.swept[j])) meet(j);
+  }
+  for (const Contact& c : cluster.contacts)
+    report_.certificate.max_penetration =
+        std::max(report_.certificate.max_penetration, -c.point.separation);
+  return cluster;
+}
+
+bool Exact::collides(const Cluster& cluster) const {
+  return std::any_of(cluster.contacts.begin(), cluster.contacts.end(), [&](const Contact& c) {
+    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < -tolerance_.rest;
+  });
+}
+
+double Exact::restitutionNow(double t, const Contact& c) {
+  RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+  const double rebound = -c.restitution * approachVelocity(a, b, c.point);
+  if (rebound <= 0.0 || c.restitution == 1.0) return c.restitution;
+  a.force = state_.outer[c.a];
+  b.force = state_.outer[c.b];
+  const double press = -freeAcceleration(a, b, c.point);
+  const double height = 0.5 * rebound * rebound / press;
+  const bool leans = lasts(c.a, c.b) && rebound < tolerance_.keep;
+  if (!leans && !(press > 0.0 && height < kLowest * std::max(1.0, model_.size)))
+    return c.restitution;
+  if (press > 0.0) {
+    const double end = t + 2.0 * rebound / (press * (1.0 - c.restitution));
+    ends_.push_back({{c.b, c.a}, end});
+    report_.certificate.max_closed_height = std::max(report_.certificate.max_closed_height, height);
+  }
+  return 0.0;
+}
+
+void Exact::respond(double t, const Cluster& cluster) {
+  // The bodies of the cluster alone, numbered anew.
+  std::vector<RigidBody> bodies;
+  std::vector<int> local(state_.bodies.size(), -1);
+  for (const int i : cluster.bodies) {
+    local[i] = static_cast<int>(bodies.size());
+    bodies.push_back(state_.bodies[i]);
+  }
+  std::vector<Contact> contacts = cluster.contacts;
+  std::vector<double> restitution, vrel;
+  for (Contact& c : contacts) {
+    restitution.push_back(restitutionNow(t, c));
+    vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
+    c.a = local[c.a];
+    c.b = local[c.b];
+  }
+  std::vector<Vec3> impulse(contacts.size(), Vec3::Zero());
+  const ImpactReport impact = findImpactLaw(model_.def.impact)
+                                  ->apply({.bodies = bodies,
+                                           .contacts = contacts,
+                                           .restitution = restitution,
+                                           .impulse = impulse,
+                                           .tolerance = tolerance_});
+  double kinetic = 0.0;
+  for (const int i : cluster.bodies) {
+    kinetic += kineticEnergy(state_.bodies[i]);
+    if (!model_.fixed(i)) state_.bodies[i] = bodies[local[i]];
+  }
+  state_.kineticMax = std::max(state_.kineticMax, kinetic);
+  Certificate& books = report_.certificate;
+  books.energy_lost_impact += impact.lostNormal;
+  books.energy_lost_friction += impact.lostFriction;
+  state_.work += impact.work;
+  books.max_complementarity = std::max(books.max_complementarity, impact.residual);
+  if (impact.finishedInelastic)
+    report_.note("impacts that did not come to an end were finished without rebound");
+  recordImpacts(t, cluster, vrel, impulse);
+}
+
+void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,
+                          std::span<const Vec3> impulse) {
+  // Contacts of one pair and one normal stand together.
+  const std::vector<Contact>& contacts = cluster.contacts;
+  for (std::size_t i = 0; i < contacts.size();) {
+    const Contact& first = contacts[i];
+    Event event{.t = t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
+    event.n = first.point.n;
+    event.p.setZero();
+    for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b &&
+           contacts[i].point.n == event.n;
+         ++i) {
+      const double j = impulse[i].dot(event.n);
+      event.p += j * contacts[i].point.p;
+      event.j += j;
+      event.vrel = std::min(event.vrel, vrel[i]);
+      if (model_.fixed(first.b)) state_.struck += impulse[i];
+      if (model_.fixed(first.a)) state_.struck -= impulse[i];
+    }
+    if (event.j <= 0.0) continue;
+    if (lasts(event.a, event.b) && event.vrel > -tolerance_.keep) continue;  // it only leans on
+    event.p /= event.j;
+    report_.events.push_back(event);
+  }
+}
+
+}  // namespace tumble

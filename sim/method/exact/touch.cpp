@@ -1,0 +1,75 @@
+// When bodies first touch: the queue of touches to come.
+#include <algorithm>
+#include <tuple>
+
+#include "sim/collide/collide.h"
+#include "sim/method/exact/approach.h"
+#include "sim/method/exact/exact.h"
+
+namespace tumble {
+namespace {
+
+/// The later of two touches; of touches at one instant, the one of later bodies.
+bool later(const State::Touch& p, const State::Touch& q) {
+  return std::tie(p.t, p.a, p.b) > std::tie(q.t, q.a, q.b);
+}
+
+Pose placed(const RigidBody& body, const Pose& part) {
+  return {body.x + body.q * part.x, body.q * part.q};
+}
+
+}  // namespace
+
+void Exact::lookFor(Pair pair, double t) {
+  const auto [first, second] = std::minmax(pair.first, pair.second);
+  const int b = first, a = second;
+  if (bothFixed(a, b)) return;
+  const auto flyer = [&](int i, const Convex& part) {
+    Flyer flyer{&state_.flights[i].back(), &part, &state_.bodies[i]};
+    for (std::size_t k = 0; k < state_.tops.size(); ++k)
+      if (model_.pivots[k].body == i) flyer.top = &state_.tops[k];
+    return flyer;
+  };
+  const bool held = lasts(a, b);
+  double t1 = state_.window.t1;
+  bool found = false;
+  for (const Convex& partA : state_.parts[a]) {
+    for (const Convex& partB : state_.parts[b]) {
+      if (held) {  // parts that rest on each other stay so until something happens
+        bringTo(t, a);
+        bringTo(t, b);
+        if (separation(partA.shape, placed(state_.bodies[a], partA.pose), partB.shape,
+                       placed(state_.bodies[b], partB.pose)) <= tolerance_.touch)
+          continue;
+      }
+      Approach approach(flyer(a, partA), flyer(b, partB), tolerance_.touch);
+      if (const auto touch = approach.firstTouch(t, t1, true)) {
+        t1 = *touch;
+        found = true;
+      }
+    }
+  }
+  if (!found) return;
+  state_.queue.push_back({t1, a, b, state_.flightCount[a], state_.flightCount[b]});
+  std::push_heap(state_.queue.begin(), state_.queue.end(), later);
+}
+
+void Exact::lookAround(int body, double t) {
+  State::Window& w = state_.window;
+  if (state_.parts[body].empty()) return;
+  w.swept[body] = sweptBox(body, t);
+  for (const int plane : w.planes) lookFor({plane, body}, t);
+  for (const int other : w.finite)
+    if (other != body && w.swept[body].overlaps(w.swept[other])) lookFor({body, other}, t);
+}
+
+void Exact::dropStale() {
+  std::vector<State::Touch>& queue = state_.queue;
+  while (!queue.empty() && (queue.front().flightA != state_.flightCount[queue.front().a] ||
+                            queue.front().flightB != state_.flightCount[queue.front().b])) {
+    std::pop_heap(queue.begin(), queue.end(), later);
+    queue.pop_back();
+  }
+}
+
+}  // namespace tumble

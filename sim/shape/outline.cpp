@@ -1,0 +1,64 @@
+#include "sim/shape/outline.h"
+
+#include <algorithm>
+
+#include "sim/math/rotation.h"
+
+namespace tumble {
+namespace {
+
+void put(const Sphere& s, Outline& out) {
+  out.points = {Vec3::Zero()};
+  out.round = s.r;
+}
+
+void put(const Box& box, Outline& out) {
+  for (int k = 0; k < 8; ++k)
+    out.points.emplace_back(k & 1 ? box.half.x() : -box.half.x(),
+                            k & 2 ? box.half.y() : -box.half.y(),
+                            k & 4 ? box.half.z() : -box.half.z());
+}
+
+void put(const Cylinder& c, Outline& out) {
+  for (const double y : {-0.5 * c.h, 0.5 * c.h})
+    out.rims.push_back({.centre = {0.0, y, 0.0}, .r = c.r});
+}
+
+void put(const Capsule& c, Outline& out) {
+  out.points = {{0.0, -0.5 * c.h, 0.0}, {0.0, 0.5 * c.h, 0.0}};
+  out.round = c.r;
+}
+
+void put(const Hull& hull, Outline& out) {
+  for (const Vec3& p : hull.solid->points) out.points.push_back(p - hull.origin);
+}
+
+void put(const Particle& p, Outline& out) {
+  put(Sphere{p.radius}, out);
+}
+
+// Half-spaces have no outermost points; compounds and meshes are no convex solids.
+void put(const HalfSpace&, Outline&) {}
+void put(const Mesh&, Outline&) {}
+void put(const Compound&, Outline&) {}
+
+}  // namespace
+
+Outline outlineOf(const Shape& shape, const Pose& pose) {
+  Outline out;
+  std::visit([&](const auto& s) { put(s, out); }, shape);
+  const Mat3 R = rotationMatrix(pose.q);
+  for (Vec3& p : out.points) {
+    p = pose.x + R * p;
+    out.corner = std::max(out.corner, p.norm());
+  }
+  for (Outline::Rim& rim : out.rims) {
+    rim.centre = pose.x + R * rim.centre;
+    rim.u = R * rim.u;
+    rim.v = R * rim.v;
+    out.corner = std::max(out.corner, rim.centre.norm() + rim.r);
+  }
+  return out;
+}
+
+}  // namespace tumble
