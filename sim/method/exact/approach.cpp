@@ -19,6 +19,9 @@ constexpr int kPatience = 10'000, kParting = 100;
 constexpr double kShortest = 1e-9;
 /// Passes down the parabolas before the chord, which is never too long, ends the search.
 constexpr int kPasses = 32;
+/// Bodies that leave each other along an exact parabola are back when it says, if they rise less
+/// than this part of their size: what rounding leaves of the gap at the start would weigh more.
+constexpr double kLow = 1e-6;
 /// The instant for which bodies that touch are not watched: in it their paths bend by less than
 /// kRounding of their size, and it is no longer than kInstant [s].
 constexpr double kRounding = 1e-13, kInstant = 1e-6;
@@ -160,6 +163,11 @@ Approach::Reach Approach::outermost(const Side& side, const Seen& seen, double s
   return {seen.n.dot(best) + sign * side.round, seen.rate.dot(best)};
 }
 
+/// Whether one parabola is all there is: against a plane, and nothing that turns a point of it.
+bool Approach::isExact() const {
+  return plane_ && side_[0].bend() == 0.0;
+}
+
 /// The curvature c [m/s²] of the parabolas below which no point gets within `limit` [s].
 double Approach::bound(const Vec3& n, double spin, double limit) const {
   const Side &a = side_[0], &b = side_[1];
@@ -221,7 +229,7 @@ double Approach::cornerStep(double limit, bool begins) const {
 }
 
 std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
-  double t = t0, deepest = 0.0;
+  double t = t0, deepest = 0.0, back = t0;
   int hovering = 0;
   while (t < t1) {
     // While the balls around them are well apart, only the centres matter.
@@ -238,8 +246,13 @@ std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
     if (wide_.separation > (t == t0 ? touch_ : 0.0)) begins = false;
     if (!begins && wide_.separation <= 0.0) return t;
     if (begins && t == t0) deepest = std::min(wide_.separation, 0.0) - 4.0 * kRounding * size_;
-    if (begins && (wide_.separation < deepest || ++hovering > kParting)) return t0;
+    if (begins && (wide_.separation < deepest || ++hovering > kParting)) return back;
     double step = cornerStep(t1 - t, begins);
+    if (begins && t == t0 && isExact() && step > 0.0 && wide_.separation <= kRounding * size_) {
+      const double rise = -0.125 * wide_.n.dot(acceleration_) * step * step;
+      if (step < t1 - t && rise < kLow * size_) return t + step;
+    }
+    if (begins && t == t0) back = t0 + step;
     if (begins && step < t1 - t) {
       // Half way they have parted most; what is shorter than an instant is not watched.
       const double bend = std::abs(bound(wide_.n, planeTurn().norm(), kInstant));

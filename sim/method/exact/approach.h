@@ -75,6 +75,7 @@ class Approach {
   Reach outermost(const Side& side, const Seen& seen, double s, double sign) const;
   Vec3 planeTurn() const;
   double bound(const Vec3& n, double spin, double limit) const;
+  bool isExact() const;
 
   Side side_[2];                      ///< a, b
   const HalfSpace* plane_ = nullptr;  ///< b, if it is one

@@ -57,6 +57,7 @@ class Exact {
   void lookFor(Pair pair, double t);
   /// New touches of a body that has just got a new flight.
   void lookAround(int body, double t);
+  void push(double t, int a, int b);
   void dropStale();
 
   // strike.cpp: what happens then.
@@ -64,7 +65,12 @@ class Exact {
   Cluster gather(double t, std::span<const int> seeds);
   bool collides(const Cluster& cluster) const;
   void respond(double t, const Cluster& cluster);
-  double restitutionNow(double t, const Contact& contact);
+  struct Bounces {
+    double height, end;
+  };
+  std::optional<Bounces> bouncesOf(double t, const Contact& contact);
+  /// Restitution of every contact at this instant: 0 for pairs whose row of bounces is over.
+  std::vector<double> restitutions(double t, const std::vector<Contact>& contacts);
   void recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,
                      std::span<const Vec3> impulse);
 
@@ -73,9 +79,11 @@ class Exact {
   void hold(double t, Cluster& cluster);
   std::vector<Contact> restingOf(const Cluster& cluster) const;
   void solveForces(std::vector<Contact>& resting);
+  void stillNormals(const std::vector<Contact>& resting);
   bool steady(const Contact& contact) const;
   void changeHolds(double t, const Cluster& cluster, const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
+  void lookForStops(double t);
   void renew(double t, int body, const Vec3& acceleration);
   void closeRests(double t);
 

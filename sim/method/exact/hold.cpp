@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/contact/rest.h"
+#include "sim/contact/rows.h"
 #include "sim/method/exact/exact.h"
 
 namespace tumble {
@@ -108,6 +109,42 @@ bool Exact::steady(const Contact& c) const {
   return endless && straight;
 }
 
+// What is left of velocities along the normals of contacts that last is below the tolerance of
+// rest; in the long run it would move them apart, or into each other.
+void Exact::stillNormals(const std::vector<Contact>& resting) {
+  const bool still = std::all_of(resting.begin(), resting.end(), [&](const Contact& c) {
+    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) == 0.0;
+  });
+  if (still) return;
+  std::vector<RigidBody> bodies;
+  std::vector<int> local(state_.bodies.size(), -1);
+  const auto place = [&](int i) {
+    if (local[i] < 0) {
+      local[i] = static_cast<int>(bodies.size());
+      bodies.push_back(state_.bodies[i]);
+    }
+    return local[i];
+  };
+  for (const Contact& c : resting) place(c.a), place(c.b);
+  Problem problem;
+  beginVelocityProblem(bodies, problem);
+  for (const Contact& c : resting) {
+    problem.cones.push_back(
+        {.kind = ConeKind::Equality, .row = static_cast<int>(problem.rows.size()), .mu = 0.0});
+    problem.rows.push_back(pointRow(bodies, local[c.a], local[c.b], c.point.p, c.point.n, 0.0));
+  }
+  Solution solution;
+  solveByIslands(*findSolver("pivoting"), problem, {}, solution);
+  for (std::size_t k = 0; k < resting.size(); ++k) {
+    const Contact& c = resting[k];
+    const Vec3 J = solution.lambda[k] * c.point.n;
+    applyImpulse(state_.bodies[c.a], c.point.p, J);
+    applyImpulse(state_.bodies[c.b], c.point.p, -J);
+    if (model_.fixed(c.b)) state_.struck += J;
+    if (model_.fixed(c.a)) state_.struck -= J;
+  }
+}
+
 void Exact::hold(double t, Cluster& cluster) {
   std::vector<Contact> resting = restingOf(cluster);
   for (const int i : cluster.bodies) {
@@ -126,6 +163,7 @@ void Exact::hold(double t, Cluster& cluster) {
     const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
     return c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
   });
+  if (!resting.empty()) stillNormals(resting);
   changeHolds(t, cluster, resting);
   for (const Contact& c : resting)
     if (!steady(c))
@@ -149,6 +187,7 @@ void Exact::hold(double t, Cluster& cluster) {
     renewed.push_back(i);
   }
   for (const int i : renewed) lookAround(i, t);
+  lookForStops(t);
   // Many new flights make the rest of the window worthless: begin another.
   State::Window& w = state_.window;
   w.renewals += static_cast<long>(renewed.size());
@@ -157,6 +196,22 @@ void Exact::hold(double t, Cluster& cluster) {
     w.length = t - w.t0;
     w.t1 = t;
     keepBooks(t);
+  }
+}
+
+/// Friction that brakes along a line ends a slip at a known instant.
+void Exact::lookForStops(double t) {
+  for (const Contact& c : state_.lasting) {
+    if (!c.sliding) continue;
+    bringTo(t, c.a);
+    bringTo(t, c.b);
+    const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+    const Vec3 slip = slipVelocity(a, b, c.point);
+    const Vec3 rate = state_.flights[c.a].back().path().g - state_.flights[c.b].back().path().g;
+    const double brake = -rate.dot(slip) / slip.norm();
+    const double end = t + slip.norm() / brake;
+    if (brake > 0.0 && slip.norm() > tolerance_.stick && end < state_.window.t1)
+      push(end, c.a, c.b);
   }
 }
 

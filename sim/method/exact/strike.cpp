@@ -98,23 +98,48 @@ bool Exact::collides(const Cluster& cluster) const {
   });
 }
 
-double Exact::restitutionNow(double t, const Contact& c) {
+/// How high [m] a contact would rise again under constant forces, and when [s] the row of bounces
+/// that this begins would be over; nothing if it is no row.
+std::optional<Exact::Bounces> Exact::bouncesOf(double t, const Contact& c) {
   RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
-  if (rebound <= 0.0 || c.restitution == 1.0) return c.restitution;
   a.force = state_.outer[c.a];
   b.force = state_.outer[c.b];
   const double press = -freeAcceleration(a, b, c.point);
-  const double height = 0.5 * rebound * rebound / press;
-  const bool leans = lasts(c.a, c.b) && rebound < tolerance_.keep;
-  if (!leans && !(press > 0.0 && height < kLowest * std::max(1.0, model_.size)))
-    return c.restitution;
-  if (press > 0.0) {
-    const double end = t + 2.0 * rebound / (press * (1.0 - c.restitution));
-    ends_.push_back({{c.b, c.a}, end});
-    report_.certificate.max_closed_height = std::max(report_.certificate.max_closed_height, height);
+  if (!(press > 0.0) || c.restitution == 1.0) return std::nullopt;
+  return Bounces{0.5 * rebound * rebound / press,
+                 t + 2.0 * rebound / (press * (1.0 - c.restitution))};
+}
+
+std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& contacts) {
+  std::vector<double> e;
+  for (std::size_t i = 0; i < contacts.size();) {
+    // The contacts of a pair bounce together, or come to rest together.
+    const Contact& first = contacts[i];
+    const bool lasting = lasts(first.a, first.b);
+    double highest = 0.0, end = t;
+    bool closes = true;
+    const std::size_t begin = i;
+    for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b; ++i) {
+      const Contact& c = contacts[i];
+      e.push_back(c.restitution);
+      const double vrel = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
+      if (vrel >= -tolerance_.rest) continue;
+      const std::optional<Bounces> bounces = bouncesOf(t, c);
+      const bool leans = lasting && -c.restitution * vrel < tolerance_.keep;
+      closes =
+          closes && (leans || (bounces && bounces->height < kLowest * std::max(1.0, model_.size)));
+      if (!bounces) continue;
+      highest = std::max(highest, bounces->height);
+      end = std::max(end, bounces->end);
+    }
+    if (!closes || end == t) continue;
+    std::fill(e.begin() + static_cast<std::ptrdiff_t>(begin), e.end(), 0.0);
+    ends_.push_back({{first.b, first.a}, end});
+    report_.certificate.max_closed_height =
+        std::max(report_.certificate.max_closed_height, highest);
   }
-  return 0.0;
+  return e;
 }
 
 void Exact::respond(double t, const Cluster& cluster) {
@@ -126,9 +151,9 @@ void Exact::respond(double t, const Cluster& cluster) {
     bodies.push_back(state_.bodies[i]);
   }
   std::vector<Contact> contacts = cluster.contacts;
-  std::vector<double> restitution, vrel;
+  const std::vector<double> restitution = restitutions(t, contacts);
+  std::vector<double> vrel;
   for (Contact& c : contacts) {
-    restitution.push_back(restitutionNow(t, c));
     vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
     c.a = local[c.a];
     c.b = local[c.b];
@@ -176,7 +201,10 @@ void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const doub
       if (model_.fixed(first.a)) state_.struck -= impulse[i];
     }
     if (event.j <= 0.0) continue;
-    if (lasts(event.a, event.b) && event.vrel > -tolerance_.keep) continue;  // it only leans on
+    // A contact that lasts and gets no more than rounding only leans on.
+    const double kick = event.j * (state_.bodies[event.a].invM + state_.bodies[event.b].invM);
+    if (lasts(event.a, event.b) && event.vrel > -tolerance_.keep && kick < tolerance_.keep)
+      continue;
     event.p /= event.j;
     report_.events.push_back(event);
   }

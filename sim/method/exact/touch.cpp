@@ -49,8 +49,11 @@ void Exact::lookFor(Pair pair, double t) {
       }
     }
   }
-  if (!found) return;
-  state_.queue.push_back({t1, a, b, state_.flightCount[a], state_.flightCount[b]});
+  if (found) push(t1, a, b);
+}
+
+void Exact::push(double t, int a, int b) {
+  state_.queue.push_back({t, a, b, state_.flightCount[a], state_.flightCount[b]});
   std::push_heap(state_.queue.begin(), state_.queue.end(), later);
 }
 

@@ -131,6 +131,7 @@ void Exact::openWindow() {
   for (const int plane : w.planes)
     for (const int body : w.finite) lookFor({plane, body}, w.t0);
   for (const Pair& pair : pairs) lookFor(pair, w.t0);
+  lookForStops(w.t0);
 }
 
 void Exact::spinTops() {
