@@ -1,0 +1,131 @@
+#include "sim/shape/flat_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+using Edge = std::pair<int, int>;
+
+const Vec3& at(const Polyhedron& solid, int i) {
+  return solid.points[static_cast<std::size_t>(i)];
+}
+
+/// Calls act(from, to) for each edge of a face.
+template <class Action>
+void forEachEdge(const std::vector<int>& face, Action act) {
+  for (std::size_t k = 0; k < face.size(); ++k) act(face[k], face[(k + 1) % face.size()]);
+}
+
+/// Which triangles make one face: the number of its face for each triangle. The largest triangle
+/// left is the first of a face; it takes what hangs together with it and lies in its plane.
+std::vector<int> groupsOf(const Polyhedron& solid, double tolerance) {
+  const std::size_t count = solid.faces.size();
+  std::vector<Vec3> area;
+  std::map<Edge, int> faceOf;
+  for (std::size_t f = 0; f < count; ++f) {
+    area.push_back(areaVector(solid, solid.faces[f]));
+    forEachEdge(solid.faces[f], [&](int i, int j) { faceOf[{i, j}] = static_cast<int>(f); });
+  }
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t f, std::size_t g) {
+    return area[f].squaredNorm() > area[g].squaredNorm();
+  });
+  std::vector<int> group(count, -1);
+  int groups = 0;
+  for (const std::size_t seed : order) {
+    if (group[seed] >= 0) continue;
+    const Vec3 n = area[seed].normalized(), foot = at(solid, solid.faces[seed][0]);
+    std::vector<std::size_t> found = {seed};
+    group[seed] = groups;
+    for (std::size_t next = 0; next < found.size(); ++next)
+      forEachEdge(solid.faces[found[next]], [&](int i, int j) {
+        const auto other = static_cast<std::size_t>(faceOf.at({j, i}));
+        const std::vector<int>& corners = solid.faces[other];
+        const bool flat = std::all_of(corners.begin(), corners.end(), [&](int c) {
+          return std::abs(n.dot(at(solid, c) - foot)) <= tolerance;
+        });
+        if (group[other] >= 0 || !flat) return;
+        group[other] = groups;
+        found.push_back(other);
+      });
+    ++groups;
+  }
+  return group;
+}
+
+/// The ring of edges around each group; an empty one where they are no single ring.
+std::vector<std::vector<int>> ringsOf(const Polyhedron& solid, const std::vector<int>& group) {
+  std::map<Edge, int> groupOf;
+  for (std::size_t f = 0; f < group.size(); ++f)
+    forEachEdge(solid.faces[f], [&](int i, int j) { groupOf[{i, j}] = group[f]; });
+  const int groups = 1 + *std::max_element(group.begin(), group.end());
+  std::vector<std::map<int, int>> after(static_cast<std::size_t>(groups));
+  std::vector<std::size_t> edges(after.size(), 0);
+  for (const auto& [edge, g] : groupOf) {
+    if (groupOf.at({edge.second, edge.first}) == g) continue;
+    after[static_cast<std::size_t>(g)][edge.first] = edge.second;
+    ++edges[static_cast<std::size_t>(g)];
+  }
+  std::vector<std::vector<int>> rings;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    std::vector<int> ring;
+    if (after[g].size() == edges[g] && !after[g].empty()) {
+      const int first = after[g].begin()->first;
+      int i = first;
+      do {
+        ring.push_back(i);
+        i = after[g].at(i);
+      } while (i != first && ring.size() <= edges[g]);
+    }
+    if (ring.size() != edges[g]) ring.clear();
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+/// Without the points at which fewer than three faces meet.
+Polyhedron withoutOthers(const Polyhedron& solid, const std::vector<std::vector<int>>& rings) {
+  std::vector<int> meeting(solid.points.size(), 0), number(solid.points.size(), -1);
+  for (const std::vector<int>& ring : rings)
+    for (const int i : ring) ++meeting[static_cast<std::size_t>(i)];
+  Polyhedron flat;
+  for (std::size_t i = 0; i < meeting.size(); ++i) {
+    if (meeting[i] < 3) continue;
+    number[i] = static_cast<int>(flat.points.size());
+    flat.points.push_back(solid.points[i]);
+  }
+  for (const std::vector<int>& ring : rings) {
+    std::vector<int> face;
+    for (const int i : ring)
+      if (number[static_cast<std::size_t>(i)] >= 0)
+        face.push_back(number[static_cast<std::size_t>(i)]);
+    flat.faces.push_back(std::move(face));
+  }
+  return flat;
+}
+
+/// Faces with three corners or more, and V − E + F = 2.
+bool isClosed(const Polyhedron& solid) {
+  std::size_t corners = 0;
+  for (const std::vector<int>& face : solid.faces) {
+    if (face.size() < 3) return false;
+    corners += face.size();
+  }
+  return solid.points.size() + solid.faces.size() == corners / 2 + 2;
+}
+
+}  // namespace
+
+Polyhedron withFlatFaces(const Polyhedron& triangles, double tolerance) {
+  const Polyhedron flat =
+      withoutOthers(triangles, ringsOf(triangles, groupsOf(triangles, tolerance)));
+  return isClosed(flat) ? flat : triangles;
+}
+
+}  // namespace tumble
