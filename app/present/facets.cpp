@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "sim/math/rotation.h"
@@ -196,6 +197,28 @@ std::shared_ptr<const Facets> facetsOf(const Shape& shape) {
   forEachSolid(shape,
                [&](const Polyhedron& solid, const Pose& pose) { addSolid(solid, pose, *facets); });
   measure(*facets);
+  return facets;
+}
+
+std::vector<std::shared_ptr<const Facets>> facetsOfBodies(std::span<const BodyDef> bodies) {
+  using Key = std::tuple<const Polyhedron*, double, double, double>;
+  std::map<Key, std::shared_ptr<const Facets>> known;
+  std::vector<std::shared_ptr<const Facets>> facets;
+  const auto share = [&](const Shape& shape, const Polyhedron* solid, const Vec3& numbers) {
+    auto& found = known[{solid, numbers.x(), numbers.y(), numbers.z()}];
+    if (!found) found = facetsOf(shape);
+    return found;
+  };
+  for (const BodyDef& body : bodies) {
+    if (const Capsule* capsule = std::get_if<Capsule>(&body.shape))
+      facets.push_back(share(body.shape, nullptr, Vec3(capsule->r, capsule->h, 0.0)));
+    else if (const Hull* hull = std::get_if<Hull>(&body.shape))
+      facets.push_back(share(body.shape, hull->solid.get(), hull->origin));
+    else if (const Mesh* mesh = std::get_if<Mesh>(&body.shape))
+      facets.push_back(share(body.shape, mesh->solid.get(), mesh->origin));
+    else
+      facets.push_back(facetsOf(body.shape));
+  }
   return facets;
 }
 

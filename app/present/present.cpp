@@ -80,7 +80,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording)
 
 Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
     : scene_(scene), recording_(recording), colours_(bodyColours(scene)), framing_(framing) {
-  for (const BodyDef& body : scene.world.bodies) facets_.push_back(facetsOf(body.shape));
+  facets_ = facetsOfBodies(scene.world.bodies);
   if (scene.show.speed) fastest_ = fastestOf(scene, recording);
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {

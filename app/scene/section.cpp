@@ -96,6 +96,30 @@ void Section::read(std::string_view key, Vec3& out, const Range& range) {
   read(key, out.data(), 3, range);
 }
 
+void Section::read(std::string_view key, std::vector<Vec3>& out, const Range& range) {
+  const Node* node = find(key);
+  if (!node) return;
+  const Array* list = node->as<Array>();
+  if (!list)
+    return complain(key, "expected a list of points like [[x, y, z], …], found " + describe(*node));
+  std::vector<Vec3> points;
+  for (const Node& element : *list) {
+    const Array* numbers = element.as<Array>();
+    if (!numbers || numbers->size() != 3) {
+      findings_.complain(element.spot, path(key),
+                         "expected a point [x, y, z], found " + describe(element));
+      continue;
+    }
+    Vec3 point;
+    bool right = true;
+    for (int k = 0; k < 3; ++k)
+      right &= readNumber((*numbers)[static_cast<std::size_t>(k)], path(key), range, findings_,
+                          point[k]);
+    if (right) points.push_back(point);
+  }
+  if (points.size() == list->size()) out = std::move(points);
+}
+
 void Section::read(std::string_view key, bool& out) {
   const Node* node = find(key);
   if (!node) return;

@@ -52,6 +52,8 @@ class Section {
   void read(std::string_view key, std::string& out, const std::vector<std::string>& choices);
   /// A list of strings.
   void read(std::string_view key, std::vector<std::string>& out);
+  /// A list of points [x, y, z].
+  void read(std::string_view key, std::vector<Vec3>& out, const Range& range);
   /// A list of exactly `count` numbers.
   void read(std::string_view key, double* out, std::size_t count, const Range& range);
 

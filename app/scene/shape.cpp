@@ -3,9 +3,11 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "app/scene/mesh_file.h"
 #include "sim/math/rotation.h"
+#include "sim/shape/convex_hull.h"
 
 namespace tumble {
 
@@ -30,6 +32,25 @@ std::optional<Shape> readCylinder(Section& shape) {
   double size[2] = {0.5, 1.0};
   shape.read("cylinder", size, 2, kLength);
   return Cylinder{size[0], size[1]};
+}
+
+std::optional<Shape> readCapsule(Section& shape) {
+  double size[2] = {0.5, 1.0};
+  shape.read("capsule", size, 2, kLength);
+  return Capsule{size[0], size[1]};
+}
+
+// The hull is that of the points less the first, which is where its origin stands from it.
+std::optional<Shape> readHull(Section& shape) {
+  std::vector<Vec3> points;
+  shape.read("hull", points, {-kLength.hi, kLength.hi, false, kLength.unit});
+  if (!shape.good()) return {};
+  try {
+    return Hull{std::make_shared<const Polyhedron>(convexHull(points)), -points.at(0)};
+  } catch (const NotASolid& reason) {
+    shape.complain("hull", reason.what());
+    return {};
+  }
 }
 
 // A particle's radius is a key of the body.
@@ -70,9 +91,11 @@ struct ShapeRow {
   std::optional<Shape> (*read)(Section&);
   bool convex;  // and finite: it can be a part of a compound
 };
-constexpr std::array<ShapeRow, 6> kShapes = {{{"sphere", readSphere, true},
+constexpr std::array<ShapeRow, 8> kShapes = {{{"sphere", readSphere, true},
                                               {"box", readBox, true},
                                               {"cylinder", readCylinder, true},
+                                              {"capsule", readCapsule, true},
+                                              {"hull", readHull, true},
                                               {"plane", readPlane, false},
                                               {"mesh", readMeshFile, false},
                                               {"compound", readCompound, false}}};

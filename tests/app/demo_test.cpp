@@ -56,6 +56,18 @@ std::string shapeText(const Shape& shape, double factor) {
   if (const Cylinder* cylinder = std::get_if<Cylinder>(&shape))
     std::snprintf(text, sizeof text, "{ cylinder = [%.17g, %.17g] }", factor * cylinder->r,
                   factor * cylinder->h);
+  if (const Capsule* capsule = std::get_if<Capsule>(&shape))
+    std::snprintf(text, sizeof text, "{ capsule = [%.17g, %.17g] }", factor * capsule->r,
+                  factor * capsule->h);
+  if (const Hull* hull = std::get_if<Hull>(&shape)) {
+    std::string points;
+    for (const Vec3& p : hull->solid->points) {
+      const Vec3 q = factor * (p - hull->origin);
+      std::snprintf(text, sizeof text, "[%.17g, %.17g, %.17g]", q.x(), q.y(), q.z());
+      points += (points.empty() ? "" : ", ") + std::string(text);
+    }
+    return "{ hull = [" + points + "] }";
+  }
   if (const Compound* compound = std::get_if<Compound>(&shape)) {
     std::string parts;
     for (const Part& part : compound->parts) {

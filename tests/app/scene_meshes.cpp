@@ -78,6 +78,59 @@ TEST_CASE("a mesh is read from a file and stands on its centre of mass") {
   CHECK((a.lo - b.lo).norm() + (a.hi - b.hi).norm() < 1e-14);
 }
 
+// Oracle: the same box as a box; hulls as parts keep the place that their points say.
+TEST_CASE("a hull stands on its centre of mass, and as a part where its points stand") {
+  const std::string corners =
+      "[[3, 0, 0], [5, 0, 0], [3, 1, 0], [5, 1, 0], [3, 0, 4], [5, 0, 4], [3, 1, 4], [5, 1, 4], "
+      "[4, 0.5, 2]]";
+  const BodyDef hull = read("shape = { hull = " + corners + " }");
+  const BodyDef box = read("shape = { box = [2, 1, 4] }");
+  CHECK((massOf(hull).inertia - massOf(box).inertia).norm() < 1e-13);
+  const Aabb around = boundingBox(hull.shape, Pose{});
+  CHECK((around.hi - Vec3(1.0, 0.5, 2.0)).norm() < 1e-14);
+  CHECK((around.lo + Vec3(1.0, 0.5, 2.0)).norm() < 1e-14);
+  CHECK(std::get<Hull>(hull.shape).solid->faces.size() == 6);
+
+  // A capsule of 2 m from end to end beside it, 3 m to the left of the hull's middle.
+  const BodyDef both = read("shape = { compound = [ { hull = " + corners +
+                            ", position = [0, 10, 0] }, { capsule = [0.5, 1], position = "
+                            "[1, 10.5, 2], orientation = { axis = [0, 0, 1], degrees = 90 } } ] }");
+  const double V = 8.0, v = volume(Capsule{0.5, 1.0});
+  CHECK(volume(both.shape) == Approx(V + v).epsilon(1e-14));
+  const Vec3 centre = (V * Vec3(4, 10.5, 2) + v * Vec3(1, 10.5, 2)) / (V + v);
+  CHECK((originOf(both.shape) - centre).norm() < 1e-14);
+  const std::vector<PosedPart> parts = convexParts(both.shape);
+  REQUIRE(parts.size() == 2);
+  const Aabb first = boundingBox(parts[0].solid, parts[0].pose);
+  CHECK((first.lo - (Vec3(3, 10, 0) - centre)).norm() < 1e-14);
+  const Aabb second = boundingBox(parts[1].solid, parts[1].pose);
+  CHECK((second.lo - (Vec3(0, 10, 1.5) - centre)).norm() < 1e-14);
+  CHECK(says(refusalOf("shape = { compound = [ { hull = " + corners +
+                       " }, { capsule = [0.51, 1], position = [2.5, 0.5, 2] } ] }"),
+             "parts 1 and 2 of \"b\" overlap"));
+}
+
+TEST_CASE("copies of a hull share its points, and of a hull or a capsule the surface drawn") {
+  const Scene scene = parseScene(
+      "[world]\ngravity = [0, 0, 0]\nduration = 1\n"
+      "[[array]]\nname = \"a\"\nkind = \"row\"\nstep = [3, 0, 0]\ncount = 3\n"
+      "body = { mass = 1, shape = { hull = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]] } }\n"
+      "[[array]]\nname = \"c\"\nkind = \"row\"\nstep = [3, 0, 0]\ncount = 3\n"
+      "vary = { shape = { capsule = [[0.5, 1], [0.5, 1]] } }\n"
+      "body = { mass = 1, position = [0, 5, 0], shape = { capsule = [0.1, 2] } }\n",
+      "s.toml");
+  const std::vector<BodyDef>& bodies = scene.world.bodies;
+  REQUIRE(bodies.size() == 6);
+  CHECK(std::get<Hull>(bodies[0].shape).solid == std::get<Hull>(bodies[2].shape).solid);
+  CHECK(std::get<Capsule>(bodies[4].shape).r == 0.5);
+  const auto facets = facetsOfBodies(bodies);
+  CHECK(facets[0] == facets[2]);
+  CHECK(facets[3] == facets[5]);
+  CHECK(facets[0] != facets[3]);
+  CHECK(facets[3]->reach == Approx(1.0).epsilon(1e-2));
+  CHECK(facets[3]->thickness == Approx(0.5).epsilon(1e-2));
+}
+
 // Oracle: D6 by hand: the box of the L is 2 m by 2 m by 1 m, 0.236 m beside its centre of mass.
 TEST_CASE("a body is weighed as inertia_by says") {
   const std::string mesh = "shape = { mesh = \"ell.obj\" }\ninertia_by = ";
@@ -116,7 +169,7 @@ TEST_CASE("what cannot be weighed is refused where it is written") {
   CHECK(says(refusalOf("shape = { compound = [] }"), "expected a list of parts"));
   CHECK(says(refusalOf("shape = { compound = [ { plane = [0, 1, 0, 0] } ] }"), "plane"));
   CHECK(says(refusalOf("shape = { compound = [ { box = [1, 1, 1], sphere = 1 } ] }"),
-             "expected one of sphere, box, cylinder, found 2 of them"));
+             "expected one of sphere, box, cylinder, capsule, hull, found 2 of them"));
   CHECK(says(refusalOf("shape = { compound = [ { box = [1, 1, 1] }, { sphere = 0.6 } ] }"),
              "parts 1 and 2 of \"b\" overlap"));
   CHECK(says(refusalOf("shape = { sphere = 1 }\ninertia_by = \"quasy\""), "did you mean 'quasi'?"));
