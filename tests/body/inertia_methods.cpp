@@ -8,6 +8,7 @@
 #include "sim/body/principal_axes.h"
 #include "sim/body/samples.h"
 #include "sim/math/rotation.h"
+#include "sim/shape/convex_hull.h"
 #include "sim/shape/interior.h"
 #include "tests/body/solids.h"
 #include "tests/catch.h"
@@ -168,6 +169,29 @@ TEST_CASE("inside and outside of a mesh are those of its parts") {
       CHECK_FALSE(interior.contains({-0.5, y, z}));
       CHECK_FALSE(interior.contains({1.5, y, z}));
     }
+}
+
+// Oracle: the exact tensor. 100,000 points at random, a third of them inside, scatter by 1 %;
+// measured at most 1.6 %, allowed 4 %.
+TEST_CASE("capsules and hulls are weighed by their points too, alone and as parts") {
+  const Hull hull{std::make_shared<const Polyhedron>(convexHull(solids::tetrahedron().points)),
+                  Vec3::Zero()};
+  const Pose above{{0.1, 0.2, 3.0}, Quat(0.8, 0.6, 0.0, 0.0)};
+  const Hull moved{hull.solid, Vec3(-1.0, 2.0, 0.5)};
+  const Shape shapes[] = {
+      Capsule{0.4, 1.0}, hull,
+      Compound{{Part{Capsule{0.4, 1.0}, {}}, Part{moved, above}}, Vec3::Zero()}};
+  for (const Shape& shape : shapes) {
+    const MassProperties exact = by("surface", shape);
+    for (const char* method : {"grid", "random", "quasi"}) {
+      const MassProperties found = by(method, shape, 100000);
+      CAPTURE(shapeName(shape), method);
+      CHECK(relativeError(found.inertia, exact.inertia) < 0.04);
+      CHECK((found.centre - exact.centre).norm() < 0.02);
+    }
+  }
+  const Mat3 box = by("box", Capsule{0.4, 1.0}).inertia;
+  CHECK(relativeError(box, solidMass(Box{{0.4, 0.9, 0.4}}, 1.0).inertia) < 1e-15);
 }
 
 TEST_CASE("the points inside stand in the body frame") {

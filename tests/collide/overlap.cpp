@@ -2,6 +2,7 @@
 #include "sim/collide/overlap.h"
 
 #include "sim/math/rotation.h"
+#include "sim/shape/convex_hull.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -45,6 +46,39 @@ TEST_CASE("parts that touch do not overlap, parts that share a sliver do") {
   }
   CHECK(overlap(cube, cube));
   CHECK(overlap(cube, box({0.1, 0.1, 0.1}, {0.2, 0.1, 0})));  // one inside the other
+}
+
+// Oracle: gaps by hand. The hull is a unit cube with its points far from its own origin.
+TEST_CASE("capsules and hulls touch and overlap where their surfaces are") {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) corners.emplace_back(100.0 + (k & 1), k >> 1 & 1, k >> 2);
+  const auto solid = std::make_shared<const Polyhedron>(convexHull(corners));
+  const auto hull = [&](const Vec3& at) {
+    return Part{Hull{solid, -corners[0]}, {at - Vec3(100, 0, 0), Quat::Identity()}};
+  };
+  const Part cube = hull({0, 0, 0});
+  const Quat lying = fromAxisAngle(Vec3::UnitZ(), 1.5707963267948966);
+  const Vec3 diagonal = Vec3(1, 1, 1).normalized();
+  const struct {
+    Part part;
+    Vec3 away;
+  } touching[] = {
+      {hull({1, 0, 0}), {1, 0, 0}},
+      {hull({0.3, 0.4, -1}), {0, 0, -1}},
+      {box({1, 1, 1}, {0.5, 1.5, 0.2}), {0, 1, 0}},
+      {{Capsule{0.2, 1.0}, {{0.5, 1.7, 0.5}, Quat::Identity()}}, {0, 1, 0}},  // on its cap
+      {{Capsule{0.2, 1.0}, {{0.5, 1.2, 0.5}, lying}}, {0, 1, 0}},             // on its side
+      {{Capsule{0.2, 1.0}, {Vec3(1, 1.5, 1) + 0.2 * diagonal, Quat::Identity()}}, diagonal},
+  };
+  for (const auto& [part, away] : touching) {
+    CHECK_FALSE(overlap(cube, part));
+    CHECK_FALSE(overlap(part, cube));
+    Part nearer = part;
+    nearer.pose.x -= 1e-6 * away;
+    CHECK(overlap(cube, nearer));
+    CHECK(overlap(nearer, cube));
+  }
+  CHECK(overlap(cube, cube));
 }
 
 TEST_CASE("the parts of a compound that overlap are named") {

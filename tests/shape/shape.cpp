@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/shape/convex_hull.h"
 #include "tests/catch.h"
 
 namespace tumble {
@@ -61,6 +62,55 @@ TEST_CASE("the box around a turned cylinder touches its rims") {
   }
 }
 
+// Oracle: the ends of the segment by hand, and r beyond them. Measured 4e-16.
+TEST_CASE("the box around a turned capsule touches both balls at its ends") {
+  const Capsule capsule{0.4, 1.5};
+  const Aabb around = boundingBox(capsule, kPose);
+  const Vec3 end = kTilted * Vec3(0.0, 0.75, 0.0);
+  const Vec3 hi = kPose.x + end.cwiseMax(-end) + Vec3::Constant(0.4);
+  const Vec3 lo = kPose.x + end.cwiseMin(-end) - Vec3::Constant(0.4);
+  REQUIRE((around.hi - hi).norm() < 1e-14);
+  REQUIRE((around.lo - lo).norm() < 1e-14);
+}
+
+// Oracle: all points. The origin is off the middle.
+TEST_CASE("the box around a turned hull touches its outermost points, as body and as part") {
+  std::vector<Vec3> points = corners({0.3, 1.0, 2.0});
+  points.emplace_back(0.0, 4.0, 0.0);
+  const Vec3 origin(0.1, -0.2, 0.5);
+  const Hull hull{std::make_shared<const Polyhedron>(convexHull(points)), origin - points[0]};
+  std::vector<Vec3> points_B;
+  for (const Vec3& p : points) points_B.push_back(p - origin);
+  const Aabb around = boundingBox(hull, kPose);
+  const Pose in{{1.0, 2.0, 3.0}, Quat(0.6, 0.0, 0.8, 0.0)};
+  const Compound compound{{Part{hull, in}, Part{Capsule{0.1, 0.2}, in}}, Vec3(0.5, 0.0, 0.0)};
+  const Aabb asPart = boundingBox(compound, kPose);
+  std::vector<Vec3> moved;
+  for (const Vec3& p : points_B) moved.push_back(toWorld(in, p) - compound.origin);
+  for (int axis = 0; axis < 3; ++axis) {
+    REQUIRE(std::abs(around.hi[axis] - farthest(points_B, axis)) < 1e-14);
+    REQUIRE(std::abs(asPart.hi[axis] - farthest(moved, axis)) < 1e-14);
+  }
+  double far = 0.0;
+  for (const Vec3& p : points_B) far = std::max(far, p.norm());
+  REQUIRE(std::abs(boundingRadius(hull) - far) < 1e-14);
+}
+
+TEST_CASE("a shape is the union of its convex parts") {
+  const Compound compound{{Part{Box{}, {{1.0, 2.0, 3.0}, kTilted}}, Part{Capsule{0.1, 0.2}, {}}},
+                          Vec3(0.5, 0.0, 0.0)};
+  const std::vector<PosedPart> parts = convexParts(compound);
+  REQUIRE(parts.size() == 2);
+  REQUIRE(parts[0].pose.x == Vec3(0.5, 2.0, 3.0));
+  REQUIRE(parts[0].pose.q.coeffs() == kTilted.coeffs());
+  REQUIRE(std::get<Capsule>(parts[1].solid).h == 0.2);
+  REQUIRE(convexParts(Box{}).size() == 1);
+  REQUIRE(convexParts(HalfSpace{}).size() == 1);
+  REQUIRE(std::get<Sphere>(convexParts(Particle{0.3})[0].solid).r == 0.3);
+  REQUIRE(convexParts(Particle{}).empty());
+  REQUIRE(convexParts(Mesh{}).empty());
+}
+
 TEST_CASE("the box around a standing cylinder is r wide and h high") {
   const Aabb around = boundingBox(Cylinder{0.4, 1.5}, Pose{});
   REQUIRE(around.hi == Vec3(0.4, 0.75, 0.4));
@@ -91,6 +141,7 @@ TEST_CASE("the bounding radius reaches the farthest point of a shape") {
   REQUIRE(boundingRadius(Sphere{0.5}) == 0.5);
   REQUIRE(boundingRadius(Box{{1.0, 2.0, 2.0}}) == 3.0);
   REQUIRE(boundingRadius(Cylinder{3.0, 8.0}) == 5.0);
+  REQUIRE(boundingRadius(Capsule{1.0, 8.0}) == 5.0);
   REQUIRE(boundingRadius(HalfSpace{}) == std::numeric_limits<double>::infinity());
 }
 
@@ -98,6 +149,8 @@ TEST_CASE("shapes are called by their names") {
   REQUIRE(shapeName(Sphere{}) == "sphere");
   REQUIRE(shapeName(Box{}) == "box");
   REQUIRE(shapeName(Cylinder{}) == "cylinder");
+  REQUIRE(shapeName(Capsule{}) == "capsule");
+  REQUIRE(shapeName(Hull{}) == "hull");
   REQUIRE(shapeName(HalfSpace{}) == "half-space");
 }
 
