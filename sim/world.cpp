@@ -258,7 +258,8 @@ Sample World::sample(double t) const {
   for (const Contact& c : contacts)
     sample.contacts.push_back({c.a, c.b, c.point.p, c.point.n, c.point.separation, c.force});
   sample.kinetic = kineticEnergy(bodies);
-  sample.potential = potentialEnergy(parts_->model.def.gravity, parts_->model.def.forces, bodies);
+  sample.potential = potentialEnergy(parts_->model.def.gravity, parts_->model.def.forces, bodies) +
+                     energyStored(contacts);
   return sample;
 }
 

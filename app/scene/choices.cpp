@@ -2,6 +2,8 @@
 
 #include "sim/body/inertia_method.h"
 #include "sim/contact/impact.h"
+#include "sim/method/course/contact_model.h"
+#include "sim/method/course/plan.h"
 #include "sim/ode/integrator.h"
 #include "sim/problem/problem.h"
 #include "sim/world.h"
@@ -38,10 +40,10 @@ std::vector<std::string> inertiaChoices() {
   return namesOf(inertiaMethods());
 }
 std::vector<std::string> planChoices() {
-  return {"backstep"};
+  return namesOf(plans());
 }
 std::vector<std::string> contactChoices() {
-  return {"constraint"};
+  return namesOf(contactModels());
 }
 
 }  // namespace tumble

@@ -52,7 +52,10 @@ void readCourse(Section& root, CourseSettings& course) {
   section.read("attitude", course.attitude, attitudeChoices());
   section.read("step", course.step, kStep);
   section.read("plan", course.plan, planChoices());
+  section.read("repair_steps", course.repairSteps, 1, 1'000'000);
   section.read("contact", course.contact, contactChoices());
+  section.read("stiffness", course.stiffness, positive("N/m"));
+  section.read("damping", course.damping, notNegative("N s/m"));
   section.finish();
 }
 

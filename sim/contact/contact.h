@@ -39,10 +39,12 @@ struct Contact {
   ContactPoint point;  ///< as found, or as last followed
   Anchor anchor;
   double restitution = 0.0, friction = 0.0;
-  bool lasting = false;               ///< rests: takes part in the contact forces
-  bool sliding = false;               ///< its friction is kinetic
-  bool creeping = false;              ///< slides so slowly that a step could turn its slip round
-  bool mayStick = false;              ///< its slip can come to an end along slipDirection
+  double granted = 0.0;   ///< [m] overlap that the pull of a lasting contact leaves alone
+  double energy = 0.0;    ///< [J] stored, if the contact is a spring
+  bool lasting = false;   ///< rests: takes part in the contact forces
+  bool sliding = false;   ///< its friction is kinetic
+  bool creeping = false;  ///< slides so slowly that a step could turn its slip round
+  bool mayStick = false;  ///< its slip can come to an end along slipDirection
   Vec3 slipDirection = Vec3::Zero();  ///< of the slip at the start of this stretch of motion
   Vec3 force = Vec3::Zero();          ///< [N] on a, friction included
 };

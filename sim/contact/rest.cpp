@@ -23,7 +23,7 @@ void RestForces::addRows(std::span<const RigidBody> bodies, const Contact& conta
   const RigidBody &a = bodies[contact.a], &b = bodies[contact.b];
   const ContactPoint& c = contact.point;
   const double bias = normalAccelerationBias(a, b, c) + 2.0 / tau_ * approachVelocity(a, b, c) +
-                      c.separation / (tau_ * tau_);
+                      (c.separation + contact.granted) / (tau_ * tau_);
   problem_.cones.push_back(
       {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size()), .mu = 0.0});
   problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, c.n, bias));

@@ -16,7 +16,8 @@ namespace tumble {
 /// with A and b assembled from Jacobian rows as in Baraff, Rigid Body Simulation II, §9; friction
 /// adds two rows a contact (sticking: Coulomb cone at acceleration level; sliding: −mu f_n against
 /// the slip). Departure: b carries vrel (2/τ) + separation/τ², which draws rounding errors of
-/// lasting contacts back to zero with the time constant τ; they stay at the size of rounding.
+/// lasting contacts back to zero, or to the overlap that they are granted, with the time constant
+/// τ; they stay at the size of rounding.
 class RestForces {
  public:
   /// @param tau  time constant τ [s] > 0 of the pull towards zero; a few steps

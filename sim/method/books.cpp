@@ -73,19 +73,26 @@ void account(const Model& model, State& state, Report& report) {
   state.momentumScale = std::max(state.momentumScale, size);
 
   books.events = static_cast<long>(report.events.size());
-  books.energy_end = kinetic + potentialEnergy(model.def.gravity, model.def.forces, state.bodies);
+  books.energy_end = kinetic + potentialEnergy(model.def.gravity, model.def.forces, state.bodies) +
+                     energyStored(state.lasting);
   const double open = books.energy_end - books.energy_start + books.energy_lost_impact +
-                      books.energy_lost_friction - books.work_of_forces;
+                      books.energy_lost_friction - books.energy_added_repair - books.work_of_forces;
   // Where nothing moves, what is open is the rounding of the terms themselves.
   const double rounding =
       1e-14 * (std::abs(books.energy_end) + std::abs(books.energy_start) +
                std::abs(books.energy_lost_impact) + std::abs(books.energy_lost_friction) +
-               std::abs(books.work_of_forces));
+               std::abs(books.energy_added_repair) + std::abs(books.work_of_forces));
   books.energy_balance_error = std::abs(open) <= rounding ? 0.0 : std::abs(open) / state.kineticMax;
   const double drift = (momentum - state.momentumStart - state.externalImpulse).norm();
   const double carried = state.momentumScale + weight * state.t;
   if (drift > 1e-13 * carried)
     books.momentum_error = std::max(books.momentum_error, drift / state.momentumScale);
+}
+
+double energyStored(std::span<const Contact> contacts) {
+  double sum = 0.0;
+  for (const Contact& c : contacts) sum += c.energy;
+  return sum;
 }
 
 void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now, double t,

@@ -58,6 +58,9 @@ void trimTrail(State& state, double t);
 /// Brings the running totals and the certificate up to date at the end of a step.
 void account(const Model& model, State& state, Report& report);
 
+/// Energy [J] stored in contacts that are springs.
+double energyStored(std::span<const Contact> contacts);
+
 /// Tells what became of lasting contacts at time t [s]: rest, separate, slip and stick. One event
 /// for a pair, told at its first contact.
 void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now, double t,

@@ -60,7 +60,11 @@ struct CourseSettings {
   std::string attitude = "quaternion";
   double step = 1.0 / 240.0;  ///< [s]
   std::string plan = "backstep";
+  int repairSteps = 4;  ///< of the plan "gradual": steps in which an overlap would be gone at the
+                        ///< rate of the first
   std::string contact = "constraint";
+  double stiffness = 1e4;  ///< [N/m] k of the contact model "penalty", per point of contact
+  double damping = 0.0;    ///< [N s/m] c of the same
 };
 
 struct SteppingSettings {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iterator>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,8 +35,9 @@ struct Certificate {
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
+  double energy_added_repair = 0.0;  ///< [J] by moving bodies out of each other
   double work_of_forces = 0.0;  ///< [J] by forces without a potential and by moving fixed bodies
-  double energy_balance_error = 0.0;  ///< |E_end − E_start + lost − work| / max kinetic energy
+  double energy_balance_error = 0.0;  ///< |E_end − E_start + lost − added − work| / max kinetic
   double momentum_error = 0.0;        ///< worst |P − P₀ − ∫F − Σ impulses| / max Σ|P|
 };
 
@@ -56,6 +58,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"energy_end", &Certificate::energy_end},
     {"energy_lost_impact", &Certificate::energy_lost_impact},
     {"energy_lost_friction", &Certificate::energy_lost_friction},
+    {"energy_added_repair", &Certificate::energy_added_repair},
     {"work_of_forces", &Certificate::work_of_forces},
     {"energy_balance_error", &Certificate::energy_balance_error},
     {"momentum_error", &Certificate::momentum_error},
@@ -63,10 +66,24 @@ inline constexpr CertificateField kCertificateFields[] = {
 static_assert(sizeof(Certificate) == sizeof(double) * std::size(kCertificateFields),
               "every number of the certificate has its key");
 
+/// A pose that a step of `course` led a body to although it overlaps another one there, and what
+/// the plan made of it: where it then stood, or stood free again.
+struct Misstep {
+  double t = 0.0;  ///< [s]
+  int body = 0, other = 0;
+  double separation = 0.0;  ///< [m] < 0
+  Pose pose;
+  double mendedAt = std::numeric_limits<double>::infinity();  ///< [s]; infinite: not yet
+  Pose mended = {};
+};
+
+inline constexpr std::size_t kMostMissteps = 100;
+
 /// What a method leaves behind: certificate, events in order of time, and why it stopped if it did.
 struct Report {
   Certificate certificate;
   std::vector<Event> events;
+  std::vector<Misstep> missteps;   ///< the first kMostMissteps
   bool stopped = false;            ///< the physics could not go on
   std::string reason;              ///< one sentence: what, where, when
   std::vector<std::string> notes;  ///< approximations that were taken, once each

@@ -1,9 +1,12 @@
 // The method of the notes: Y(t) through the ODE black box; detect, back up to the instant of
-// collision, impulses, resting forces from the LCP at acceleration level (slides SD24–SD57).
+// collision, impulses, resting forces from the LCP at acceleration level (slides SD24–SD57). Other
+// plans let bodies overlap and repair that (SH7, SH9); another contact model is springs (SH10).
 #pragma once
 
 #include <memory>
 
+#include "sim/contact/rest.h"
+#include "sim/method/course/plan.h"
 #include "sim/method/course/system.h"
 #include "sim/method/method.h"
 #include "sim/ode/integrator.h"
@@ -31,12 +34,14 @@ class CourseSteppers {
   std::unique_ptr<Stepper> chosen_, standIn_;
 };
 
-/// The flow chart of slide SD39 at work on one world.
+/// The flow chart of slides SD39 and SH18 at work on one world: `move` is its update, `settle` all
+/// that follows until the next one.
 class Course {
  public:
   Course(const Model& model, State& state, Report& report);
 
-  /// Events of this instant: contacts found, impulses given, contacts that last listed.
+  /// Events of this instant: contacts found, overlap mended, impulses given, contacts that last
+  /// listed.
   void settle();
   /// One stretch of motion without an event: to the next instant of the grid, or to the first
   /// event.
@@ -48,15 +53,33 @@ class Course {
   /// Stops the run where something touches that cannot have contacts here: a body with a pivot, or
   /// one whose attitude is a matrix.
   void stopUntouchable();
+  /// Takes the plan's share of every overlap away, and books what energy that adds.
+  void mend();
+  /// Moves bodies by the least way, weighed by mass, that takes a share of each overlap away.
+  void lift(double share);
+  double deepestOverlap() const;
+  double energy() const;
+  /// Writes down the pairs that overlap among these bodies at time t, unless they are known to.
+  void noteMissteps(std::span<const RigidBody> bodies, double t);
+  /// Writes down where the bodies stand that do not overlap any more at time t.
+  void closeMissteps(std::span<const RigidBody> bodies, double t);
+
   bool collides() const;
   void respond();
   double restitutionNow(const Contact& contact) const;
   void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
   void chooseLasting();
+  /// The contacts that are springs now; tells when they began and ended.
+  void chooseSprings();
+  Event springEvent(EventKind kind, const Contact& contact);
   bool wasLasting(int a, int b) const;
   /// Upper estimate [m/s²] of what outer forces do to any body.
   double accelerationScale() const;
 
+  /// Whether collisions are located: the plan backs up to them.
+  bool locates() const { return contact_.impulses && plan_.backsUp; }
+  /// What each near pair's separation must not fall below in this stretch.
+  void setFloors();
   /// How long [s] the motion may go on unseen: no pair passes through each other, no feature dips
   /// in and out again.
   double foresee(double span) const;
@@ -76,10 +99,14 @@ class Course {
   CourseSystem system_;
   CourseSteppers steppers_;
   long counted_ = 0;  ///< evaluations of system_ that are in the certificate
+  const Plan& plan_;
+  const ContactModel& contact_;
   RestForces rest_;
   std::vector<Contact> touching_;
   std::vector<double> y0_, y_;
   std::vector<RigidBody> trial_;
+  Problem lift_;
+  Solution lifted_;
   std::vector<double> gaps_;   ///< [m] per near pair: separation now
   std::vector<double> floor_;  ///< [m] per near pair: separation that must not be passed
   double allowanceNow_ = 0.0;  ///< `allowance` of no motion at all

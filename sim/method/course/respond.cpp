@@ -114,6 +114,7 @@ void Course::chooseLasting() {
     const double band = wasLasting(c.a, c.b) ? tolerance_.keep : tolerance_.rest;
     if (classify(approachVelocity(a, b, c.point), band) != ContactClass::Resting) continue;
     c.lasting = true;
+    if (c.point.separation < -tolerance_.touch) c.granted = -c.point.separation;
     c.anchor = anchorOf(a, b, c.point);
     const Vec3 slip = slipVelocity(a, b, c.point);
     c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;

@@ -5,9 +5,6 @@
 namespace tumble {
 namespace {
 
-/// Time constant of the pull that keeps lasting contacts at zero, in steps.
-constexpr double kPullSteps = 4.0;
-
 template <class Number>
 std::span<Number> withoutLedger(std::span<Number> y) {
   return y.first(y.size() - CourseSystem::kLedgerSize);
@@ -17,26 +14,21 @@ std::span<Number> withoutLedger(std::span<Number> y) {
 void addLedger(const Ledger& rates, double h, std::span<double> y) {
   double* last = &y[y.size() - CourseSystem::kLedgerSize];
   last[0] += h * rates.work;
-  last[1] += h * rates.friction;
+  last[1] += h * rates.lost;
   for (int k = 0; k < 3; ++k) last[2 + k] += h * rates.impulse[k];
 }
 
 }  // namespace
-
-double pullTime(const Model& model) {
-  return kPullSteps * model.def.course.step;
-}
 
 CourseSystem::CourseSystem(const Model& model, std::span<const RigidBody> bodies)
     : model_(model),
       bodies_(model.def.gravity, model.def.forces, {bodies.begin(), bodies.end()}, model.pivots,
               model.def.course.attitude == "matrix" ? Attitude::Matrix : Attitude::Quaternion),
       work_(bodies.begin(), bodies.end()),
-      rest_(pullTime(model)) {}
+      contacts_(findContactModel(model.def.course.contact)->make(model)) {}
 
 void CourseSystem::begin(const std::vector<Contact>& contacts) {
-  contacts_ = contacts;
-  rest_ = RestForces(pullTime(model_));
+  contacts_->begin(contacts);
   residual_ = 0.0;
   unsolved_ = false;
 }
@@ -60,8 +52,7 @@ SolveReport CourseSystem::findForces(std::span<RigidBody> bodies) const {
   outerForce_.setZero();
   for (const RigidBody& body : bodies)
     if (!body.fixed()) outerForce_ += body.force;
-  for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
-  return rest_.apply(bodies, contacts_);
+  return contacts_->apply(bodies);
 }
 
 void CourseSystem::load(std::span<const double> y) const {
@@ -72,10 +63,9 @@ void CourseSystem::load(std::span<const double> y) const {
 }
 
 Ledger CourseSystem::contactRates() const {
-  Ledger rates{.impulse = outerForce_};
-  for (const Contact& c : contacts_) {
+  Ledger rates{.lost = contacts_->powerLost(work_), .impulse = outerForce_};
+  for (const Contact& c : contacts()) {
     const RigidBody &a = work_[c.a], &b = work_[c.b];
-    if (c.friction > 0.0) rates.friction -= c.force.dot(slipVelocity(a, b, c.point));
     if (b.fixed()) {
       rates.work += c.force.dot(pointVelocity(b, c.point.p));
       rates.impulse += c.force;
@@ -98,7 +88,7 @@ void CourseSystem::derivative(double /*t*/, std::span<const double> y,
 }
 
 Offers CourseSystem::offers() const {
-  return contacts_.empty() ? bodies_.offers() : Offers{.split = Split::Rough, .lie = true};
+  return contacts_->offers(bodies_.offers());
 }
 
 Vec3 CourseSystem::heldMomentum() const {

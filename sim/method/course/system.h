@@ -1,23 +1,19 @@
-// The course's Y' = f(t, Y): bodies under outer forces and the forces of their lasting contacts.
+// The course's Y' = f(t, Y): bodies under outer forces and the forces of their contacts.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "sim/body/body_system.h"
-#include "sim/contact/rest.h"
-#include "sim/method/model.h"
+#include "sim/method/course/contact_model.h"
 
 namespace tumble {
-
-/// Time constant [s] of the pull that keeps lasting contacts at zero: a few steps.
-double pullTime(const Model& model);
 
 /// What is integrated along with the bodies, at the end of Y, so that the books close to the order
 /// of the integrator.
 struct Ledger {
   double work = 0.0;            ///< [J] of forces without a potential, and of moving fixed bodies
-  double friction = 0.0;        ///< [J] lost
+  double lost = 0.0;            ///< [J] to the friction or to the dampers of contacts
   Vec3 impulse = Vec3::Zero();  ///< [N·s] of everything outside the bodies that move
 };
 
@@ -29,13 +25,12 @@ class CourseSystem : public System {
 
   CourseSystem(const Model& model, std::span<const RigidBody> bodies);
 
-  /// Begins a stretch of motion with these lasting contacts, which are followed through every
-  /// stage.
+  /// Begins a stretch of motion with these lasting contacts.
   void begin(const std::vector<Contact>& contacts);
 
   int size() const override { return bodies_.size() + kLedgerSize; }
   void derivative(double t, std::span<const double> y, std::span<double> ydot) const override;
-  /// What the bodies offer; contacts leave a rough split and the action of the group.
+  /// What contacts leave of what the bodies offer.
   Offers offers() const override;
   void kick(double t, double h, std::span<double> y) const override;
   void drift(double t, double h, std::span<double> y) const override;
@@ -54,9 +49,9 @@ class CourseSystem : public System {
   void unpack(std::span<const double> y, std::span<RigidBody> bodies) const;
   Ledger ledger(std::span<const double> y) const;
 
-  /// Brings the contacts to these bodies and finds their forces; the bodies keep the sum of all.
+  /// Finds all forces on these bodies, those of contacts too; the bodies keep the sum.
   SolveReport findForces(std::span<RigidBody> bodies) const;
-  const std::vector<Contact>& contacts() const { return contacts_; }
+  const std::vector<Contact>& contacts() const { return contacts_->contacts(); }
 
   /// Worst residual of the contact problems of this stretch, and whether one was left unsolved.
   double residual() const { return residual_; }
@@ -76,8 +71,7 @@ class CourseSystem : public System {
   BodySystem bodies_;
   mutable std::vector<RigidBody> work_;
   mutable std::vector<double> half_;  ///< Y half-way through a drift
-  mutable std::vector<Contact> contacts_;
-  mutable RestForces rest_;
+  std::unique_ptr<ContactForces> contacts_;
   mutable Vec3 outerForce_ = Vec3::Zero();
   mutable double residual_ = 0.0;
   mutable bool unsolved_ = false;

@@ -1,0 +1,54 @@
+// Contacts as constraints: the forces that keep what lasts from giving way.
+#include "sim/contact/rest.h"
+#include "sim/method/course/contact_model.h"
+
+namespace tumble {
+namespace {
+
+/// Time constant of the pull that keeps lasting contacts at zero, in steps.
+constexpr double kPullSteps = 4.0;
+
+class ConstraintForces : public ContactForces {
+ public:
+  explicit ConstraintForces(double tau) : tau_(tau), rest_(tau) {}
+
+  void begin(std::span<const Contact> lasting) override {
+    contacts_.assign(lasting.begin(), lasting.end());
+    rest_ = RestForces(tau_);
+  }
+
+  SolveReport apply(std::span<RigidBody> bodies) override {
+    for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
+    return rest_.apply(bodies, contacts_);
+  }
+
+  const std::vector<Contact>& contacts() const override { return contacts_; }
+
+  double powerLost(std::span<const RigidBody> bodies) const override {
+    double lost = 0.0;
+    for (const Contact& c : contacts_)
+      if (c.friction > 0.0) lost -= c.force.dot(slipVelocity(bodies[c.a], bodies[c.b], c.point));
+    return lost;
+  }
+
+  Offers offers(const Offers& free) const override {
+    return contacts_.empty() ? free : Offers{.split = Split::Rough, .lie = true};
+  }
+
+ private:
+  double tau_;
+  RestForces rest_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace
+
+double pullTime(const Model& model) {
+  return kPullSteps * model.def.course.step;
+}
+
+std::unique_ptr<ContactForces> makeConstraintForces(const Model& model) {
+  return std::make_unique<ConstraintForces>(pullTime(model));
+}
+
+}  // namespace tumble

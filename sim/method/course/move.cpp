@@ -1,0 +1,136 @@
+// One stretch of motion: try a step; if something happens inside it, back up to that instant.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collide/collide.h"
+#include "sim/math/root.h"
+#include "sim/method/course/course.h"
+
+namespace tumble {
+namespace {
+
+/// Events that are located exactly come out of a store of kBackUps, which every step refills by
+/// kRefill; beyond, and after kPatience events in a row that move time by nothing, an event may be
+/// seen late by a share kLate of the step.
+constexpr int kBackUps = 400, kRefill = 20, kPatience = 50;
+constexpr double kLate = 0.05;
+/// Share of the slack by which a pair that has used it up may sink on.
+constexpr double kSink = 1e-3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool allFinite(std::span<const double> y) {
+  return std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+void Course::move() {
+  const double grid = gridTime(model_, state_.gridIndex, model_.def.course.step);
+  const double span = grid - state_.t;
+  state_.trail.push_back(
+      {.t0 = state_.t, .t1 = grid, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
+
+  system_.begin(state_.lasting);
+  if (steppers_.stands(system_))
+    report_.note("while contacts last, rk4 stands in for an integrator that cannot have them");
+  y0_.resize(system_.size());
+  y_.resize(system_.size());
+  system_.pack(state_.bodies, y0_);
+
+  // Try as much of the step as can be foreseen; if something collides, or a slip ends, back up to
+  // that instant.
+  setFloors();
+  double h = locates() ? foresee(span) : span;
+  if (const double tooFar = allowance(h); tooFar < 0.0) {
+    noteMissteps(trial_, state_.t + h);
+    h = backUp(h, tooFar);
+    allowance(h);
+    closeMissteps(trial_, state_.t + h);
+  }
+  commit(h < span ? state_.t + h : grid);
+}
+
+void Course::setFloors() {
+  gaps_.clear();
+  floor_.clear();
+  allowanceNow_ = kInfinity;
+  for (const auto& [b, a] : state_.near) {
+    const double now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
+                                  state_.bodies[b].pose());
+    const double slack = wasLasting(a, b) ? tolerance_.drift : tolerance_.root;
+    gaps_.push_back(now);
+    floor_.push_back(locates() ? std::min(-slack, now - kSink * slack) : -kInfinity);
+    allowanceNow_ = std::min(allowanceNow_, now - floor_.back());
+  }
+  for (const Contact& c : state_.lasting)
+    if (c.mayStick)
+      allowanceNow_ = std::min(
+          allowanceNow_,
+          slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).dot(c.slipDirection));
+}
+
+double Course::allowance(double h) {
+  y_ = y0_;
+  steppers_.of(system_).step(system_, state_.t, h, y_);
+  if (!allFinite(y_)) return 0.0;  // commit() reports it
+  system_.unpack(y_, trial_);
+  double least = kInfinity;
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto& [b, a] = state_.near[k];
+    const double gap =
+        separation(model_.shapes[a], trial_[a].pose(), model_.shapes[b], trial_[b].pose());
+    least = std::min(least, gap - floor_[k]);
+  }
+  for (Contact c : state_.lasting) {
+    if (!c.mayStick) continue;
+    follow(trial_[c.a], trial_[c.b], c);
+    least = std::min(least, slipVelocity(trial_[c.a], trial_[c.b], c.point).dot(c.slipDirection));
+  }
+  return least;
+}
+
+double Course::backUp(double span, double tooFar) {
+  // The width of the bracket that is left: what a clock at t can still tell apart.
+  const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
+  const auto allowed = [&](double h) { return allowance(h); };
+  const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
+  ++state_.recentBackUps;
+  state_.stalled = h > instant ? 0 : state_.stalled + 1;
+  if (++state_.backUpsSpent <= kBackUps && state_.stalled < kPatience) return std::max(h, instant);
+
+  // The store is used up: from here to the end of the step events are seen late rather than never.
+  report_.note("more events than a step can hold were seen late; max_penetration has the cost");
+  return std::min(span, std::max(h, kLate * model_.def.course.step));
+}
+
+void Course::commit(double t1) {
+  Certificate& books = report_.certificate;
+  if (!allFinite(y_)) {
+    report_.stopped = true;
+    report_.reason = "the motion left the range of numbers; try a smaller course.step";
+    state_.trail.pop_back();
+    return;
+  }
+  system_.unpack(y_, state_.bodies);
+  const Ledger ledger = system_.ledger(y_);
+  books.work_of_forces += ledger.work;
+  (contact_.impulses ? books.energy_lost_friction : books.energy_lost_impact) += ledger.lost;
+  books.max_complementarity = std::max(books.max_complementarity, system_.residual());
+  if (system_.unsolved())
+    report_.note("some resting forces were left unsolved; max_complementarity has the worst");
+  state_.externalImpulse += ledger.impulse;
+  state_.trail.back().t1 = t1;
+  state_.t = t1;
+  ++books.steps;
+  books.evaluations += system_.evaluations() - counted_;
+  counted_ = system_.evaluations();
+  if (t1 == gridTime(model_, state_.gridIndex, model_.def.course.step)) {
+    ++state_.gridIndex;
+    state_.recentImpacts.clear();
+    state_.recentBackUps = 0;
+    state_.backUpsSpent = std::max(0, std::min(state_.backUpsSpent, kBackUps) - kRefill);
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,79 @@
+// The penalty method: bodies may sink into each other, and are pushed out the harder the deeper.
+#include <algorithm>
+
+#include "sim/collide/broad_phase.h"
+#include "sim/method/course/contact_model.h"
+#include "sim/method/method.h"
+
+namespace tumble {
+namespace {
+
+class PenaltyForces : public ContactForces {
+ public:
+  explicit PenaltyForces(const Model& model) : model_(model) {}
+
+  void begin(std::span<const Contact>) override {}
+
+  SolveReport apply(std::span<RigidBody> bodies) override {
+    findOverlaps(bodies);
+    for (Contact& c : contacts_) {
+      RigidBody &a = bodies[c.a], &b = bodies[c.b];
+      const double depth = -c.point.separation;
+      const double push = model_.def.course.stiffness * depth -
+                          model_.def.course.damping * approachVelocity(a, b, c.point);
+      c.force = std::max(0.0, push) * c.point.n;
+      c.energy = 0.5 * model_.def.course.stiffness * depth * depth;
+      applyForce(a, c.point.p, c.force);
+      applyForce(b, c.point.p, -c.force);
+    }
+    return {};
+  }
+
+  const std::vector<Contact>& contacts() const override { return contacts_; }
+
+  // What the springs alone would give, less what is given.
+  double powerLost(std::span<const RigidBody> bodies) const override {
+    double lost = 0.0;
+    for (const Contact& c : contacts_) {
+      const double spring = -model_.def.course.stiffness * c.point.separation;
+      lost +=
+          (spring - c.force.dot(c.point.n)) * approachVelocity(bodies[c.a], bodies[c.b], c.point);
+    }
+    return lost;
+  }
+
+  Offers offers(const Offers& free) const override {
+    const bool dampers = model_.def.course.damping > 0.0;
+    return {.split = dampers && free.split != Split::None ? Split::Rough : free.split,
+            .lie = free.lie};
+  }
+
+ private:
+  void findOverlaps(std::span<const RigidBody> bodies) {
+    boxes_.clear();
+    for (const int i : model_.solid)
+      boxes_.push_back(boundingBox(model_.shapes[i], bodies[i].pose(), 0.0));
+    broadPhase_.update(boxes_);
+    contacts_.clear();
+    for (const auto& [i, j] : broadPhase_.pairs()) {
+      const int b = model_.solid[i], a = model_.solid[j];
+      if (model_.fixed(a) && model_.fixed(b)) continue;
+      findContacts(model_, bodies, {b, a}, 0.0, contacts_);
+    }
+    std::erase_if(contacts_, [](const Contact& c) { return c.point.separation >= 0.0; });
+    for (Contact& c : contacts_) c.lasting = true;
+  }
+
+  const Model& model_;
+  std::vector<Aabb> boxes_;
+  BroadPhase broadPhase_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace
+
+std::unique_ptr<ContactForces> makePenaltyForces(const Model& model) {
+  return std::make_unique<PenaltyForces>(model);
+}
+
+}  // namespace tumble
