@@ -24,6 +24,9 @@ constexpr double kCreep = 4.0;
 // Ends of slips that are located within one step.
 constexpr int kSticksInStep = 20;
 
+// Normals that differ by less are one: what rounding leaves of a shared face. [1]
+constexpr double kOneNormal = 1e-9;
+
 /// Relative normal acceleration [m/s²] of a contact under outer forces alone.
 double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
   const auto of = [](const RigidBody& body, const Vec3& p) -> Vec3 {
@@ -32,6 +35,14 @@ double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoi
     return body.invM * body.force + alpha.cross(p - body.x);
   };
   return c.n.dot(of(a, c.p) - of(b, c.p)) + normalAccelerationBias(a, b, c);
+}
+
+bool samePair(const Contact& c, const Contact& d) {
+  return c.a == d.a && c.b == d.b;
+}
+
+bool sameNormal(const ContactPoint& c, const ContactPoint& d) {
+  return (c.n - d.n).squaredNorm() < kOneNormal * kOneNormal;
 }
 
 }  // namespace
@@ -83,27 +94,41 @@ void Course::respond() {
 }
 
 void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse) {
-  // Contacts of one pair stand together and share a normal.
+  // Contacts of one pair stand together; those that share a normal are one impact.
   for (std::size_t i = 0; i < touching_.size();) {
-    const Contact& first = touching_[i];
-    Event event{.t = state_.t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
-    event.n = first.point.n;
-    event.p.setZero();
-    for (; i < touching_.size() && touching_[i].a == first.a && touching_[i].b == first.b; ++i) {
-      const double j = impulse[i].dot(event.n);
-      event.p += j * touching_[i].point.p;
-      event.j += j;
-      event.vrel = std::min(event.vrel, vrel[i]);
-      if (state_.bodies[first.b].fixed()) state_.externalImpulse += impulse[i];
-      if (state_.bodies[first.a].fixed()) state_.externalImpulse -= impulse[i];
+    std::size_t end = i;
+    while (end < touching_.size() && samePair(touching_[end], touching_[i])) ++end;
+    const std::size_t before = report_.events.size();
+    for (std::size_t k = i; k < end; ++k) {
+      const bool first =
+          std::none_of(touching_.begin() + i, touching_.begin() + k,
+                       [&](const Contact& c) { return sameNormal(c.point, touching_[k].point); });
+      if (first) recordImpact(k, end, vrel, impulse);
     }
-    if (event.j <= 0.0) continue;
-    if (wasLasting(event.a, event.b) && event.vrel > -tolerance_.keep)
-      continue;  // it only leans on
-    event.p /= event.j;
-    report_.events.push_back(event);
-    ++state_.recentImpacts[{event.a, event.b}];
+    if (report_.events.size() > before) ++state_.recentImpacts[{touching_[i].a, touching_[i].b}];
+    i = end;
   }
+}
+
+void Course::recordImpact(std::size_t first, std::size_t end, std::span<const double> vrel,
+                          std::span<const Vec3> impulse) {
+  const Contact& c = touching_[first];
+  Event event{.t = state_.t, .kind = EventKind::Impact, .a = c.a, .b = c.b};
+  event.n = c.point.n;
+  event.p.setZero();
+  for (std::size_t k = first; k < end; ++k) {
+    if (!sameNormal(touching_[k].point, c.point)) continue;
+    const double j = impulse[k].dot(event.n);
+    event.p += j * touching_[k].point.p;
+    event.j += j;
+    event.vrel = std::min(event.vrel, vrel[k]);
+    if (state_.bodies[c.b].fixed()) state_.externalImpulse += impulse[k];
+    if (state_.bodies[c.a].fixed()) state_.externalImpulse -= impulse[k];
+  }
+  if (event.j <= 0.0) return;
+  if (wasLasting(c.a, c.b) && event.vrel > -tolerance_.keep) return;  // it only leans on
+  event.p /= event.j;
+  report_.events.push_back(event);
 }
 
 void Course::chooseLasting() {
