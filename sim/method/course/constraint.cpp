@@ -24,11 +24,11 @@ class ConstraintForces : public ContactForces {
 
   const std::vector<Contact>& contacts() const override { return contacts_; }
 
-  double powerLost(std::span<const RigidBody> bodies) const override {
-    double lost = 0.0;
+  double powerTaken(std::span<const RigidBody> bodies) const override {
+    double taken = 0.0;
     for (const Contact& c : contacts_)
-      if (c.friction > 0.0) lost -= c.force.dot(slipVelocity(bodies[c.a], bodies[c.b], c.point));
-    return lost;
+      if (c.friction > 0.0) taken -= c.force.dot(slipVelocity(bodies[c.a], bodies[c.b], c.point));
+    return taken;
   }
 
   Offers offers(const Offers& free) const override {

@@ -25,8 +25,8 @@ class ContactForces {
   virtual SolveReport apply(std::span<RigidBody> bodies) = 0;
   /// The contacts of the last `apply`, with their forces.
   virtual const std::vector<Contact>& contacts() const = 0;
-  /// Power [W] that contacts took from the bodies at the last `apply` and did not store.
-  virtual double powerLost(std::span<const RigidBody> bodies) const = 0;
+  /// Power [W] that contacts took from the bodies at the last `apply`, be it stored or lost.
+  virtual double powerTaken(std::span<const RigidBody> bodies) const = 0;
   /// What is left of what the bodies offer in free flight.
   virtual Offers offers(const Offers& free) const = 0;
 };
@@ -50,7 +50,8 @@ std::unique_ptr<ContactForces> makeConstraintForces(const Model&);
 /// Springs and dampers at every point of contact (slide SH10):
 ///   F = max(0, k d − c vrel) n  on a, −F on b;   d = −separation > 0,  vrel = n·(ṗa − ṗb)
 /// with k = course.stiffness [N/m] and c = course.damping [N s/m]. Contacts push only: a damper
-/// cannot pull. They store ½ k d² and do not rub.
+/// cannot pull. They store ½ k d² and do not rub. Between two boxes points come, go and wander over
+/// the faces, so that the forces have no potential: what they make or take is in the books.
 std::unique_ptr<ContactForces> makePenaltyForces(const Model&);
 
 /// Time constant [s] of the pull that keeps lasting contacts at zero: a few steps.

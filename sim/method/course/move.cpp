@@ -115,7 +115,7 @@ void Course::commit(double t1) {
   system_.unpack(y_, state_.bodies);
   const Ledger ledger = system_.ledger(y_);
   books.work_of_forces += ledger.work;
-  (contact_.impulses ? books.energy_lost_friction : books.energy_lost_impact) += ledger.lost;
+  (contact_.impulses ? books.energy_lost_friction : books.energy_lost_impact) += ledger.taken;
   books.max_complementarity = std::max(books.max_complementarity, system_.residual());
   if (system_.unsolved())
     report_.note("some resting forces were left unsolved; max_complementarity has the worst");

@@ -31,15 +31,11 @@ class PenaltyForces : public ContactForces {
 
   const std::vector<Contact>& contacts() const override { return contacts_; }
 
-  // What the springs alone would give, less what is given.
-  double powerLost(std::span<const RigidBody> bodies) const override {
-    double lost = 0.0;
-    for (const Contact& c : contacts_) {
-      const double spring = -model_.def.course.stiffness * c.point.separation;
-      lost +=
-          (spring - c.force.dot(c.point.n)) * approachVelocity(bodies[c.a], bodies[c.b], c.point);
-    }
-    return lost;
+  double powerTaken(std::span<const RigidBody> bodies) const override {
+    double taken = 0.0;
+    for (const Contact& c : contacts_)
+      taken -= c.force.dot(c.point.n) * approachVelocity(bodies[c.a], bodies[c.b], c.point);
+    return taken;
   }
 
   Offers offers(const Offers& free) const override {

@@ -20,6 +20,8 @@ void Course::chooseSprings() {
   const std::vector<Contact> before = std::move(state_.lasting);
   system_.findForces(state_.bodies);
   state_.lasting = system_.contacts();
+  // What they took and did not store is lost.
+  report_.certificate.energy_lost_impact -= energyStored(state_.lasting) - energyStored(before);
   // One event for a pair, told at its first contact.
   const auto tell = [&](EventKind kind, const std::vector<Contact>& from,
                         const std::vector<Contact>& notIn) {

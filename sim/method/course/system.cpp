@@ -14,7 +14,7 @@ std::span<Number> withoutLedger(std::span<Number> y) {
 void addLedger(const Ledger& rates, double h, std::span<double> y) {
   double* last = &y[y.size() - CourseSystem::kLedgerSize];
   last[0] += h * rates.work;
-  last[1] += h * rates.lost;
+  last[1] += h * rates.taken;
   for (int k = 0; k < 3; ++k) last[2 + k] += h * rates.impulse[k];
 }
 
@@ -63,7 +63,7 @@ void CourseSystem::load(std::span<const double> y) const {
 }
 
 Ledger CourseSystem::contactRates() const {
-  Ledger rates{.lost = contacts_->powerLost(work_), .impulse = outerForce_};
+  Ledger rates{.taken = contacts_->powerTaken(work_), .impulse = outerForce_};
   for (const Contact& c : contacts()) {
     const RigidBody &a = work_[c.a], &b = work_[c.b];
     if (b.fixed()) {

@@ -13,7 +13,7 @@ namespace tumble {
 /// of the integrator.
 struct Ledger {
   double work = 0.0;            ///< [J] of forces without a potential, and of moving fixed bodies
-  double lost = 0.0;            ///< [J] to the friction or to the dampers of contacts
+  double taken = 0.0;           ///< [J] by contacts: lost to friction; to springs, stored too
   Vec3 impulse = Vec3::Zero();  ///< [N·s] of everything outside the bodies that move
 };
 
