@@ -121,6 +121,31 @@ Vec3 areaVector(const Polyhedron& solid, const std::vector<int>& face) {
   return sum;
 }
 
+void findEdges(Polyhedron& solid) {
+  solid.edges.clear();
+  solid.normals.clear();
+  solid.sides.clear();
+  std::map<std::pair<int, int>, int> known;
+  for (int f = 0; f < static_cast<int>(solid.faces.size()); ++f) {
+    const std::vector<int>& face = solid.faces[static_cast<std::size_t>(f)];
+    solid.normals.push_back(areaVector(solid, face).normalized());
+    std::vector<int>& sides = solid.sides.emplace_back();
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const int from = face[k], to = face[(k + 1) % face.size()];
+      const auto twin = known.find({to, from});
+      if (twin != known.end()) {
+        solid.edges[static_cast<std::size_t>(twin->second)].right = f;
+        sides.push_back(twin->second);
+      } else {
+        const int edge = static_cast<int>(solid.edges.size());
+        known[{from, to}] = edge;
+        solid.edges.push_back({from, to, f, f});
+        sides.push_back(edge);
+      }
+    }
+  }
+}
+
 void cutIntoTriangles(const Polyhedron& solid, const std::vector<int>& face,
                       std::vector<std::array<int, 3>>& triangles) {
   int axis = 0;
@@ -176,6 +201,7 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
     for (const auto& [a, b, c] : triangles) flat.push_back({a, b, c});
   }
   solid.faces = std::move(flat);
+  findEdges(solid);
   return solid;
 }
 

@@ -13,9 +13,23 @@ namespace tumble {
 /// A solid bounded by flat polygons. Corners of a face run counter-clockwise seen from outside;
 /// each edge belongs to two faces, which run through it in opposite directions.
 struct Polyhedron {
+  /// An edge between two points; `left` is the face that runs from the first to the second.
+  struct Edge {
+    int from, to;     ///< indices into points
+    int left, right;  ///< indices into faces
+  };
+
   std::vector<Vec3> points;             ///< [m]
   std::vector<std::vector<int>> faces;  ///< indices into points, three or more each
+
+  // What follows from these, found once by `findEdges`.
+  std::vector<Edge> edges = {};              ///< by the face that runs through each first
+  std::vector<Vec3> normals = {};            ///< [1] of the faces, outward unit
+  std::vector<std::vector<int>> sides = {};  ///< of each face, the edge that leaves each corner
 };
+
+/// Fills in edges, normals and sides. `makePolyhedron` does.
+void findEdges(Polyhedron& solid);
 
 /// What keeps faces from bounding a solid. The text names the edge by its points, counted from 1 as
 /// in OBJ files, with their positions.
