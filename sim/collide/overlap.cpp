@@ -1,10 +1,10 @@
 #include "sim/collide/overlap.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "sim/collide/gjk.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -69,56 +69,16 @@ Vec3 farthest(const Part& part, const Vec3& d) {
       part.solid);
 }
 
-/// Nearest point to the origin of the flat through some corners, if it lies between them.
-bool nearestBetween(const std::vector<Vec3>& corners, Vec3& nearest) {
-  const int n = static_cast<int>(corners.size()) - 1;
-  nearest = corners[0];
-  if (n == 0) return true;
-  MatX edges(3, n);
-  for (int k = 0; k < n; ++k) edges.col(k) = corners[static_cast<std::size_t>(k) + 1] - corners[0];
-  const Eigen::FullPivLU<MatX> gram(edges.transpose() * edges);
-  if (!gram.isInvertible()) return false;
-  const VecX weights = gram.solve(-edges.transpose() * corners[0]);
-  if (weights.minCoeff() < 0.0 || weights.sum() > 1.0) return false;
-  nearest += edges * weights;
-  return true;
-}
-
-/// Nearest point of a simplex to the origin; keeps the corners that carry it.
-Vec3 nearestOf(std::vector<Vec3>& corners) {
-  Vec3 best = Vec3::Zero();
-  std::vector<Vec3> kept;
-  for (unsigned subset = 1; subset < 1u << corners.size(); ++subset) {
-    std::vector<Vec3> chosen;
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      if (subset >> k & 1u) chosen.push_back(corners[k]);
-    Vec3 nearest;
-    if (!nearestBetween(chosen, nearest)) continue;
-    if (!kept.empty() && nearest.squaredNorm() >= best.squaredNorm()) continue;
-    best = nearest;
-    kept = std::move(chosen);
-  }
-  corners = std::move(kept);
-  return best;
-}
-
 }  // namespace
 
 bool overlap(const Part& a, const Part& b) {
   const double size = sizeOf(a) + sizeOf(b);
-  Vec3 v = middleOf(a) - middleOf(b);
+  const Vec3 v = middleOf(a) - middleOf(b);
   if (v.norm() < kRounding * size) return true;
-  std::vector<Vec3> corners;
-  for (int step = 0; step < 100; ++step) {
-    // The outermost point of the difference towards the origin; if it does not reach it, a plane
-    // parts the two.
-    const Vec3 corner = farthest(a, -v) - farthest(b, v);
-    if (v.dot(corner) > 0.0) return false;
-    corners.push_back(corner);
-    v = nearestOf(corners);
-    if (corners.size() == 4 || v.norm() < 1e-3 * kRounding * size) return true;
-  }
-  return false;
+  const auto outermost = [&](const Vec3& n) {
+    return gjk::Outermost{farthest(a, -n), farthest(b, n)};
+  };
+  return gjk::nearest(outermost, v, 1e-3 * kRounding * size, 0.0).inside;
 }
 
 std::pair<int, int> overlappingParts(const Compound& compound) {
