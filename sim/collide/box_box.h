@@ -38,7 +38,7 @@ Vec3 direction(const BoxPair& pair, const Axis& axis);
 struct LocalPoint {
   Vec3 pb = Vec3::Zero();  ///< [m] pa = pb + separation n
   double separation = 0.0;
-  std::uint32_t feature = 0;
+  std::uint64_t feature = 0;
   NormalTie tie = NormalTie::FaceOfB;
   int i = 0, j = 0;
 };

@@ -30,7 +30,7 @@ Face supportingFace(const Vec3& along) {
 struct Corner {
   double u, v;            // [m] along the two axes of b's face
   double separation;      // [m] from b's face along n
-  std::uint32_t feature;  // features of a and b that make this corner
+  std::uint64_t feature;  // features of a and b that make this corner
   std::uint32_t edge;     // edge of a along which the polygon leaves; kAlongSide on a side of b
 };
 
@@ -81,7 +81,7 @@ Polygon faceOfA(const BoxPair& pair, const View& view) {
 }
 
 // What a crossing of the polygon with a side of b's face is called.
-std::uint32_t crossingFeature(const View& view, const Corner& x, std::uint32_t edgeOfA,
+std::uint64_t crossingFeature(const View& view, const Corner& x, std::uint32_t edgeOfA,
                               bool acrossU, bool positive) {
   const int k = view.faceB.axis;
   const bool up = view.faceB.positive;

@@ -77,7 +77,7 @@ void offerEdges(const BoxPair& p, int i, int j, Least& least) {
     const Vec3 pb = mb + tb * eb, apart = ma + ta * ea - pb;
     const double distance = apart.norm();
     if (distance == 0.0) continue;
-    const std::uint32_t feature = featurePair(edgeCode(i, k & 1, k & 2), edgeCode(j, k & 4, k & 8));
+    const std::uint64_t feature = featurePair(edgeCode(i, k & 1, k & 2), edgeCode(j, k & 4, k & 8));
     least.offer({pb, distance, feature, NormalTie::Edges, i, j}, apart / distance);
   }
 }

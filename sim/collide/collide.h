@@ -22,7 +22,9 @@ ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, 
 
 /// Writes all contact points of a pair whose separation is at most `margin` [m] into `out`
 /// (cleared first): the full manifold, clipped, with one normal. Order and features depend on the
-/// poses alone.
+/// poses alone. Of compounds it is the union of the manifolds of their parts, each with its own
+/// normal; `separation` is then the least over pairs of parts, and `separatingPlane` that of the
+/// nearest pair.
 void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
              Manifold& out);
 

@@ -24,7 +24,7 @@ struct ContactPoint {
   Vec3 p = Vec3::Zero();      ///< [m] where forces act: midway between the two surfaces
   Vec3 n = Vec3::UnitY();     ///< [1] unit contact normal, out of b towards a
   double separation = 0.0;    ///< [m] gap along n; < 0 is overlap
-  std::uint32_t feature = 0;  ///< the same as long as the same features of the pair touch
+  std::uint64_t feature = 0;  ///< the same as long as the same features of the pair touch
   NormalTie tie = NormalTie::FaceOfB;
   Vec3 pa = Vec3::Zero(),
        pb = Vec3::Zero();     ///< [m] the material points (ball centre, vertex, foot) of a and b

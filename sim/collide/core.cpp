@@ -71,6 +71,7 @@ void build(const Cylinder& c, const Frame& at, Core& core) {
   core.points.push_back(at.x - half);
   core.points.push_back(at.x + half);
   core.disc = c.r;
+  core.side = at.R.col(0);
   core.size = std::sqrt(c.r * c.r + 0.25 * c.h * c.h);
 }
 

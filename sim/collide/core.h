@@ -21,9 +21,10 @@ struct Core {
   Few<Vec3> normals;  ///< [1] of the faces, outward unit
   std::span<const Polyhedron::Edge> edges;
   std::span<const std::vector<int>> faces, sides;
-  double radius = 0.0;  ///< [m] about the core
-  double disc = 0.0;    ///< [m] radius of a cylinder's caps, 0 for other solids
-  double size = 0.0;    ///< [m] of the core, from its middle
+  double radius = 0.0;       ///< [m] about the core
+  Vec3 side = Vec3::Zero();  ///< [1] unit, across the axis of a cylinder; rides on it
+  double disc = 0.0;         ///< [m] radius of a cylinder's caps, 0 for other solids
+  double size = 0.0;         ///< [m] of the core, from its middle
   Vec3 middle = Vec3::Zero();
 
   bool isCylinder() const { return disc > 0.0; }

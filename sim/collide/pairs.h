@@ -35,4 +35,16 @@ ContactPoint separatingPlane(const Box& a, const Pose& poseA, const HalfSpace& b
 void collide(const Box& a, const Pose& poseA, const HalfSpace& b, const Pose&, double margin,
              Manifold& out);
 
+// The general path, for any two solids that have a core (core.h), and for one and a half-space.
+
+double convexSeparation(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB);
+ContactPoint convexPlane(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB);
+void convexCollide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
+                   double margin, Manifold& out);
+
+double convexSeparation(const Shape& a, const Pose& poseA, const HalfSpace& b);
+ContactPoint convexPlane(const Shape& a, const Pose& poseA, const HalfSpace& b);
+void convexCollide(const Shape& a, const Pose& poseA, const HalfSpace& b, double margin,
+                   Manifold& out);
+
 }  // namespace tumble::pairs

@@ -108,7 +108,7 @@ void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
       const Vec3 turned = c.ea.cross(c.eb).normalized();
       c.n = turned.dot(c.n) < 0.0 ? Vec3(-turned) : turned;
       nearestOnEdges(c);
-      c.separation = c.n.dot(c.pa - c.pb);
+      c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       break;
     }
   }
@@ -151,10 +151,11 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
     case NormalTie::FaceOfA:
     case NormalTie::EdgeOfA:
       return pointVelocity(b, c.pb) + c.rb * normalRate(a, b, c);
-    default: {  // the crossing of two edges slides along both
+    default: {  // the crossing of two edges slides along both, and round edges roll about it
       const Vec3 va = pointVelocity(a, c.pa), vb = pointVelocity(b, c.pb);
       const Vec3 side = c.eb.cross(c.n);
-      return va - ((va - vb).dot(side) / c.ea.dot(side)) * c.ea;
+      const Vec3 crossing = va - ((va - vb).dot(side) / c.ea.dot(side)) * c.ea;
+      return c.ra == 0.0 ? crossing : Vec3(crossing - c.ra * normalRate(a, b, c));
     }
   }
 }

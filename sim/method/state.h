@@ -45,7 +45,7 @@ struct State {
   // What only `stepping` remembers: multipliers of the last step by contact, hits under way.
   struct ContactKey {
     int a, b;
-    std::uint32_t feature;
+    std::uint64_t feature;
     auto operator<=>(const ContactKey&) const = default;
   };
   std::map<ContactKey, Vec3> warm;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "sim/collide/collide.h"
+#include "sim/collide/features.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
 
@@ -128,7 +129,7 @@ TEST_CASE("the gap of a ball and a box does not jump where the nearest feature c
 
 // The 26 regions around a box, told by the signs of the ball's place along each axis.
 TEST_CASE("each vertex, edge and face of a box has a name of its own, the same all over it") {
-  std::set<std::uint32_t> names;
+  std::set<std::uint64_t> names;
   for (int region = 0; region < 27; ++region) {
     const Vec3 side(region % 3 - 1, region / 3 % 3 - 1, region / 9 - 1);
     if (side.isZero()) continue;
@@ -156,7 +157,7 @@ TEST_CASE("a box against a ball is the mirror image of the ball against the box"
     REQUIRE(other.ra == 0.0);
     REQUIRE(other.ea == one.eb);
     REQUIRE(other.separation == one.separation);
-    REQUIRE(other.feature == ((one.feature & 255u) << 8 | one.feature >> 8));
+    REQUIRE(other.feature == swappedFeature(one.feature));
     if (one.tie == NormalTie::FaceOfB) REQUIRE(other.tie == NormalTie::FaceOfA);
     if (one.tie == NormalTie::EdgeOfB) REQUIRE(other.tie == NormalTie::EdgeOfA);
     if (one.tie == NormalTie::Points) REQUIRE(other.tie == NormalTie::Points);
@@ -197,7 +198,7 @@ TEST_CASE("the lowest vertex of a box has exactly the separation of the box") {
     const HalfSpace floor{random.direction(), random.uniform(-1.0, 1.0)};
     const Manifold all = points(box, pose, floor, Pose{}, 1e9);
     REQUIRE(all.size() == 8);
-    std::set<std::uint32_t> features;
+    std::set<std::uint64_t> features;
     double lowest = 1e300;
     for (const ContactPoint& c : all) {
       features.insert(c.feature);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/collide/features.h"
 #include "tests/catch.h"
 #include "tests/collide/boxes.h"
 
@@ -27,7 +28,7 @@ TEST_CASE("exchanging a and b mirrors normals, ties and features and leaves the 
     REQUIRE(std::abs(boxes.gap() - boxes.swapped().gap()) < 1e-14);
     REQUIRE(one.size() == other.size());
     for (const ContactPoint& c : one) {
-      const std::uint32_t mirrored = (c.feature & 255u) << 8 | c.feature >> 8;
+      const std::uint64_t mirrored = swappedFeature(c.feature);
       const auto twin = std::find_if(other.begin(), other.end(),
                                      [&](const ContactPoint& o) { return o.feature == mirrored; });
       REQUIRE(twin != other.end());

@@ -1,0 +1,47 @@
+// Chapter 5, collide: the general path, for any two convex solids that have a core. Frame of b.
+#pragma once
+
+#include "sim/collide/contact_point.h"
+#include "sim/collide/core.h"
+
+namespace tumble::convex {
+
+/// A plane between two cores, and the features that it is fixed to.
+struct Plane {
+  NormalTie tie = NormalTie::Points;
+  int i = -1, j = -1;  ///< numbers of the face, edge or vertex of a and of b; −1 if they have none
+  double gap = -std::numeric_limits<double>::infinity();  ///< [m] between the cores; < 0: overlap
+  Vec3 n = Vec3::UnitY();                                 ///< [1] unit, out of b towards a
+  Vec3 pa = Vec3::Zero(), pb = Vec3::Zero();              ///< [m] nearest points of the cores
+  Vec3 ea = Vec3::Zero(), eb = Vec3::Zero();  ///< [1] unit edges, where the tie names any
+  double ra = 0.0, rb = 0.0;  ///< [m] round about pa and pb, beside the cores' own radii
+};
+
+/// The widest of the planes along the faces of either core and across a pair of edges. The widest
+/// plane between overlapping solids is one of these (Gottschalk, Separating axis theorem, 1996);
+/// and of the pairs of edges only those that make a face of the difference a − b, whose arcs on
+/// the sphere of normals cross (Gregorius, The Separating Axis Test between Convex Polyhedra, GDC
+/// 2013). A face of a must win over one of b, and a pair of edges over both, by more than `bias`
+/// [m]. gap = −∞ if neither has faces and they have no pair of edges.
+Plane widestAxis(const Core& a, const Core& b, double bias);
+
+/// The plane across the line between the nearest points of two cores that are apart; gap = −∞ if
+/// they are not.
+Plane nearestPlane(const Core& a, const Core& b);
+
+/// The same two, where a or b is a cylinder.
+Plane widestAxisRound(const Core& a, const Core& b, double bias);
+Plane nearestPlaneRound(const Core& a, const Core& b);
+
+/// The widest of all: between cores apart, that of their distance.
+Plane widestPlane(const Core& a, const Core& b, double bias);
+
+/// The points of contact along a plane, separations at most `margin` [m].
+/// @param tolerance  [m] lying on a side counts as inside
+void clipFacets(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
+                Manifold& out);
+
+/// A contact point of the plane itself.
+ContactPoint pointOf(const Plane& plane, const Core& a, const Core& b);
+
+}  // namespace tumble::convex

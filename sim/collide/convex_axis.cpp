@@ -1,0 +1,129 @@
+// Chapter 5, collide: the separating-axis test of two convex polyhedra, or segments, or points.
+#include <cmath>
+
+#include "sim/collide/convex.h"
+
+namespace tumble::convex {
+namespace {
+
+// Below this sine two edges are parallel up to rounding: what they could add is sine · size.
+constexpr double kParallel = 1e-15;
+
+// Across the faces of `solid`: the widest slab between it and the other, and which face.
+struct WidestFace {
+  double gap = -std::numeric_limits<double>::infinity();
+  int face = -1;
+};
+
+WidestFace widestFace(const Core& solid, const Core& other) {
+  WidestFace widest;
+  for (int f = 0; f < static_cast<int>(solid.normals.size()); ++f) {
+    const Vec3& n = solid.normals[f];
+    const double foot = n.dot(solid.points[solid.faces[f][0]]);
+    // Corner by corner, until one is too deep for this face to win.
+    double low = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : other.points) {
+      low = std::min(low, n.dot(p) - foot);
+      if (low <= widest.gap) break;
+    }
+    if (low > widest.gap) widest = {low, f};
+  }
+  return widest;
+}
+
+void tryFaces(const Core& a, const Core& b, double bias, Plane& best) {
+  const WidestFace ofB = widestFace(b, a), ofA = widestFace(a, b);
+  if (ofA.face >= 0 && ofA.gap > ofB.gap + bias) {
+    best.tie = NormalTie::FaceOfA;
+    best.i = ofA.face;
+    best.n = -a.normals[ofA.face];
+  } else if (ofB.face >= 0) {
+    best.tie = NormalTie::FaceOfB;
+    best.j = ofB.face;
+    best.n = b.normals[ofB.face];
+  } else {
+    return;
+  }
+  best.gap = coreGap(a, b, best.n);
+}
+
+// Nearest points of two lines that are not parallel.
+void crossing(const Vec3& a, const Vec3& ea, const Vec3& b, const Vec3& eb, Plane& plane) {
+  const Vec3 d = a - b;
+  const double k = ea.dot(eb), det = 1.0 - k * k;
+  const double da = d.dot(ea), db = d.dot(eb);
+  plane.pa = a + ((k * db - da) / det) * ea;
+  plane.pb = b + ((db - k * da) / det) * eb;
+}
+
+// The plane along edges i of a and j of b; on the side `up` of both.
+void tryEdges(const Core& a, int i, const Core& b, int j, double up, double bias, Plane& best) {
+  const Vec3 alongA = a.along(a.edges[i]), alongB = b.along(b.edges[j]);
+  const double lengthA = alongA.norm(), lengthB = alongB.norm();
+  const Vec3 ea = alongA / lengthA, eb = alongB / lengthB;
+  const Vec3 product = ea.cross(eb);
+  const double sine = product.norm();
+  if (sine < kParallel) return;
+  // Where the sine is small, the product is off also along the edges; across them it is free.
+  Vec3 n = (up / sine) * product;
+  n = (n - n.dot(ea) * ea).normalized();
+  const double floor = best.gap + (best.tie == NormalTie::Edges ? 0.0 : bias);
+  const Vec3 &p = a.points[a.edges[i].from], &q = b.points[b.edges[j].from];
+  if (!(n.dot(p - q) > floor)) return;
+  const double gap = coreGap(a, b, n);
+  if (!(gap > floor)) return;
+  best.tie = NormalTie::Edges;
+  best.i = i;
+  best.j = j;
+  best.n = n;
+  best.gap = gap;
+  best.ea = ea;
+  best.eb = eb;
+  crossing(p, ea, q, eb, best);
+}
+
+// An edge between two faces is an arc of normals; that of a segment is a whole circle. The arc of
+// an edge of b and the mirrored arc of one of a cross if each has its ends on two sides of the
+// other, and both are on one side of the sphere.
+void tryAllEdges(const Core& a, const Core& b, double bias, Plane& best) {
+  const bool facesA = !a.normals.empty(), facesB = !b.normals.empty();
+  Few<double> heights(b.normals.size());
+  for (int i = 0; i < static_cast<int>(a.edges.size()); ++i) {
+    const Polyhedron::Edge& edgeA = a.edges[i];
+    const Vec3 ea = a.along(edgeA);
+    for (std::size_t f = 0; f < heights.size(); ++f) heights[f] = b.normals[f].dot(ea);
+    for (int j = 0; j < static_cast<int>(b.edges.size()); ++j) {
+      const Polyhedron::Edge& edgeB = b.edges[j];
+      if (facesB && !(heights[edgeB.left] * heights[edgeB.right] < 0.0)) continue;
+      const Vec3 eb = b.along(edgeB);
+      double up = 0.0;  // the side of ea × eb on which both have their normals
+      if (facesA) {
+        const double left = a.normals[edgeA.left].dot(eb), right = a.normals[edgeA.right].dot(eb);
+        if (!(left * right < 0.0)) continue;
+        up = left < 0.0 ? 1.0 : -1.0;
+      }
+      if (facesB) {
+        const double side = heights[edgeB.left] < 0.0 ? 1.0 : -1.0;
+        if (facesA && side != up) continue;
+        up = side;
+      }
+      if (up != 0.0) {
+        tryEdges(a, i, b, j, up, bias, best);
+      } else {
+        tryEdges(a, i, b, j, 1.0, bias, best);
+        tryEdges(a, i, b, j, -1.0, bias, best);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Plane widestAxis(const Core& a, const Core& b, double bias) {
+  Plane best;
+  tryFaces(a, b, bias, best);
+  tryAllEdges(a, b, bias, best);
+  return best;
+}
+
+}  // namespace tumble::convex
