@@ -59,7 +59,9 @@ struct State {
 
   std::vector<std::pair<int, int>> near;  ///< pairs that the next step may bring together
 
-  // What only `course` remembers: the events since the last whole step.
+  // What only `course` remembers: whether the contacts of this instant are known, and the events
+  // since the last whole step.
+  bool settled = false;
   std::map<std::pair<int, int>, int> recentImpacts;
   int recentBackUps = 0;  ///< stretches that ended before the step did
   int backUpsSpent = 0;   ///< of the store that every whole step refills
@@ -70,7 +72,7 @@ struct State {
   std::vector<std::vector<Flight>> flights;
   std::vector<HeavyTop> tops;  ///< in place of the flights of bodies with pivots, as Model::pivots
   std::vector<std::vector<Convex>> parts;  ///< per body: what others can touch
-  std::vector<Vec3> start, startP;         ///< [m], [kg m/s] per body: x and P at t = 0
+  std::vector<Vec3> bookedX, bookedP;      ///< [m], [kg m/s] per body: x and P at `booked`
   std::vector<Vec3> outer;                 ///< [N] per body: constant force, gravity included
   double lookedAt = 0.0;                   ///< [s] end of the advance before this one
 
@@ -102,9 +104,12 @@ struct State {
   };
   std::vector<Hold> holds;
   std::vector<Event> closing;  ///< rests whose last bounces are under way
-  double booked = 0.0;         ///< [s] up to which lasting contacts are in the books
-  Vec3 struck = Vec3::Zero();  ///< [N·s] from fixed bodies
-  double work = 0.0;           ///< [J] of fixed bodies that move
+  double booked = 0.0;         ///< [s] up to which the books are kept,
+  double bookedHold = 0.0;     ///< [s] and what lasting contacts did
+
+  // What `exact` remembers of stretches that go on in steps.
+  bool inSteps = false;
+  int stepsLeft = 0, patience = 0;  ///< until closed forms are tried again; how many the next time
 };
 
 }  // namespace tumble

@@ -19,11 +19,11 @@ void Exact::stop(std::string reason) {
 /// What lasting contacts did since they were last booked: constant forces along paths that are
 /// known at both ends and at constant acceleration between.
 void Exact::bookHolds(double t) {
-  const double h = t - state_.booked;
+  const double h = t - state_.bookedHold;
   if (h > 0.0 && !state_.lasting.empty()) {
     const auto way = [&](int i) -> Vec3 {
       RigidBody body = state_.bodies[i];
-      state_.flights[i].back().at(state_.booked, body);
+      state_.flights[i].back().at(state_.bookedHold, body);
       const Vec3 v = body.v;
       state_.flights[i].back().at(t, body);
       return 0.5 * h * (v + body.v);
@@ -33,15 +33,15 @@ void Exact::bookHolds(double t) {
       const Vec3 wayA = way(c.a), wayB = way(c.b);
       books.energy_lost_friction -= c.force.dot(wayA - wayB);
       if (model_.fixed(c.b)) {
-        state_.struck += h * c.force;
-        state_.work += c.force.dot(wayB);
+        state_.externalImpulse += h * c.force;
+        books.work_of_forces += c.force.dot(wayB);
       } else if (model_.fixed(c.a)) {
-        state_.struck -= h * c.force;
-        state_.work -= c.force.dot(wayA);
+        state_.externalImpulse -= h * c.force;
+        books.work_of_forces -= c.force.dot(wayA);
       }
     }
   }
-  state_.booked = t;
+  state_.bookedHold = t;
 }
 
 void Exact::keepBooks(double t) {
@@ -57,20 +57,22 @@ void Exact::keepBooks(double t) {
     return;
   }
   bookHolds(t);
-  state_.t = t;
-  state_.externalImpulse = state_.struck;
-  double work = state_.work;
+  const double h = t - state_.booked;
   for (int i = 0; i < model_.count(); ++i) {
     const RigidBody& body = state_.bodies[i];
     if (body.fixed()) continue;
-    if (model_.def.bodies[i].pivot_B) continue;
-    state_.externalImpulse += t * state_.outer[i];
-    // Gravity has a potential; of what acts besides, work is force times way.
-    work += (state_.outer[i] - body.M * model_.def.gravity).dot(body.x - state_.start[i]);
+    if (model_.def.bodies[i].pivot_B) {  // the pivot gives what momentum it gains, and no work
+      state_.externalImpulse += body.P - state_.bookedP[i];
+    } else {
+      // Gravity has a potential; of what acts besides, work is force times way.
+      state_.externalImpulse += h * state_.outer[i];
+      report_.certificate.work_of_forces +=
+          (state_.outer[i] - body.M * model_.def.gravity).dot(body.x - state_.bookedX[i]);
+    }
+    state_.bookedX[i] = body.x;
+    state_.bookedP[i] = body.P;
   }
-  for (const Pivot& pivot : model_.pivots)  // gives what momentum its body gains, and no work
-    state_.externalImpulse += state_.bodies[pivot.body].P - state_.startP[pivot.body];
-  report_.certificate.work_of_forces = work;
+  state_.booked = state_.t = t;
   account(model_, state_, report_);
 }
 

@@ -64,7 +64,8 @@ void checkExact(const Model& model, std::span<const RigidBody>) {
 
 void advanceExact(const Model& model, State& state, double t_end, Report& report) {
   Exact exact(model, state, report);
-  if (state.flights.empty()) exact.takeOff();
+  if (state.outer.empty() || state.settled) exact.takeOff();
+  state.settled = false;
   for (HeavyTop& top : state.tops) top.forget(state.lookedAt);
   for (std::vector<Flight>& flights : state.flights) {
     auto past = flights.begin();
@@ -73,7 +74,7 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
   }
   while (state.holds.size() > 1 && state.holds[1].t <= state.lookedAt)
     state.holds.erase(state.holds.begin());
-  while (state.t < t_end && !report.stopped) exact.next(t_end);
+  while (state.t < t_end && !report.stopped && !state.inSteps) exact.next(t_end);
   state.lookedAt = t_end;
 }
 
@@ -106,38 +107,57 @@ Exact::Exact(const Model& model, State& state, Report& report)
 }
 
 void Exact::takeOff() {
-  // What acts on a body stays the same all the way.
   const std::size_t n = state_.bodies.size();
-  sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
-  state_.flights.resize(n);
-  state_.flightCount.assign(n, 0);
-  state_.window.length = model_.def.duration;
+  const double t = state_.t;
+  const bool first = state_.outer.empty();
+  if (first) {
+    // What acts on a body stays the same all the way.
+    sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
+    for (const RigidBody& body : state_.bodies) state_.outer.push_back(body.force);
+    for (const Shape& shape : model_.shapes) state_.parts.push_back(partsOf(shape));
+    state_.flights.resize(n);
+    state_.flightCount.assign(n, 0);
+    state_.bookedX.resize(n);
+    state_.bookedP.resize(n);
+    report_.certificate.evaluations = 1;
+  }
+  state_.window.length = model_.def.duration - t;
   for (std::size_t i = 0; i < n; ++i) {
     const RigidBody& body = state_.bodies[i];
-    state_.outer.push_back(body.force);
-    state_.start.push_back(body.x);
-    state_.startP.push_back(body.P);
-    state_.parts.push_back(partsOf(model_.shapes[i]));
-    state_.flights[i].emplace_back(body, body.invM * body.force, 0.0);
+    renew(t, static_cast<int>(i), body.invM * state_.outer[i]);
+    state_.bookedX[i] = body.x;
+    state_.bookedP[i] = body.P;
   }
+  state_.booked = state_.bookedHold = t;
+  state_.tops.clear();
   for (const Pivot& pivot : model_.pivots)
-    state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, 0.0);
-  report_.certificate.evaluations = 1;
-  report_.certificate.steps = model_.count();
-
-  // The events of t = 0, one cluster of bodies after the other.
+    state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, t);
   openWindow();
-  std::vector<char> settled(n, 0);
+  if (!report_.stopped) settle();
+  if (!state_.inSteps) keepBooks(t);
+}
+
+void Exact::settle() {
+  // What comes from steps, or from a scene, touches less closely than what flew here.
+  const double touch = tolerance_.touch;
+  tolerance_.touch = ContactTolerance::forSize(model_.size).touch;
+  const auto held = [&](int body) {
+    return std::any_of(state_.lasting.begin(), state_.lasting.end(),
+                       [&](const Contact& c) { return c.a == body || c.b == body; });
+  };
+  std::vector<char> settled(state_.bodies.size(), 0);
+  const std::size_t firstEvent = report_.events.size();
   for (const int i : model_.solid) {
-    if (settled[i] || model_.fixed(i) || report_.stopped) continue;
+    if (settled[i] || model_.fixed(i) || report_.stopped || state_.inSteps) continue;
     const int seeds[] = {i};
-    Cluster cluster = gather(0.0, seeds);
+    Cluster cluster = gather(state_.t, seeds);
     for (const int body : cluster.bodies) settled[body] = 1;
-    if (cluster.contacts.empty()) continue;
-    if (collides(cluster)) respond(0.0, cluster);
-    hold(0.0, cluster);
+    if (cluster.contacts.empty() && !held(i)) continue;
+    if (collides(cluster)) respond(state_.t, cluster);
+    hold(state_.t, cluster);
   }
-  keepBooks(0.0);
+  tolerance_.touch = touch;
+  sortEvents(report_, firstEvent);
 }
 
 void Exact::next(double t_end) {

@@ -16,6 +16,7 @@ namespace tumble {
 /// @throws Refusal for a force under which flight has no closed form, and for a top under more than
 ///   gravity.
 void checkExact(const Model& model, std::span<const RigidBody> bodies);
+/// As far as t_end, or as contacts that last have constant forces: then it sets state.inSteps.
 void advanceExact(const Model& model, State& state, double t_end, Report& report);
 /// Any instant: each body by its own flight. Allocates nothing once `bodies` has its size.
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
@@ -33,7 +34,7 @@ class Exact {
  public:
   Exact(const Model& model, State& state, Report& report);
 
-  /// Gives every body its flight from t = 0 on, after the events of t = 0.
+  /// Gives every body its flight from state.t on, after the events of that instant.
   void takeOff();
   /// Goes on to the next event, to the end of the window, or to t_end, whichever is first.
   void next(double t_end);
@@ -75,6 +76,8 @@ class Exact {
                      std::span<const Vec3> impulse);
 
   // hold.cpp: what stays together.
+  /// The events of an instant that is not the end of a flight: all clusters, one after the other.
+  void settle();
   /// Finds the forces of contacts that last, and gives all bodies of the cluster their flights.
   void hold(double t, Cluster& cluster);
   std::vector<Contact> restingOf(const Cluster& cluster) const;
@@ -83,6 +86,7 @@ class Exact {
   bool steady(const Contact& contact) const;
   void changeHolds(double t, const Cluster& cluster, const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
+  void goOnInSteps(double t, const Cluster& cluster);
   void lookForStops(double t);
   void renew(double t, int body, const Vec3& acceleration);
   void closeRests(double t);

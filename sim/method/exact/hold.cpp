@@ -140,8 +140,8 @@ void Exact::stillNormals(const std::vector<Contact>& resting) {
     const Vec3 J = solution.lambda[k] * c.point.n;
     applyImpulse(state_.bodies[c.a], c.point.p, J);
     applyImpulse(state_.bodies[c.b], c.point.p, -J);
-    if (model_.fixed(c.b)) state_.struck += J;
-    if (model_.fixed(c.a)) state_.struck -= J;
+    if (model_.fixed(c.b)) state_.externalImpulse += J;
+    if (model_.fixed(c.a)) state_.externalImpulse -= J;
   }
 }
 
@@ -166,10 +166,7 @@ void Exact::hold(double t, Cluster& cluster) {
   if (!resting.empty()) stillNormals(resting);
   changeHolds(t, cluster, resting);
   for (const Contact& c : resting)
-    if (!steady(c))
-      return stop("\"" + nameOf(c.a) + "\" stays on \"" + nameOf(c.b) + "\" at t = " + digits(t) +
-                  " s, rolling, tipping or sliding over an edge; the exact method holds what rests "
-                  "or slides on a plane, so use method \"course\" or \"stepping\"");
+    if (!steady(c)) return goOnInSteps(t, cluster);
   std::vector<int> renewed;
   for (const int i : cluster.bodies) {
     const RigidBody& body = state_.bodies[i];
@@ -199,6 +196,15 @@ void Exact::hold(double t, Cluster& cluster) {
   }
 }
 
+/// What rolls, tips or slides over an edge has no closed form here.
+void Exact::goOnInSteps(double t, const Cluster& cluster) {
+  report_.note("contacts that roll, tip or slide over an edge are followed in steps of the course");
+  for (const int i : cluster.bodies)
+    if (!model_.fixed(i)) renew(t, i, state_.bodies[i].invM * state_.outer[i]);
+  keepBooks(t);
+  state_.inSteps = true;
+}
+
 /// Friction that brakes along a line ends a slip at a known instant.
 void Exact::lookForStops(double t) {
   for (const Contact& c : state_.lasting) {
@@ -217,7 +223,7 @@ void Exact::lookForStops(double t) {
 
 void Exact::renew(double t, int i, const Vec3& acceleration) {
   std::vector<Flight>& flights = state_.flights[i];
-  if (flights.back().start() == t) flights.pop_back();
+  if (!flights.empty() && flights.back().start() == t) flights.pop_back();
   flights.emplace_back(state_.bodies[i], acceleration, t);
   ++state_.flightCount[i];
   ++report_.certificate.steps;

@@ -174,7 +174,7 @@ void Exact::respond(double t, const Cluster& cluster) {
   Certificate& books = report_.certificate;
   books.energy_lost_impact += impact.lostNormal;
   books.energy_lost_friction += impact.lostFriction;
-  state_.work += impact.work;
+  books.work_of_forces += impact.work;
   books.max_complementarity = std::max(books.max_complementarity, impact.residual);
   if (impact.finishedInelastic)
     report_.note("impacts that did not come to an end were finished without rebound");
@@ -197,8 +197,8 @@ void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const doub
       event.p += j * contacts[i].point.p;
       event.j += j;
       event.vrel = std::min(event.vrel, vrel[i]);
-      if (model_.fixed(first.b)) state_.struck += impulse[i];
-      if (model_.fixed(first.a)) state_.struck -= impulse[i];
+      if (model_.fixed(first.b)) state_.externalImpulse += impulse[i];
+      if (model_.fixed(first.a)) state_.externalImpulse -= impulse[i];
     }
     if (event.j <= 0.0) continue;
     // A contact that lasts and gets no more than rounding only leans on.
