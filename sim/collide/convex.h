@@ -29,9 +29,8 @@ Plane widestAxis(const Core& a, const Core& b, double bias);
 /// they are not.
 Plane nearestPlane(const Core& a, const Core& b);
 
-/// The same two, where a or b is a cylinder.
-Plane widestAxisRound(const Core& a, const Core& b, double bias);
-Plane nearestPlaneRound(const Core& a, const Core& b);
+/// The widest plane where a or b is a cylinder.
+Plane widestPlaneRound(const Core& a, const Core& b);
 
 /// The widest of all: between cores apart, that of their distance.
 Plane widestPlane(const Core& a, const Core& b, double bias);

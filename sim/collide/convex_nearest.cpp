@@ -101,10 +101,10 @@ Plane nearestPlane(const Core& a, const Core& b) {
 }
 
 Plane widestPlane(const Core& a, const Core& b, double bias) {
-  const bool round = a.isCylinder() || b.isCylinder();
-  Plane axis = round ? widestAxisRound(a, b, bias) : widestAxis(a, b, bias);
+  if (a.isCylinder() || b.isCylinder()) return widestPlaneRound(a, b);
+  Plane axis = widestAxis(a, b, bias);
   if (axis.gap > 0.0 || axis.gap == -std::numeric_limits<double>::infinity()) {
-    const Plane nearest = round ? nearestPlaneRound(a, b) : nearestPlane(a, b);
+    const Plane nearest = nearestPlane(a, b);
     if (nearest.gap > axis.gap + kWider * (a.size + b.size + nearest.gap) + bias) return nearest;
   }
   if (axis.gap > -std::numeric_limits<double>::infinity()) return axis;

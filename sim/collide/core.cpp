@@ -139,7 +139,8 @@ Vec3 outermost(const Core& core, const Vec3& n, int& vertex) {
   }
   vertex = -1;
   const Vec3 u = core.axis();
-  const Vec3 across = n - n.dot(u) * u;
+  Vec3 across = n - n.dot(u) * u;
+  across -= across.dot(u) * u;  // what is left of n along u may be all rounding
   const double length = across.norm();
   const Vec3& cap = core.points[n.dot(u) < 0.0 ? 0 : 1];
   return length > 0.0 ? Vec3(cap + (core.disc / length) * across) : cap;
