@@ -5,8 +5,7 @@
 namespace tumble::convex {
 namespace {
 
-/// The cube with corners ±1, numbered as in features.h.
-Polyhedron unitCube() {
+Polyhedron makeUnitCube() {
   Polyhedron cube;
   for (int v = 0; v < 8; ++v)
     cube.points.emplace_back(v & 1 ? 1.0 : -1.0, v & 2 ? 1.0 : -1.0, v & 4 ? 1.0 : -1.0);
@@ -76,7 +75,7 @@ void build(const Cylinder& c, const Frame& at, Core& core) {
 }
 
 void build(const Box& box, const Frame& at, Core& core) {
-  static const Polyhedron cube = unitCube();
+  const Polyhedron& cube = unitCube();
   const Mat3 half = at.R * box.half.asDiagonal();
   for (const Vec3& p : cube.points) core.points.push_back(at.x + half * p);
   for (int k = 0; k < 3; ++k) {
@@ -108,6 +107,11 @@ template <class S>
 void build(const S&, const Frame&, Core&) {}
 
 }  // namespace
+
+const Polyhedron& unitCube() {
+  static const Polyhedron cube = makeUnitCube();
+  return cube;
+}
 
 bool hasCore(const Shape& shape) {
   return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) ||

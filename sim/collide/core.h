@@ -33,6 +33,9 @@ struct Core {
   Vec3 along(const Polyhedron::Edge& e) const { return points[e.to] - points[e.from]; }
 };
 
+/// The cube with corners ±1, its features numbered as in features.h.
+const Polyhedron& unitCube();
+
 /// Whether the general path knows a shape; half-spaces, compounds and others it does not.
 bool hasCore(const Shape& shape);
 

@@ -50,4 +50,16 @@ inline DoubleDouble operator*(double a, const DoubleDouble& b) {
   return twoSum(p.hi, p.lo + a * b.lo);
 }
 
+/// a / b by three digits of a double each: the quotient of the highs, and of what is left twice.
+inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
+  const double q1 = a.hi / b.hi;
+  const DoubleDouble left = a - q1 * b;
+  const double q2 = left.hi / b.hi, q3 = (left - q2 * b).hi / b.hi;
+  return twoSum(q1, q2) + DoubleDouble{q3, 0.0};
+}
+
+inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
+  return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+}
+
 }  // namespace tumble

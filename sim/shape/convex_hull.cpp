@@ -217,7 +217,9 @@ Polyhedron convexHull(const std::vector<Vec3>& given) {
   hull.begin(spanningFour(scaled));
   hull.grow();
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * away;
-  return withFlatFaces(hull.surface(points), std::max(kFlat * size, rounding));
+  Polyhedron solid = withFlatFaces(hull.surface(points), std::max(kFlat * size, rounding));
+  findEdges(solid);
+  return solid;
 }
 
 }  // namespace tumble

@@ -28,7 +28,7 @@ struct Polyhedron {
   std::vector<std::vector<int>> sides = {};  ///< of each face, the edge that leaves each corner
 };
 
-/// Fills in edges, normals and sides. `makePolyhedron` does.
+/// Fills in edges, normals and sides. `makePolyhedron` and `convexHull` do.
 void findEdges(Polyhedron& solid);
 
 /// What keeps faces from bounding a solid. The text names the edge by its points, counted from 1 as

@@ -1,4 +1,4 @@
-// Convex hulls for the tests of collide: by trying every triangle of points, and by hand.
+// Convex hulls for the tests of collide.
 #pragma once
 
 #include <cmath>
@@ -6,40 +6,15 @@
 #include <vector>
 
 #include "sim/math/rotation.h"
-#include "sim/shape/polyhedron.h"
+#include "sim/shape/convex_hull.h"
 #include "sim/shape/shape.h"
 #include "tests/collide/random_pose.h"
 
 namespace tumble {
 
-/// The hull of points in general position: triangles that have all other points on one side.
+/// The hull of points, with the body origin at the points' own.
 inline Hull hullOf(const std::vector<Vec3>& points) {
-  const int count = static_cast<int>(points.size());
-  std::vector<int> number(points.size(), -1);
-  std::vector<Vec3> kept;
-  std::vector<std::vector<int>> faces;
-  const auto use = [&](int i) {
-    if (number[i] < 0) {
-      number[i] = static_cast<int>(kept.size());
-      kept.push_back(points[i]);
-    }
-    return number[i];
-  };
-  for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      for (int k = j + 1; k < count; ++k) {
-        const Vec3 n = (points[j] - points[i]).cross(points[k] - points[i]);
-        int above = 0, below = 0;
-        for (int m = 0; m < count; ++m)
-          if (m != i && m != j && m != k) ++(n.dot(points[m] - points[i]) > 0.0 ? above : below);
-        if (above > 0 && below > 0) continue;
-        if (above == 0) faces.push_back({use(i), use(j), use(k)});
-        if (below == 0) faces.push_back({use(i), use(k), use(j)});
-      }
-    }
-  }
-  const Vec3 first = kept[0];
-  return {std::make_shared<const Polyhedron>(makePolyhedron(kept, faces)), -first};
+  return {std::make_shared<const Polyhedron>(convexHull(points)), -points[0]};
 }
 
 /// Some of `count` points near a sphere.

@@ -36,7 +36,17 @@ TEST_CASE("pairs of doubles carry thirty digits") {
   CHECK(near(a - b, exact(a) - exact(b)));
   CHECK(near(a * b, exact(a) * exact(b)));
   CHECK(near(3.0 * b, 3 * exact(b)));
+  CHECK(near(a / b, exact(a) / exact(b)));
+  CHECK(near(DoubleDouble{1.0, 0.0} / a * a, 1));
   // All but the last digits cancel.
   CHECK(exact(a - a) == 0);
   CHECK_FALSE(near(a + b, Exact(a.hi + b.hi)));
+}
+
+TEST_CASE("pairs of doubles are in the order of their sums") {
+  const DoubleDouble a{1.0, 1e-20}, b{1.0, 2e-20};
+  CHECK(a < b);
+  CHECK_FALSE(b < a);
+  CHECK_FALSE(a < a);
+  CHECK(-b < a);
 }
