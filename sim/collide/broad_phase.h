@@ -2,48 +2,56 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "sim/collide/cell_grid.h"
+#include "sim/collide/sorted_ends.h"
 #include "sim/shape/shape.h"
 
 namespace tumble {
 
-/// Persistent sweep and prune on three axes: interval ends stay sorted from call to call by
-/// insertion sort, and a pair is kept while its intervals overlap on all three. The cost of a call
-/// is O(n + swaps). Boxes that reach to infinity (half-spaces) are allowed.
+struct BroadPhaseRow;
+
+/// Finds the pairs of boxes that overlap. Boxes may reach to infinity (half-spaces).
 class BroadPhase {
  public:
   using Pair = std::pair<int, int>;
 
-  /// Brings the pairs up to date with the boxes [m], lo ≤ hi; a changed number of boxes starts
-  /// afresh.
+  /// Takes the row of the table that costs least for the number of boxes.
+  BroadPhase() = default;
+  /// Always takes one row.
+  explicit BroadPhase(const BroadPhaseRow& row) : only_(&row) {}
+
+  /// Brings the pairs up to date with the boxes [m], lo ≤ hi. Allocates nothing once warm.
   void update(std::span<const Aabb> boxes);
 
-  /// Pairs (i, j), i < j, whose boxes overlap or touch; sorted, the same whatever the history.
+  /// Pairs (i, j), i < j, whose boxes overlap or touch; sorted, the same whatever the history and
+  /// the row.
   const std::vector<Pair>& pairs() const { return pairs_; }
 
-  /// Neighbouring interval ends exchanged in the last update: what it cost beyond O(n).
-  long swaps() const { return swaps_; }
+  /// What the rows remember from call to call.
+  struct Memory {
+    SortedEnds ends;
+    CellGrid grid;
+  };
+  const Memory& memory() const { return memory_; }
 
  private:
-  struct End {
-    double value;
-    int box;
-    bool isLower;
-  };
-  static bool before(const End& a, const End& b);
-  void startAfresh(std::span<const Aabb> boxes);
-  void sortAxis(int axis, std::span<const Aabb> boxes);
-  void noteSwap(const End& moved, const End& passed, std::span<const Aabb> boxes);
-  void mergeChanges();
-
-  std::vector<End> ends_[3];
-  std::vector<Aabb> last_;  ///< boxes of the last call
+  const BroadPhaseRow* only_ = nullptr;
+  Memory memory_;
   std::vector<Pair> pairs_;
-  std::vector<Pair> begun_, ended_;  ///< changes of this call
-  std::vector<Pair> merged_;         ///< scratch, to allocate nothing once warm
-  long swaps_ = 0;
 };
+
+/// A way to find the pairs.
+struct BroadPhaseRow {
+  std::string_view name, what;
+  void (*update)(BroadPhase::Memory&, std::span<const Aabb>, std::vector<BroadPhase::Pair>&);
+};
+
+/// The table, and the row that `BroadPhase` takes for a number of boxes.
+std::span<const BroadPhaseRow> broadPhaseRows();
+const BroadPhaseRow& chooseBroadPhase(std::size_t boxes);
 
 }  // namespace tumble
