@@ -189,6 +189,9 @@ double worldSize(const Model& model) {
 }  // namespace
 
 struct World::Parts {
+  /// Everything but the rules for neighbours and the books.
+  void build(const WorldDef& def);
+
   Model model;
   State state;
   Report report;
@@ -198,12 +201,10 @@ struct World::Parts {
   std::vector<Contact> seenContacts;
 };
 
-World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
-  Model& model = parts_->model;
-  State& state = parts_->state;
+void World::Parts::build(const WorldDef& def) {
   model.def = def;
-  parts_->method = findMethod(def.method);
-  need(parts_->method, "method", "no method is called \"" + def.method + "\"");
+  method = findMethod(def.method);
+  need(method, "method", "no method is called \"" + def.method + "\"");
   need(findImpactLaw(def.impact), "impact", "no impact law is called \"" + def.impact + "\"");
   need(def.duration > 0.0 && std::isfinite(def.duration), "duration",
        "a duration must be a positive number of seconds");
@@ -219,7 +220,13 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   checkForces(def);
   addPivots(model, state.bodies);
   model.size = worldSize(model);
-  parts_->method->check(model, state.bodies);
+  method->check(model, state.bodies);
+}
+
+World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
+  parts_->build(def);
+  Model& model = parts_->model;
+  State& state = parts_->state;
   checkNeighbours(model, state.bodies);
 
   for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
@@ -240,14 +247,13 @@ void World::advance(double t) {
   parts_->lastAdvance = end;
 }
 
-Sample World::sample(double t) const {
-  std::vector<RigidBody>& bodies = parts_->seen;
-  std::vector<Contact>& contacts = parts_->seenContacts;
-  parts_->method->look(parts_->model, parts_->state, t, bodies, contacts);
+namespace {
+
+Sample sampleOf(const WorldDef& def, double t, std::span<const RigidBody> bodies,
+                std::span<const Contact> contacts) {
   Sample sample;
   sample.t = t;
   sample.bodies.reserve(bodies.size());
-  const WorldDef& def = parts_->model.def;
   const bool matrix = def.method == "course" && def.course.attitude == "matrix";
   for (const RigidBody& body : bodies)
     sample.bodies.push_back({.x = body.x,
@@ -258,9 +264,39 @@ Sample World::sample(double t) const {
   for (const Contact& c : contacts)
     sample.contacts.push_back({c.a, c.b, c.point.p, c.point.n, c.point.separation, c.force});
   sample.kinetic = kineticEnergy(bodies);
-  sample.potential = potentialEnergy(parts_->model.def.gravity, parts_->model.def.forces, bodies) +
-                     energyStored(contacts);
+  sample.potential = potentialEnergy(def.gravity, def.forces, bodies) + energyStored(contacts);
   return sample;
+}
+
+}  // namespace
+
+Sample World::sample(double t) const {
+  std::vector<RigidBody>& bodies = parts_->seen;
+  std::vector<Contact>& contacts = parts_->seenContacts;
+  parts_->method->look(parts_->model, parts_->state, t, bodies, contacts);
+  return sampleOf(parts_->model.def, t, bodies, contacts);
+}
+
+StartCheck World::checkStart(const WorldDef& def) {
+  Parts parts;
+  parts.build(def);
+  std::vector<RigidBody> bodies = parts.state.bodies;
+  std::vector<Contact> contacts = touchingContacts(parts.model, bodies);
+  StartCheck check;
+  check.faults = overlapping(parts.model, contacts);
+  for (const StateFault& fault : approaching(parts.model, bodies, contacts))
+    check.faults.push_back(fault);
+
+  // Accelerations without contact forces, then with them.
+  sumForces(def.gravity, def.forces, bodies);
+  for (const StateFault& fault : sinking(parts.model, bodies, contacts))
+    check.unheld = std::min(check.unheld, fault.amount);
+  addContactForces(parts.model, bodies, contacts);
+  for (const StateFault& fault : sinking(parts.model, bodies, contacts))
+    check.faults.push_back(fault);
+  for (const Contact& c : contacts) check.resting += c.force.isZero(0.0) ? 0 : 1;
+  check.sample = sampleOf(def, 0.0, bodies, contacts);
+  return check;
 }
 
 const Model& World::model() const {

@@ -9,6 +9,7 @@
 
 #include "sim/method/model.h"
 #include "sim/method/report.h"
+#include "sim/state_check.h"
 
 namespace tumble {
 
@@ -41,12 +42,25 @@ struct Sample {
   double kinetic = 0.0, potential = 0.0;  ///< [J]
 };
 
+/// What is wrong with a start, and the start itself, with the contact forces of this instant.
+struct StartCheck {
+  std::vector<StateFault> faults;  ///< positions, then velocities, then accelerations
+  double unheld = 0.0;  ///< [m/s²] most negative n·p″ of resting contacts without contact forces
+  int resting = 0;      ///< contact points at rest
+  Sample sample;
+};
+
 /// A scene that lives.
 class World {
  public:
   /// @throws Refusal for a definition that cannot be simulated.
   explicit World(const WorldDef& def);
   ~World();
+
+  /// Holds the start of a definition against the three layers of a state; bodies may overlap.
+  /// @throws Refusal for anything else that is wrong.
+  static StartCheck checkStart(const WorldDef& def);
+
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 

@@ -7,6 +7,7 @@
 #include "app/command/command.h"
 #include "app/command/options.h"
 #include "app/command/run.h"
+#include "app/command/state.h"
 #include "app/scene/demos.h"
 
 namespace tumble::command {
@@ -39,15 +40,29 @@ int checkScene(const Scene& scene) {
 
 int check(int argc, char** argv) {
   std::vector<std::string> names, overrides;
+  std::string folder;
+  bool state = false;
   CommandLine app("check", "Holds scenes to the closed forms that they claim.",
                   {"                # every demo", "path-of-brick my-scene.toml",
-                   "stacked-boxes --set world.gravity=[0,-1.62,0]"});
+                   "stacked-boxes --set world.gravity=[0,-1.62,0]",
+                   "--state my-scene.toml -o out/mine # is its start legal? state.png shows it"});
   app.add_option("SCENE", names, "demos or TOML files [every demo]");
   addOverrides(app, overrides);
+  app.add_flag("--state", state,
+               "instead: are positions, velocities and accelerations of the start legal?");
+  app.add_option("-o,--output", folder, "folder for state.png [none]")->needs("--state");
   if (!app.read(argc, argv)) return kOk;
 
   if (names.empty()) names = demoNames();
   int worst = kOk;
+  if (state) {
+    for (const std::string& name : names) {
+      const Scene scene = load({name, overrides});
+      const bool several = !folder.empty() && names.size() > 1;
+      worst = std::max(worst, checkState(scene, several ? folder + "/" + scene.name : folder));
+    }
+    return worst;
+  }
   std::size_t claims = 0;
   for (const std::string& name : names) {
     const Scene scene = load({name, overrides});

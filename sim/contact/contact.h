@@ -77,6 +77,10 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
 /// Baraff II, §9.3, with the last term added for round bodies. ra, rb reach to pa, pb.
 double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
+/// n·p″ = d²(separation)/dt² [m/s²] under the forces and torques that the bodies carry (slide
+/// SD48).
+double normalAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
 /// The part of d(slip)/dt [m/s²] along t that does not come from accelerations.
 double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c,
                             const Vec3& t);

@@ -27,16 +27,6 @@ constexpr int kSticksInStep = 20;
 // Normals that differ by less are one: what rounding leaves of a shared face. [1]
 constexpr double kOneNormal = 1e-9;
 
-/// Relative normal acceleration [m/s²] of a contact under outer forces alone.
-double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  const auto of = [](const RigidBody& body, const Vec3& p) -> Vec3 {
-    if (body.fixed()) return Vec3::Zero();
-    const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
-    return body.invM * body.force + alpha.cross(p - body.x);
-  };
-  return c.n.dot(of(a, c.p) - of(b, c.p)) + normalAccelerationBias(a, b, c);
-}
-
 bool samePair(const Contact& c, const Contact& d) {
   return c.a == d.a && c.b == d.b;
 }
@@ -59,7 +49,7 @@ double Course::restitutionNow(const Contact& c) const {
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
   if (rebound <= 0.0) return c.restitution;
   if (wasLasting(c.a, c.b) && rebound < tolerance_.keep) return 0.0;
-  const double press = -freeAcceleration(a, b, c.point);
+  const double press = -normalAcceleration(a, b, c.point);
   if (press > 0.0 && rebound * rebound < 2.0 * press * kHeight &&
       2.0 * rebound < press * (1.0 - c.restitution) * kTime)
     return 0.0;

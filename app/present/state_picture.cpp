@@ -1,0 +1,83 @@
+#include "app/present/state_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/present/palette.h"
+#include "app/present/present.h"
+
+namespace tumble {
+
+namespace {
+
+constexpr std::size_t kMostRings = 6;
+
+std::string heading(const std::vector<StateFault>& faults) {
+  if (faults.empty()) return "positions, velocities and accelerations are ok";
+  std::string layer = layerName(faults.front().layer);
+  std::transform(layer.begin(), layer.end(), layer.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  return layer + " NOT OK";
+}
+
+Label pageLabel(double y, const std::string& text, float size, const Colour& colour) {
+  Label label;
+  label.offset = {32.0, y};
+  label.text = text;
+  label.size = size;
+  label.bold = true;
+  label.colour = colour;
+  return label;
+}
+
+}  // namespace
+
+std::string faultText(const Scene& scene, const StateFault& fault) {
+  const std::string &a = scene.world.bodies[fault.a].name, &b = scene.world.bodies[fault.b].name;
+  if (fault.layer == Layer::Positions)
+    return fmt::format("\"{}\" is {:.4g} m inside \"{}\"", a, -fault.amount, b);
+  if (fault.layer == Layer::Velocities)
+    return fmt::format("\"{}\" moves into \"{}\" at {:.4g} m/s", a, b, -fault.amount);
+  return fmt::format("\"{}\" accelerates into \"{}\" at {:.4g} m/s²", a, b, -fault.amount);
+}
+
+Picture statePicture(const Scene& scene, const StartCheck& check) {
+  Recording recording;
+  recording.samples = {check.sample};
+  recording.rate = scene.image.rate;
+  Scene plain = scene;
+  plain.checks.clear();  // claims are about motions
+  plain.show.velocities = true;
+  plain.show.contact_forces = check.faults.empty() && check.resting > 0;
+  Picture picture = Presenter(plain, recording).image(0);
+  picture.labels.push_back(pageLabel(104.0, heading(check.faults), 20.0f,
+                                     check.faults.empty() ? colour::kInk : colour::kForce));
+  double y = 128.0;
+  for (std::size_t i = 0; i < std::min(check.faults.size(), kMostRings); ++i, y += 22.0) {
+    Label line = pageLabel(y, faultText(scene, check.faults[i]), 14.0f, colour::kInk);
+    line.bold = false;
+    picture.labels.push_back(line);
+    picture.marks.push_back(
+        {check.faults[i].p, {layerName(check.faults[i].layer)}, colour::kForce});
+  }
+  return picture;
+}
+
+void redden(Image& image) {
+  constexpr int kRed = 0xD5, kGreen = 0x40, kBlue = 0x1A;
+  const int frame = std::max(4, image.height / 90);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      std::uint8_t* pixel = &image.rgb[3u * (static_cast<std::size_t>(y) * image.width + x)];
+      const bool border =
+          x < frame || y < frame || x >= image.width - frame || y >= image.height - frame;
+      const std::array<int, 3> red = {kRed, kGreen, kBlue};
+      // A tenth of red over everything, the border all of it.
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = static_cast<std::uint8_t>(border ? red[c] : (9 * pixel[c] + red[c] + 5) / 10);
+    }
+}
+
+}  // namespace tumble
