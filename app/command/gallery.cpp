@@ -10,6 +10,7 @@
 #include "app/command/shoot.h"
 #include "app/command/sweeping.h"
 #include "app/file/file.h"
+#include "app/panel/page.h"
 #include "app/scene/demos.h"
 
 namespace tumble::command {
@@ -46,7 +47,7 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
   for (std::size_t i = 0; i < panels.size(); ++i)
     shown.plates.push_back(
         i == 0 ? Plate{name + "/panels.png", "panels"}
-               : Plate{name + panels[i].substr(folder.size()), scene.charts[i - 1].variant.title});
+               : Plate{name + panels[i].substr(folder.size()), plotNames(scene)[i - 1].second});
   if (options.all) {
     shoot.sequence({0, shoot.count()});
     shoot.video(folder + "/film.mp4", {0, shoot.count()});

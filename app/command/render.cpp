@@ -22,14 +22,15 @@ struct Options {
 };
 
 bool readOptions(int argc, char** argv, Options& options) {
-  CommandLine app("render", "Draws a scene.",
-                  {"path-of-brick                  # out/path-of-brick/image-000000.png …",
-                   "path-of-brick --strobe --sheet # strobe.png and sheet.png instead",
-                   "my-scene.toml --panels         # its [[panel]] and [[chart]] on one page",
-                   "path-of-brick --still 1.2 --size 1920x1080",
-                   "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
-                   "path-of-brick --video brick.mp4",
-                   "stacked-boxes --still 0 --set world.gravity=[0,-1.62,0] -o out/moon"});
+  CommandLine app(
+      "render", "Draws a scene.",
+      {"path-of-brick                  # out/path-of-brick/image-000000.png …",
+       "path-of-brick --strobe --sheet # strobe.png and sheet.png instead",
+       "my-scene.toml --panels         # its [[panel]], [[graph]] and [[chart]] on one page",
+       "path-of-brick --still 1.2 --size 1920x1080",
+       "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
+       "path-of-brick --video brick.mp4",
+       "stacked-boxes --still 0 --set world.gravity=[0,-1.62,0] -o out/moon"});
   addSceneOptions(app, options.scene);
   app.add_option("-o,--output", options.folder, "folder for the images [out/<scene>]");
   app.add_option("--frames", options.frames, "images A to B-1 of the sequence")->type_name("A:B");
@@ -38,7 +39,7 @@ bool readOptions(int argc, char** argv, Options& options) {
   app.add_option("--still", options.still, "one image, at this time")->type_name("SECONDS");
   app.add_flag("--strobe", options.strobe, "one image of the whole motion");
   app.add_flag("--sheet", options.sheet, "twelve stills on one page");
-  app.add_flag("--panels", options.panels, "the scene's panels and charts");
+  app.add_flag("--panels", options.panels, "the scene's panels, graphs and charts");
   app.add_option("--video", options.video, "a film, by ffmpeg")->type_name("FILE");
   return app.read(argc, argv);
 }
@@ -68,8 +69,9 @@ int render(int argc, char** argv) {
     throw UsageError(fmt::format("--still {:g}: the scene lasts from 0 to {:g} s", *options.still,
                                  scene.world.duration));
 
-  if (options.panels && scene.panels.empty() && scene.charts.empty())
-    throw UsageError(fmt::format("{} has neither [[panel]] nor [[chart]]", scene.file));
+  if (options.panels && scene.panels.empty() && scene.graphs.empty() && scene.charts.empty())
+    throw UsageError(
+        fmt::format("{} has neither [[panel]] nor [[graph]] nor [[chart]]", scene.file));
 
   Studio studio;
   Shoot shoot(scene, options.folder, studio);

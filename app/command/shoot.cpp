@@ -80,8 +80,8 @@ std::vector<std::string> Shoot::panels() {
   std::vector<std::string> paths;
   if (total == 0) return paths;
   paths.push_back(folder_ + "/panels.png");
-  for (std::size_t i = 0; i < scene_.charts.size(); ++i)
-    paths.push_back(folder_ + "/" + chartName(i) + ".png");
+  for (const auto& [name, title] : plotNames(scene_))
+    paths.push_back(folder_ + "/" + name + ".png");
   if (std::all_of(paths.begin(), paths.end(),
                   [this](const std::string& path) { return finished(path, "panels"); }))
     return paths;
@@ -96,11 +96,10 @@ std::vector<std::string> Shoot::panels() {
   const auto draw = [&](const Picture& picture) {
     return studio_.draw(picture, format, panelPage(scene_));
   };
-  for (std::size_t i = 0; i < scene_.charts.size(); ++i) {
-    const ChartDef& chart = scene_.charts[i];
-    writeFile(folder_ + "/" + chartName(i) + ".csv", chartCsv(runs.charts[i]));
-    writePng(paths[i + 1],
-             drawChart(chartOf(chart, runs.charts[i]), scene_.image.width, scene_.image.height,
+  for (const Plot& plot : plotsOf(scene_, runs)) {
+    writeFile(folder_ + "/" + plot.name + ".csv", plot.csv);
+    writePng(folder_ + "/" + plot.name + ".png",
+             drawChart(plot.chart, scene_.image.width, scene_.image.height,
                        scene_.image.height / 720.0, studio_.fonts()),
              stampOf(scene_, "panels"));
   }

@@ -25,8 +25,8 @@ class Shoot {
   std::string still(double t);  ///< still.png, the sample nearest to t [s]
   std::string strobe();         ///< strobe.png
   std::string sheet();          ///< sheet.png: the motion in twelve stills
-  /// panels.png with all panels and charts of the scene, and chart.png, chart.csv, chart-2.png … of
-  /// each chart alone. Nothing for a scene without them.
+  /// panels.png with all panels, graphs and charts of the scene, and graph.png, graph.csv,
+  /// chart.png, chart.csv, chart-2.png … of each plot alone. Nothing for a scene without them.
   std::vector<std::string> panels();
   /// image-000000.png …: images [first, last) of the sequence, one per sample.
   std::string sequence(std::pair<int, int> range);

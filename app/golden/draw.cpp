@@ -75,8 +75,7 @@ void addPage(const Scene& scene, Renderer& renderer, Golden& golden) {
                               .pageHeight = panelPage(scene)};
   const auto draw = [&](const Picture& picture) { return renderer.draw(picture, options); };
   golden.images.push_back({"panels", drawPage(scene, runs, kSmallPanel, draw, fonts)});
-  for (std::size_t i = 0; i < runs.charts.size(); ++i)
-    golden.tables.push_back({chartName(i), chartCsv(runs.charts[i])});
+  for (const Plot& plot : plotsOf(scene, runs)) golden.tables.push_back({plot.name, plot.csv});
 }
 
 Golden drawDemo(const std::string& name, Renderer& renderer) {

@@ -188,6 +188,32 @@ void readPanels(Section& root, const std::vector<std::string>& parts, Scene& sce
   }
 }
 
+void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& scene) {
+  for (const Node& node : root.tables("graph")) {
+    if (scene.graphs.size() == kMostPanels) return root.complain("graph", "at most 100 graphs");
+    GraphDef& graph = scene.graphs.emplace_back();
+    Section section(node, "graph." + std::to_string(scene.graphs.size() - 1), root.findings());
+    readVariant(section, "title", parts, graph.variant);
+    readLine(section, "subtitle", graph.subtitle);
+    section.read("body", graph.body);
+    const auto named = [&](const BodyDef& body) { return body.name == graph.body; };
+    if (std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
+      section.complain("body", "expected the name of a body, found " + inQuotes(graph.body));
+    section.read("shows", graph.shows, {"height", "velocity", "force", "energy"});
+    const Array& curves = section.tables("curves");
+    if (curves.empty() || curves.size() > kMostPanels)
+      section.complain("curves",
+                       "expected 1 to 100 tables like { label = \"k = 100\", set = {…} }");
+    for (const Node& curve : curves) {
+      Section one(curve, section.path("curves." + std::to_string(graph.curves.size())),
+                  section.findings());
+      readVariant(one, "label", parts, graph.curves.emplace_back());
+      one.finish();
+    }
+    section.finish();
+  }
+}
+
 void readCharts(Section& root, const std::vector<std::string>& parts, Scene& scene) {
   for (const Node& node : root.tables("chart")) {
     if (scene.charts.size() == kMostPanels) return root.complain("chart", "at most 100 charts");
@@ -213,7 +239,8 @@ void apply(const Variant& variant, Node& tree, Findings& findings) {
   if (!variant.bodies.empty()) keepBodies(variant.bodies, tree);
   if (Table* root = tree.as<Table>())
     std::erase_if(root->entries, [](const Entry& entry) {
-      return entry.key == "panel" || entry.key == "chart" || entry.key == "sweep";
+      return entry.key == "panel" || entry.key == "graph" || entry.key == "chart" ||
+             entry.key == "sweep";
     });
 }
 

@@ -11,6 +11,7 @@ std::vector<std::string> partNames(const Node& tree);
 void readSweep(Section& root, std::optional<Sweep>& sweep);
 /// @param parts  names that the key `bodies` may hold
 void readPanels(Section& root, const std::vector<std::string>& parts, Scene& scene);
+void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& scene);
 void readCharts(Section& root, const std::vector<std::string>& parts, Scene& scene);
 
 /// Changes a scene's tree into that of the variant: settings, then bodies with the forces between

@@ -53,6 +53,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   const std::vector<std::string> parts = partNames(tree);
   readSweep(root, scene.sweep);
   readPanels(root, parts, scene);
+  readGraphs(root, parts, scene);
   readCharts(root, parts, scene);
   root.finish();
   findings.raise();
@@ -78,6 +79,9 @@ class Trial {
                                          "until the still at {:g} s",
                                          *duration, panel.at));
     }
+    for (const GraphDef& graph : scene.graphs)
+      for (const Variant& curve : graph.curves)
+        tryVariant(joined(graph.variant, curve), "[[graph]] " + tumble::inQuotes(curve.title));
     for (const ChartDef& chart : scene.charts)
       for (const CurveDef& curve : chart.curves) {
         Variant variant = joined(chart.variant, curve.variant);

@@ -73,6 +73,7 @@ struct ShowFlags {
   bool body_box = false;   ///< bounding boxes that turn with the bodies
   bool speed = false;      ///< bodies coloured by their speed
   bool momenta = false;    ///< arrows of linear and angular momentum and angular velocity
+  bool missteps = false;   ///< poses that the plan of the course did not let stand, in red
   double strobe = 0.1;     ///< [s] between ghosts of a strobe image
 };
 
@@ -93,6 +94,7 @@ struct Scene {
   ShowFlags show;
   std::optional<Sweep> sweep;
   std::vector<PanelDef> panels;
+  std::vector<GraphDef> graphs;
   std::vector<ChartDef> charts;
   std::map<std::string, Place>
       places;  ///< path into the world ("bodies[3].mass") → where it was written

@@ -125,6 +125,7 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("body_box", show.body_box);
   section.read("speed", show.speed);
   section.read("momenta", show.momenta);
+  section.read("missteps", show.missteps);
   section.read("strobe", show.strobe, positive("s"));
   section.finish();
 }

@@ -60,4 +60,13 @@ struct ChartDef {
   std::vector<CurveDef> curves;
 };
 
+/// A [[graph]]: what one body does, against time, in variants of the scene.
+struct GraphDef {
+  Variant variant;  ///< of all its runs
+  std::string subtitle;
+  std::string body;              ///< its name
+  std::string shows = "height";  ///< height | velocity | force | energy
+  std::vector<Variant> curves;
+};
+
 }  // namespace tumble

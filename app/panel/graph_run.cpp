@@ -1,0 +1,88 @@
+#include "app/panel/graph_run.h"
+
+#include <fmt/format.h>
+
+#include "app/present/palette.h"
+#include "app/record/output.h"
+
+namespace tumble {
+
+namespace {
+
+int bodyNamed(const Scene& scene, const std::string& name) {
+  const std::vector<BodyDef>& bodies = scene.world.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].name == name) return static_cast<int>(i);
+  throw SceneError({{{scene.file}, "[[graph]]: there is no body '" + name + "' in this variant"}});
+}
+
+std::string captionOf(const std::string& shows) {
+  if (shows == "velocity") return "velocity / (m/s)";
+  if (shows == "force") return "contact force / N";
+  return shows == "energy" ? "energy / J" : "height / m";
+}
+
+}  // namespace
+
+double shownOf(const std::string& shows, const Sample& sample, int body) {
+  const BodySample& shown = sample.bodies[static_cast<std::size_t>(body)];
+  if (shows == "velocity") return shown.v.y();
+  if (shows == "energy") return sample.kinetic + sample.potential;
+  if (shows == "height") return shown.x.y();
+  Vec3 sum = Vec3::Zero();
+  for (const ContactSample& contact : sample.contacts) {
+    if (contact.a == body) sum += contact.force;
+    if (contact.b == body) sum -= contact.force;
+  }
+  return sum.norm();
+}
+
+std::vector<GraphSeries> runGraph(const Scene& scene, const GraphDef& graph, const RunDone& done) {
+  std::vector<GraphSeries> all;
+  for (const Variant& curve : graph.curves) {
+    const Scene changed = sceneOf(scene, joined(graph.variant, curve));
+    const int body = bodyNamed(changed, graph.body);
+    GraphSeries& series = all.emplace_back();
+    series.label = curve.title;
+    const Recording recording = run(changed, changed.image.rate, [&](Sample&& sample) {
+      series.points.emplace_back(sample.t, shownOf(graph.shows, sample, body));
+    });
+    for (const Event& event : recording.report.events)
+      if (event.kind == EventKind::Impact && (event.a == body || event.b == body))
+        series.impacts.push_back(event);
+    done();
+  }
+  return all;
+}
+
+std::string graphCsv(const std::vector<GraphSeries>& series, int rows) {
+  std::string csv = "curve,t,value\n";
+  for (const GraphSeries& one : series)
+    for (int k = 0; k <= rows && !one.points.empty(); ++k) {
+      const Eigen::Vector2d& point = one.points[(one.points.size() - 1) * k / rows];
+      csv += fmt::format("{},{:.17g},{:.17g}\n", csvQuoted(one.label), point.x(), point.y());
+    }
+  return csv;
+}
+
+Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
+  Chart plot;
+  plot.title = graph.variant.title;
+  plot.subtitle = graph.subtitle;
+  plot.x = {"time / s", false};
+  plot.y = {captionOf(graph.shows), false};
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    ChartCurve& curve = plot.curves.emplace_back();
+    curve.label = series[i].label;
+    curve.colour = seriesColour(i);
+    curve.marked = false;
+    curve.points = series[i].points;
+    if (graph.shows != "force") continue;
+    for (const Event& hit : series[i].impacts) plot.guides.push_back({true, hit.t, ""});
+    if (!series[i].impacts.empty())
+      curve.note = fmt::format("f = ∞, j = {:.3g} N·s", series[i].impacts.front().j);
+  }
+  return plot;
+}
+
+}  // namespace tumble
