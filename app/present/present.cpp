@@ -13,6 +13,7 @@
 #include "app/present/inertia.h"
 #include "app/present/labels.h"
 #include "app/present/marks.h"
+#include "app/present/missteps.h"
 #include "app/present/palette.h"
 #include "app/present/paths.h"
 #include "app/present/samples.h"
@@ -232,6 +233,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.normals) addNormals(sample, length, picture);
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
   if (show.forces) addForces(scene_, sample, height, picture);
+  if (show.missteps) addMissteps(scene_, recording_, sample.t, picture);
   if (show.impacts) addImpacts(recording_, sample.t, aspectOf(scene_), picture);
 }
 

@@ -1,0 +1,74 @@
+#include "app/present/missteps.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "app/claim/free_body.h"
+#include "app/present/bodies.h"
+#include "app/present/facets.h"
+#include "app/present/palette.h"
+
+namespace tumble {
+
+namespace {
+
+// A hair larger than the body, so that it covers a ghost in the same place.
+constexpr double kCover = 1.002;
+// The arrow passes the body on its left, this many of its reaches from the centre.
+constexpr double kAside = 1.3;
+
+Instance ghostOf(const BodyDef& body, const Pose& pose, const Colour& colour, float alpha) {
+  Instance ghost =
+      instanceOf(body, pose.x, pose.q, colour, Vec3::Zero(), 1.0, facetsOf(body.shape));
+  ghost.scale *= kCover;
+  ghost.finish = Finish::Ghost;
+  ghost.alpha = alpha;
+  return ghost;
+}
+
+// The point beside a body, some of its own reaches away along X.
+Vec3 beside(const BodyDef& body, const Pose& pose, double share) {
+  return pose.x + Vec3(share * reach(body.shape, pose.q, Vec3::UnitX()), 0.0, 0.0);
+}
+
+Label labelAt(const Vec3& anchor, Align align, const std::string& text, const Colour& colour) {
+  Label label;
+  label.anchor = anchor;
+  label.offset = {align == Align::Left ? 8.0 : -8.0, 5.0};
+  label.align = align;
+  label.text = text;
+  label.colour = colour;
+  return label;
+}
+
+std::string mendedText(const Misstep& misstep) {
+  if (misstep.mendedAt < misstep.t) return fmt::format("back to t = {:.4f} s", misstep.mendedAt);
+  if (misstep.mendedAt > misstep.t) return fmt::format("free at t = {:.4g} s", misstep.mendedAt);
+  return "moved out";
+}
+
+}  // namespace
+
+void addMissteps(const Scene& scene, const Recording& recording, double t, Picture& picture) {
+  std::set<int> shown;
+  for (const Misstep& misstep : recording.report.missteps) {
+    if (misstep.t > t || !shown.insert(misstep.body).second) continue;
+    const BodyDef& body = scene.world.bodies[misstep.body];
+    picture.instances.push_back(ghostOf(body, misstep.pose, colour::kForce, 0.85f));
+    picture.labels.push_back(labelAt(
+        beside(body, misstep.pose, 1.0), Align::Left,
+        fmt::format("t = {:.4g} s: {:.3g} mm too deep", misstep.t, -1e3 * misstep.separation),
+        colour::kForce));
+    if (misstep.mendedAt > t) continue;
+    picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), 0.85f));
+    const Vec3 tip = beside(body, misstep.mended, -kAside);
+    const bool later = misstep.mendedAt > misstep.t;
+    picture.labels.push_back(labelAt(later ? beside(body, misstep.mended, 1.0) : tip,
+                                     later ? Align::Left : Align::Right, mendedText(misstep),
+                                     colour::kInk));
+    picture.arrows.push_back({beside(body, misstep.pose, -kAside), tip, colour::kInk, 1.9f});
+  }
+}
+
+}  // namespace tumble
