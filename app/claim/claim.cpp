@@ -29,6 +29,10 @@ constexpr Check kChecks[] = {
      flipRows, nullptr},
     {"heavy-top", "about a held point as another method turns; energy, angular momentum, the point",
      topRows, nullptr},
+    {"plans", "a step into the floor is backed up, repaired or lied about: instant, depth, height",
+     planRows, bouncePaths},
+    {"spring-contact", "a ball on a penalty floor is half a period in touch; on a rigid one, j",
+     springContactRows, nullptr},
 };
 
 }  // namespace

@@ -18,5 +18,7 @@ std::vector<ClaimRow> weightRows(const Scene&, const Recording&);
 std::vector<ClaimRow> freeSpinRows(const Scene&, const Recording&);
 std::vector<ClaimRow> flipRows(const Scene&, const Recording&);
 std::vector<ClaimRow> topRows(const Scene&, const Recording&);
+std::vector<ClaimRow> planRows(const Scene&, const Recording&);
+std::vector<ClaimRow> springContactRows(const Scene&, const Recording&);
 
 }  // namespace tumble
