@@ -8,15 +8,18 @@
 namespace tumble {
 namespace {
 
-constexpr double kMargin = 0.15;    // of the usual box; measured by tests/bench/sim/broad_phase.cpp
-constexpr int kHurry = 16;          // calls without a margin after one that came to nothing
-constexpr int kFew = 8;             // boxes of a level that need no grid
-constexpr int kSizes = 40;          // levels to either side of the usual one
-constexpr double kFar = 1 << 30;    // cells from the middle: beyond, rounding could skip a cell
-constexpr double kSlack = 1e-6;     // of a cell: for the rounding of a box's place in cells
-constexpr double kRounding = 4e-7;  // of a coordinate, as a float; more than enough
-constexpr std::size_t kAhead = 12;  // pairs whose boxes are called for before they are needed
+// Margins, measured by tests/bench/sim/broad_phase.cpp.
+constexpr double kLeastMargin = 0.15, kMostMargin = 0.5;  // of the median box
+constexpr double kCalls = 12.0;                           // that a margin lasts for
+constexpr int kFew = 8;                                   // boxes that need no grid
+constexpr int kSizes = 40;                                // levels to either side of the usual one
 constexpr int kNoLevel = kSizes + 1;
+constexpr double kFar = 1 << 20;    // cells from the middle that a grid goes
+constexpr double kSlack = 1e-6;     // of a cell: for the rounding of doubles
+constexpr double kRounding = 4e-7;  // of a coordinate: more than a float errs by
+constexpr std::size_t kAhead = 12;  // pairs whose boxes are called for before they are needed
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double extentOf(const Aabb& box) {
   return (box.hi - box.lo).maxCoeff();
@@ -62,11 +65,7 @@ void forEachRange(const Level& level, int x0, int x1, int y, int z, Action act) 
 
 void CellGrid::update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) {
   ++calls_;
-  if (hurry_ > 0) --hurry_;
-  if (boxes.size() != grown_.size()) {
-    build(boxes);
-    anyLeft(boxes);
-  } else if (anyLeft(boxes)) {
+  if (boxes.size() != grown_.size() || anyLeft(boxes)) {
     build(boxes);
     anyLeft(boxes);
   }
@@ -113,11 +112,9 @@ void CellGrid::findOverlaps(std::span<const Aabb> boxes, std::vector<Pair>& pair
 }
 
 void CellGrid::build(std::span<const Aabb> boxes) {
-  const bool atOnce = boxes.size() == grown_.size() && calls_ == lastBuild_ + 1;
-  if (atOnce && hurry_ == 0) hurry_ = kHurry;
-  lastBuild_ = calls_;
   ++builds_;
   grow(boxes);
+  chooseMiddle();
   sortIntoLevels();
   shorten();
   found_.clear();
@@ -128,46 +125,69 @@ void CellGrid::build(std::span<const Aabb> boxes) {
   }
   findOfFew();
   sortFound();
+  calls_ = 0;
+}
+
+double CellGrid::median(std::vector<double>& values) const {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// How far [m] along an axis the middle of a box has gone in a call, since the grid was made; 0
+/// where that is not known.
+double CellGrid::motionOf(std::size_t body) const {
+  if (grown_.size() != wide_.size()) return 0.0;
+  const ShortBox &now = now_[body], &then = grown_[body];
+  float most = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k)
+    most = larger(most, std::abs(now.lo[k] + now.hi[k] - (then.lo[k] + then.hi[k])));
+  return std::isfinite(most) ? 0.5 * most / static_cast<double>(calls_) : 0.0;
 }
 
 /// The usual box is the largest of no more than twice the median.
 void CellGrid::grow(std::span<const Aabb> boxes) {
+  wide_.assign(boxes.begin(), boxes.end());
   extents_.clear();
-  sorted_.clear();
+  values_.clear();
   for (const Aabb& box : boxes) {
     extents_.push_back(extentOf(box));
-    if (std::isfinite(extents_.back())) sorted_.push_back(extents_.back());
+    if (std::isfinite(extents_.back())) values_.push_back(extents_.back());
   }
-  double median = 0.0;
+  const double size = median(values_);
   usual_ = 0.0;
-  if (!sorted_.empty()) {
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    median = *middle;
-    for (const double extent : sorted_)
-      if (extent <= 2.0 * median) usual_ = std::max(usual_, extent);
-  }
-  const double margin = hurry_ > 0 ? 0.0 : kMargin * median;
-  usual_ += 2.0 * margin;
+  for (const double extent : values_)
+    if (extent <= 2.0 * size) usual_ = std::max(usual_, extent);
+  usual_ += 2.0 * kLeastMargin * size;
   usual_ = usual_ > 0.0 ? usual_ * (1.0 + 4.0 * kSlack) : 1.0;
-  wide_.assign(boxes.begin(), boxes.end());
-  for (Aabb& box : wide_) {
-    box.lo.array() -= margin;
-    box.hi.array() += margin;
+
+  const double most = kMostMargin * size;
+  int fast = 0;
+  for (std::size_t i = 0; i < wide_.size(); ++i) fast += motionOf(i) > 0.5 * most;
+  for (std::size_t i = 0; i < wide_.size(); ++i) {
+    const double motion = motionOf(i);
+    double margin = std::clamp(kCalls * motion, kLeastMargin * size, most);
+    if (fast > kFew)
+      margin = 0.0;
+    else if (motion > 0.5 * most)
+      margin = kInfinity;
+    wide_[i].lo.array() -= margin;
+    wide_[i].hi.array() += margin;
+  }
+}
+
+/// Half of all boxes begin to either side of the middle.
+void CellGrid::chooseMiddle() {
+  for (int k = 0; k < 3; ++k) {
+    values_.clear();
+    for (const Aabb& box : wide_)
+      if (std::isfinite(box.lo[k])) values_.push_back(box.lo[k]);
+    middle_[k] = median(values_);
   }
 }
 
 void CellGrid::sortIntoLevels() {
-  // The middle, over boxes that have one.
-  middle_.setZero();
-  double count = 0.0;
-  for (std::size_t i = 0; i < wide_.size(); ++i) {
-    if (!std::isfinite(extents_[i])) continue;
-    middle_ += wide_[i].lo;
-    count += 1.0;
-  }
-  if (count > 0.0) middle_ /= count;
-
   // Cells of level k are 4^k usual boxes wide.
   std::array<int, 2 * kSizes + 2> counts{};
   size_.assign(wide_.size(), kNoLevel);
@@ -191,7 +211,6 @@ void CellGrid::sortIntoLevels() {
     if (levels_.size() == used_) levels_.emplace_back();
     levelOf[k] = static_cast<int>(used_);
     levels_[used_].size = size;
-    levels_[used_].perCell = 1.0 / std::ldexp(usual_, 2 * size);
     levels_[used_].bodies.clear();
     ++used_;
   }
@@ -206,8 +225,9 @@ void CellGrid::sortIntoLevels() {
   for (const int i : few_) size_[static_cast<std::size_t>(i)] = kNoLevel;
 }
 
-/// Rounding to a float errs by 6e-8 of a coordinate: grown boxes are rounded outward by more than
-/// what `anyLeft` may miss.
+/// Rounding to a float errs by 6e-8 of a coordinate. Boxes that overlap do so when rounded too, and
+/// when grown; and one that is inside its grown box as floats reaches beyond the wide one by no
+/// more than the rounding.
 void CellGrid::shorten() {
   double largest = 0.0;
   grown_.resize(wide_.size());
@@ -227,10 +247,16 @@ void CellGrid::shorten() {
 void CellGrid::place(Level& level) {
   // Even, boxes are spread over four times their mean distance from the middle.
   const double count = static_cast<double>(level.bodies.size());
-  Vec3 centre = Vec3::Zero(), spread = Vec3::Zero();
-  for (const int i : level.bodies) centre += wide_[static_cast<std::size_t>(i)].lo / count;
-  for (const int i : level.bodies)
-    spread += (wide_[static_cast<std::size_t>(i)].lo - centre).cwiseAbs() / count;
+  Vec3 spread = Vec3::Zero();
+  double largest = 0.0;
+  for (const int i : level.bodies) {
+    const Vec3 away = (wide_[static_cast<std::size_t>(i)].lo - middle_).cwiseAbs();
+    spread += away / count;
+    largest = std::max(largest, away.maxCoeff());
+  }
+  const double cell = std::ldexp(usual_, 2 * level.size);
+  level.reach = 3.0 * kRounding * (largest + cell);
+  level.perCell = 1.0 / (cell + 2.0 * level.reach);
   for (int k = 0; k < 3; ++k) {
     const double cells = std::min(4.0 * spread[k] * level.perCell + 2.0, kFar);
     level.bits[static_cast<std::size_t>(k)] =
@@ -296,7 +322,8 @@ void CellGrid::findWithin(const Level& level) {
 void CellGrid::findAcross(const Level& small, const Level& large) {
   for (const Entry& entry : small.entries) {
     const Aabb& box = wide_[static_cast<std::size_t>(entry.body)];
-    const Vec3 lo = box.lo - middle_, hi = box.hi - middle_;
+    const Vec3 lo = (box.lo - middle_).array() - large.reach;
+    const Vec3 hi = (box.hi - middle_).array() + large.reach;
     const auto from = [&](int k) { return cellAlong(lo[k], large.perCell) - 1; };
     const auto to = [&](int k) { return cellAlong(hi[k], large.perCell); };
     for (int z = from(2); z <= to(2); ++z)

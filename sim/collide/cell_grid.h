@@ -13,8 +13,8 @@ namespace tumble {
 
 /// Finds overlapping boxes by the cells in which they begin, and remembers which are near: boxes
 /// are grown by a margin, and while none has left its grown box, only grown boxes that overlap can
-/// be pairs (Verlet, "Computer Experiments on Classical Fluids", 1967). Where the grid would be
-/// made anew at every call it takes no margin for a while.
+/// be pairs (Verlet, "Computer Experiments on Classical Fluids", 1967). The faster a box has moved,
+/// the larger its margin; a few that are too fast for one are held against all.
 ///
 /// Boxes of one level, up to four times as large as each other, share a grid whose cells are no
 /// smaller than they: two that overlap begin in the same cell or in neighbours. A box is held
@@ -44,6 +44,7 @@ class CellGrid {
   struct Level {
     int size = 0;                       ///< boxes up to 4^size times the usual one
     double perCell = 0.0;               ///< [1/m] one over the edge of a cell
+    double reach = 0.0;                 ///< [m] by which rounding may enlarge a box
     std::array<unsigned, 3> bits = {};  ///< buckets along each axis are 2^bits, four or more
     std::vector<int> bodies;
     std::vector<int> first;  ///< entry of each bucket, and one past the last
@@ -57,6 +58,9 @@ class CellGrid {
   bool anyLeft(std::span<const Aabb> boxes);
   void build(std::span<const Aabb> boxes);
   void grow(std::span<const Aabb> boxes);
+  double median(std::vector<double>& values) const;
+  double motionOf(std::size_t body) const;
+  void chooseMiddle();
   void sortIntoLevels();
   void place(Level& level);
   void findWithin(const Level& level);
@@ -76,13 +80,12 @@ class CellGrid {
   double usual_ = 0.0;         ///< [m] edge of a cell of level 0
   std::vector<Level> levels_;  ///< from small to large; only the first `used_` are
   std::size_t used_ = 0;
-  std::vector<int> few_;  ///< boxes held against all
-  int hurry_ = 0;         ///< calls left without a margin
-  long calls_ = 0, builds_ = 0, lastBuild_ = -1;
+  std::vector<int> few_;         ///< boxes held against all
+  long builds_ = 0, calls_ = 0;  ///< calls since the last of them
 
   // Scratch, to allocate nothing once warm.
   std::vector<Aabb> wide_;  ///< grown boxes before rounding
-  std::vector<double> extents_, sorted_;
+  std::vector<double> extents_, values_;
   std::vector<int> size_, bucket_;
   std::vector<Pair> found_;
 };

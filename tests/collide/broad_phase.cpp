@@ -1,10 +1,29 @@
 // Chapter 5, collide: every row of the table of broad phases against looking at every pair.
 #include "sim/collide/broad_phase.h"
 
+#include <cstdlib>
 #include <limits>
+#include <new>
 
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
+
+namespace {
+long allocations = 0;
+}
+
+// This program counts its allocations.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
 
 namespace tumble {
 namespace {
@@ -257,6 +276,56 @@ TEST_CASE("the grid is made anew only when a box has left its neighbourhood") {
   CAPTURE(grid.builds() - still);
   CHECK(grid.builds() - still >= 2);
   CHECK(grid.builds() - still <= 10);
+}
+
+TEST_CASE("a few boxes that are too fast for a margin do not make the grid anew at every call") {
+  Random random(26);
+  Loose swarm;
+  swarm.side = 10.0;
+  for (int i = 0; i < 500; ++i)
+    swarm.add(random.vector(-9.0, 9.0), Vec3::Constant(0.5), random.vector(-0.01, 0.01));
+  for (int i = 0; i < 5; ++i) swarm.way[static_cast<std::size_t>(i)] = random.vector(-3.0, 3.0);
+  CellGrid grid;
+  Pairs pairs;
+  int wrong = 0;
+  for (int k = 0; k < 100; ++k) {
+    swarm.step();
+    grid.update(swarm.now, pairs);
+    wrong += pairs != bruteForce(swarm.now);
+  }
+  CHECK(wrong == 0);
+  CAPTURE(grid.builds());
+  CHECK(grid.builds() < 40);
+}
+
+// The same crowd, moving steadily: what is found stays about as much.
+TEST_CASE("no broad phase allocates once warm") {
+  for (BroadPhase& broadPhase : everyRow()) {
+    Random random(27);
+    Loose swarm;
+    swarm.side = 10.0;
+    for (int i = 0; i < 300; ++i)
+      swarm.add(random.vector(-9.0, 9.0), Vec3::Constant(0.5), random.vector(-0.02, 0.02));
+    for (int k = 0; k < 400; ++k) {
+      swarm.step();
+      broadPhase.update(swarm.now);
+    }
+    // Warm: the same way once more.
+    const Loose again = swarm;
+    for (int k = 0; k < 50; ++k) {
+      swarm.step();
+      broadPhase.update(swarm.now);
+    }
+    broadPhase.update(again.now);
+    swarm = again;
+    broadPhase.update(swarm.now);
+    const long before = allocations;
+    for (int k = 0; k < 50; ++k) {
+      swarm.step();
+      broadPhase.update(swarm.now);
+    }
+    CHECK(allocations == before);
+  }
 }
 
 }  // namespace tumble
