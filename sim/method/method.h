@@ -28,7 +28,8 @@ struct Method {
 std::span<const Method> methods();
 const Method* findMethod(std::string_view name);
 
-/// Pairs of bodies worth a closer look: boxes overlap, and not both are fixed.
+/// Pairs of bodies worth a closer look: boxes overlap, and not both are fixed. The witnesses of
+/// state.near pass on to the pairs that stay; the caller puts the pairs in its place.
 /// `boxes` has one entry per body of model.solid.
 std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
                                            std::span<const Aabb> boxes);
@@ -48,6 +49,17 @@ void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
 /// b is the body that stands first in the scene. Appends to `contacts`.
 void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pair<int, int> pair,
                   double margin, std::vector<Contact>& contacts);
+
+/// The same for the near pair k of the state, at its bodies' poses, but first asks the plane that
+/// parted the pair when it was last looked at. The answer is the same, bit by bit; the certificate
+/// counts how often the plane gave it.
+void findNearContacts(const Model& model, State& state, std::size_t k, double margin,
+                      std::vector<Contact>& contacts, Report& report);
+
+/// Whether the remembered plane of near pair k shows it apart by more than `margin` [m] with these
+/// bodies.
+bool planeShowsApart(const Model& model, const State& state, std::span<const RigidBody> bodies,
+                     std::size_t k, double margin, Report& report);
 
 /// The last instant of the grid of step h [s] after step k, not beyond the duration.
 double gridTime(const Model& model, long k, double h);

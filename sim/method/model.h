@@ -84,6 +84,7 @@ struct WorldDef {
   std::vector<BodyDef> bodies;
   std::vector<Force> forces;
   std::vector<PairDef> pairs;
+  bool rememberPlanes = true;  ///< false: every pair is searched anew, for the same motion
 };
 
 /// A world that cannot be: which part of the definition, and why.

@@ -3,6 +3,21 @@
 #include "sim/method/method.h"
 
 namespace tumble {
+namespace {
+
+/// Planes of pairs that are near no longer are forgotten. Both lists are sorted.
+void passWitnesses(std::span<const std::pair<int, int>> near, State& state) {
+  std::vector<Witness> passed(near.size());
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    while (old < state.witnesses.size() && state.near[old] < near[k]) ++old;
+    if (old < state.witnesses.size() && state.near[old] == near[k])
+      passed[k] = state.witnesses[old];
+  }
+  state.witnesses.swap(passed);
+}
+
+}  // namespace
 
 std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
                                            std::span<const Aabb> boxes) {
@@ -12,6 +27,7 @@ std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
     const int b = model.solid[i], a = model.solid[j];
     if (!(model.fixed(a) && model.fixed(b))) near.emplace_back(b, a);
   }
+  passWitnesses(near, state);
   return near;
 }
 
@@ -60,6 +76,32 @@ void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pa
     c.friction = surface.friction;
     contacts.push_back(c);
   }
+}
+
+bool planeShowsApart(const Model& model, const State& state, std::span<const RigidBody> bodies,
+                     std::size_t k, double margin, Report& report) {
+  if (!model.def.rememberPlanes) return false;
+  const auto [b, a] = state.near[k];
+  ++report.certificate.plane_tests;
+  const bool apart = showsApart(state.witnesses[k], model.shapes[a], bodies[a].pose(),
+                                model.shapes[b], bodies[b].pose(), margin);
+  if (apart) ++report.certificate.plane_hits;
+  return apart;
+}
+
+void findNearContacts(const Model& model, State& state, std::size_t k, double margin,
+                      std::vector<Contact>& contacts, Report& report) {
+  if (planeShowsApart(model, state, state.bodies, k, margin, report)) return;
+  const std::size_t before = contacts.size();
+  findContacts(model, state.bodies, state.near[k], margin, contacts);
+  if (!model.def.rememberPlanes) return;
+  const auto [b, a] = state.near[k];
+  const Pose poseA = state.bodies[a].pose(), poseB = state.bodies[b].pose();
+  const ContactPoint plane =
+      contacts.size() > before
+          ? contacts[before].point
+          : separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB);
+  state.witnesses[k] = witnessOf(plane, poseA, poseB);
 }
 
 }  // namespace tumble

@@ -30,6 +30,8 @@ struct Event {
 struct Certificate {
   long steps = 0, events = 0;
   long evaluations = 0;              ///< of the forces on all bodies; a Taylor jet counts its order
+  long plane_tests = 0;              ///< looks at a pair that was near
+  long plane_hits = 0;               ///< of these, answered by a plane that parted it before
   double max_penetration = 0.0;      ///< [m] max(0, −separation)
   double max_closed_height = 0.0;    ///< [m] of bounces that were left out at the end of a row
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
@@ -51,6 +53,8 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"steps", &Certificate::steps},
     {"events", &Certificate::events},
     {"evaluations", &Certificate::evaluations},
+    {"plane_tests", &Certificate::plane_tests},
+    {"plane_hits", &Certificate::plane_hits},
     {"max_penetration", &Certificate::max_penetration},
     {"max_closed_height", &Certificate::max_closed_height},
     {"max_complementarity", &Certificate::max_complementarity},

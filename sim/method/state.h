@@ -10,6 +10,7 @@
 
 #include "sim/body/rigid_body.h"
 #include "sim/collide/broad_phase.h"
+#include "sim/collide/witness.h"
 #include "sim/contact/contact.h"
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
@@ -58,6 +59,7 @@ struct State {
   std::map<ContactKey, Arrival> arrivals;
 
   std::vector<std::pair<int, int>> near;  ///< pairs that the next step may bring together
+  std::vector<Witness> witnesses;         ///< planes that parted them when last looked at
 
   // What only `course` remembers: whether the contacts of this instant are known, and the events
   // since the last whole step.

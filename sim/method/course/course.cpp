@@ -92,8 +92,8 @@ void Course::findNear() {
 void Course::findTouching() {
   findNear();
   touching_.clear();
-  for (const auto& pair : state_.near)
-    findContacts(model_, state_.bodies, pair, tolerance_.touch, touching_);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    findNearContacts(model_, state_, k, tolerance_.touch, touching_, report_);
   for (const Contact& c : touching_)
     report_.certificate.max_penetration =
         std::max(report_.certificate.max_penetration, -c.point.separation);

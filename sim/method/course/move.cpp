@@ -78,6 +78,10 @@ double Course::allowance(double h) {
   double least = kInfinity;
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto& [b, a] = state_.near[k];
+    // A gap is at least 1/√3 of the distance: a plane this wide leaves the least as it is.
+    if (std::isfinite(least) &&
+        planeShowsApart(model_, state_, trial_, k, 2.0 * std::max(0.0, least + floor_[k]), report_))
+      continue;
     const double gap =
         separation(model_.shapes[a], trial_[a].pose(), model_.shapes[b], trial_[b].pose());
     least = std::min(least, gap - floor_[k]);

@@ -21,8 +21,8 @@ double Stepping::deepestOverlap() {
   // Neighbours within this gap take part, so that nothing is lifted into them.
   constexpr double kNeighbour = 1e-4;  // [m]
   overlaps_.clear();
-  for (const auto& pair : state_.near)
-    findContacts(model_, state_.bodies, pair, kNeighbour, overlaps_);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    findNearContacts(model_, state_, k, kNeighbour, overlaps_, report_);
   double deepest = 0.0;
   for (const Contact& c : overlaps_) deepest = std::max(deepest, -c.point.separation);
   return deepest;

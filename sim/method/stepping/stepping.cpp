@@ -78,7 +78,8 @@ void Stepping::findNear(double h) {
   state_.near = nearPairs(model_, state_, boxes);
   if (stopAtUnknownPair(model_, state_.near, report_)) return;
   contacts_.clear();
-  for (const auto& pair : state_.near) {
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto& pair = state_.near[k];
     // As far as the two surfaces can come towards each other within the step.
     const RigidBody &b = state_.bodies[pair.first], &a = state_.bodies[pair.second];
     double speed = (a.v - b.v).norm();
@@ -86,8 +87,8 @@ void Stepping::findNear(double h) {
       const double radius = boundingRadius(model_.shapes[i]);
       if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
     }
-    findContacts(model_, state_.bodies, pair, h * speed + 2.0 * g * h * h + tolerance_.touch,
-                 contacts_);
+    findNearContacts(model_, state_, k, h * speed + 2.0 * g * h * h + tolerance_.touch, contacts_,
+                     report_);
   }
 }
 
