@@ -4,8 +4,10 @@
 #include <set>
 #include <vector>
 
+#include "sim/collide/contact_kind.h"
 #include "tests/catch.h"
 #include "tests/collide/boxes.h"
+#include "tests/collide/hulls.h"
 
 namespace tumble {
 namespace {
@@ -19,6 +21,7 @@ Quat onCorner() {
 
 struct Kind {
   const char* name;
+  ContactKind kind;
   Boxes boxes;  // a above b along Y, touching
   std::set<NormalTie> ties;
   std::vector<Vec3> points;  // where they touch
@@ -35,25 +38,38 @@ std::vector<Kind> kinds() {
   const double s = std::sqrt(0.5) - 0.5;  // where the outlines of two squares at 45° cross
   using enum NormalTie;
   return {
-      {"vertex on face", {kCube, kCube, at(kHalfSpaceDiagonal, onCorner()), b}, {FaceOfB}, {o}},
-      {"face on vertex", {kCube, kCube, at(0.5, flat), bOnCorner}, {FaceOfA}, {o}},
+      {"vertex on face",
+       ContactKind::VertexFace,
+       {kCube, kCube, at(kHalfSpaceDiagonal, onCorner()), b},
+       {FaceOfB},
+       {o}},
+      {"face on vertex",
+       ContactKind::VertexFace,
+       {kCube, kCube, at(0.5, flat), bOnCorner},
+       {FaceOfA},
+       {o}},
       {"edge on edge, crossing",
+       ContactKind::EdgeEdge,
        {kCube, kCube, at(kHalfDiagonal, onEdgeAcross), bOnEdge},
        {Edges},
        {o}},
       {"edge on face",
+       ContactKind::EdgeFace,
        {kCube, kCube, at(kHalfDiagonal, onEdge), b},
        {FaceOfB},
        {{0.0, 0.0, -0.5}, {0.0, 0.0, 0.5}}},
       {"face on face",
+       ContactKind::FaceFace,
        {kCube, kCube, at(0.5, flat), b},
        {FaceOfB},
        {{-0.5, 0.0, -0.5}, {-0.5, 0.0, 0.5}, {0.5, 0.0, -0.5}, {0.5, 0.0, 0.5}}},
       {"face on face, overhanging",
+       ContactKind::FaceFace,
        {kCube, kCube, {{0.25, 0.5, 0.125}, flat}, b},
        {FaceOfB},
        {{-0.25, 0.0, -0.375}, {-0.25, 0.0, 0.5}, {0.5, 0.0, -0.375}, {0.5, 0.0, 0.5}}},
       {"face on face, turned by 45 degrees",
+       ContactKind::FaceFace,
        {kCube, kCube, at(0.5, turn(Vec3::UnitY(), 45.0)), b},
        {FaceOfB},
        {{-0.5, 0.0, -s},
@@ -65,22 +81,32 @@ std::vector<Kind> kinds() {
         {s, 0.0, -0.5},
         {s, 0.0, 0.5}}},
       {"face on face, sharing one edge of their outlines",
+       ContactKind::EdgeEdge,
        {kCube, kCube, {{1.0, 0.5, 0.0}, flat}, b},
        {FaceOfB},
        {{0.5, 0.0, -0.5}, {0.5, 0.0, 0.5}}},
       {"face on face, sharing one corner",
+       ContactKind::VertexVertex,
        {kCube, kCube, {{1.0, 0.5, 1.0}, flat}, b},
        {FaceOfB},
        {{0.5, 0.0, 0.5}}},
       {"edge on edge, parallel",
+       ContactKind::EdgeEdge,
        {kCube, kCube, at(kHalfDiagonal, onEdge), bOnEdge},
        {FaceOfB, FaceOfA},
        {{0.0, 0.0, -0.5}, {0.0, 0.0, 0.5}}},
       {"vertex on vertex",
+       ContactKind::VertexVertex,
        {kCube, kCube, at(kHalfSpaceDiagonal, onCorner()), bOnCorner},
        {FaceOfB, FaceOfA, Edges},
        {o}},
+      {"vertex on edge",
+       ContactKind::VertexEdge,
+       {kCube, kCube, at(kHalfSpaceDiagonal, onCorner()), bOnEdge},
+       {FaceOfB, FaceOfA, Edges},
+       {o}},
       {"wide plate on post",
+       ContactKind::FaceFace,
        {Box{{3.0, 0.1, 3.0}}, kCube, at(0.1, turn(Vec3::UnitY(), 30.0)), b},
        {FaceOfB},
        {{-0.5, 0.0, -0.5}, {-0.5, 0.0, 0.5}, {0.5, 0.0, -0.5}, {0.5, 0.0, 0.5}}},
@@ -167,6 +193,58 @@ TEST_CASE("n rides on the face that its tie names, and along the edges that it n
       }
     }
   }
+}
+
+// Oracle: by hand. Slide question: which collisions are possible?
+TEST_CASE(
+    "each of the six kinds of contact is called by its name, between boxes and between hulls") {
+  std::set<ContactKind> seen;
+  for (const Kind& kind : kinds()) {
+    CAPTURE(kind.name);
+    const Boxes& s = kind.boxes;
+    const Manifold manifold = s.points(1e-8);
+    const ContactKind found = contactKind(s.a, s.poseA, s.b, s.poseB, manifold, 1e-8);
+    CHECK(contactKindName(found) == contactKindName(kind.kind));
+    seen.insert(found);
+
+    const Shape a = boxHull(s.a.half), b = boxHull(s.b.half);
+    Manifold ofHulls;
+    collide(a, s.poseA, b, s.poseB, 1e-8, ofHulls);
+    CHECK(sameSet(ofHulls, kind.points, 1e-14));
+    CHECK(contactKind(a, s.poseA, b, s.poseB, ofHulls, 1e-8) == kind.kind);
+    for (const ContactPoint& c : ofHulls) {
+      CHECK(kind.ties.count(c.tie) == 1);
+      CHECK(std::abs(c.separation) < 1e-14);
+    }
+    // Exchanged, the same contact has the same name.
+    const Boxes other = s.swapped();
+    const Manifold mirrored = other.points(1e-8);
+    CHECK(contactKind(other.a, other.poseA, other.b, other.poseB, mirrored, 1e-8) == kind.kind);
+  }
+  CHECK(seen.size() == 6);
+}
+
+// Oracle: definition. Two crossing edges fix n up to its sign, which points out of b towards a.
+TEST_CASE("where edges cross, n is along ea x eb, out of b towards a") {
+  Random random(49);
+  int crossing = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Boxes s{random.box(), random.box(), random.pose(0.8), random.pose(0.8)};
+    const Manifold manifold = s.points(1e-3);
+    if (manifold.empty() || manifold[0].tie != NormalTie::Edges) continue;
+    ++crossing;
+    for (const ContactPoint& c : manifold) {
+      const Vec3 along = c.ea.cross(c.eb).normalized();
+      const double side = along.dot(c.n);
+      REQUIRE(std::abs(std::abs(side) - 1.0) < 1e-12);
+      // a's corners nearest to b are b's side of the plane by no more than the overlap.
+      const Vec3 down = s.poseA.q.conjugate() * -c.n, up = s.poseB.q.conjugate() * c.n;
+      const double low = c.n.dot(s.poseA.x) - down.cwiseAbs().dot(s.a.half);
+      const double top = c.n.dot(s.poseB.x) + up.cwiseAbs().dot(s.b.half);
+      REQUIRE(std::abs((low - top) - s.gap()) < 1e-12);
+    }
+  }
+  REQUIRE(crossing > 100);
 }
 
 }  // namespace

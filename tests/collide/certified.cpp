@@ -2,7 +2,6 @@
 #include "sim/collide/certified.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "sim/collide/collide.h"
@@ -153,6 +152,38 @@ TEST_CASE("faces, edges and corners that touch exactly are told from those that 
       if (std::abs(both.value) >= both.bound) CHECK((both.value > 0.0 ? 1 : -1) == truth);
     }
   }
+}
+
+// Oracle: exact integers say whether any plane separates; long doubles whether this one does.
+TEST_CASE("a separating plane is found if and only if there is one") {
+  Random random(75);
+  int planes = 0, none = 0;
+  for (int k = 0; k < 3000; ++k) {
+    Pair pair = someHulls(random);
+    if (k % 2 == 1) {
+      const ContactPoint c = separatingPlane(pair.a, pair.poseA, pair.b, pair.poseB);
+      pair.poseA.x -= (c.separation - 1e-9 * (random.below(2) ? 1.0 : -1.0)) * c.n;
+    }
+    const ContactPoint c = separatingPlane(pair.a, pair.poseA, pair.b, pair.poseB);
+    if (std::abs(c.separation) < 1e-14 * pair.size()) continue;
+    const int truth = exact::Sign(pair.a, pair.poseA, pair.b, pair.poseB)();
+    REQUIRE((c.separation > 0.0) == (truth > 0));
+    if (truth <= 0) {
+      ++none;
+      continue;
+    }
+    ++planes;
+    const auto outlineA = exact::outlineOf(pair.a), outlineB = exact::outlineOf(pair.b);
+    const auto solids = exact::placed<long double>(outlineA, pair.poseA, outlineB, pair.poseB);
+    const auto n = exact::entered<long double>(c.n);
+    long double low = 1e300L, top = -1e300L;
+    for (const auto& p : solids.a) low = std::min(low, exact::dot(n, p));
+    for (const auto& p : solids.b) top = std::max(top, exact::dot(n, p));
+    REQUIRE(low > top);
+  }
+  CAPTURE(planes, none);
+  REQUIRE(planes > 500);
+  REQUIRE(none > 500);
 }
 
 TEST_CASE("only boxes and hulls have a certified gap") {
