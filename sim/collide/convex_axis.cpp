@@ -8,6 +8,8 @@ namespace {
 
 // Below this sine two edges are parallel up to rounding: what they could add is sine · size.
 constexpr double kParallel = 1e-15;
+// Above this one their product is good enough to see that it cannot win.
+constexpr double kClearSine = 0.1;
 
 // Across the faces of `solid`: the widest slab between it and the other, and which face.
 struct WidestFace {
@@ -56,19 +58,25 @@ void crossing(const Vec3& a, const Vec3& ea, const Vec3& b, const Vec3& eb, Plan
   plane.pb = b + ((db - k * da) / det) * eb;
 }
 
-// The plane along edges i of a and j of b; on the side `up` of both.
-void tryEdges(const Core& a, int i, const Core& b, int j, double up, double bias, Plane& best) {
-  const Vec3 alongA = a.along(a.edges[i]), alongB = b.along(b.edges[j]);
-  const double lengthA = alongA.norm(), lengthB = alongB.norm();
-  const Vec3 ea = alongA / lengthA, eb = alongB / lengthB;
-  const Vec3 product = ea.cross(eb);
+// All edges as unit vectors.
+Few<Vec3> directions(const Core& core) {
+  Few<Vec3> unit;
+  for (const Polyhedron::Edge& e : core.edges) unit.push_back(core.along(e).normalized());
+  return unit;
+}
+
+// The plane along edges i of a and j of b with directions ea and eb; `up` tells its side.
+void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const Vec3& eb, double up,
+              double bias, Plane& best) {
+  const Vec3 product = up * ea.cross(eb);
   const double sine = product.norm();
   if (sine < kParallel) return;
-  // Where the sine is small, the product is off also along the edges; across them it is free.
-  Vec3 n = (up / sine) * product;
-  n = (n - n.dot(ea) * ea).normalized();
   const double floor = best.gap + (best.tie == NormalTie::Edges ? 0.0 : bias);
   const Vec3 &p = a.points[a.edges[i].from], &q = b.points[b.edges[j].from];
+  if (sine > kClearSine && !(product.dot(p - q) > floor * sine)) return;
+  // Where the sine is small, the product is off also along the edges; across them it is free.
+  Vec3 n = product / sine;
+  n = (n - n.dot(ea) * ea).normalized();
   if (!(n.dot(p - q) > floor)) return;
   const double gap = coreGap(a, b, n);
   if (!(gap > floor)) return;
@@ -87,15 +95,16 @@ void tryEdges(const Core& a, int i, const Core& b, int j, double up, double bias
 // other, and both are on one side of the sphere.
 void tryAllEdges(const Core& a, const Core& b, double bias, Plane& best) {
   const bool facesA = !a.normals.empty(), facesB = !b.normals.empty();
+  const Few<Vec3> alongA = directions(a), alongB = directions(b);
   Few<double> heights(b.normals.size());
   for (int i = 0; i < static_cast<int>(a.edges.size()); ++i) {
     const Polyhedron::Edge& edgeA = a.edges[i];
-    const Vec3 ea = a.along(edgeA);
+    const Vec3& ea = alongA[i];
     for (std::size_t f = 0; f < heights.size(); ++f) heights[f] = b.normals[f].dot(ea);
     for (int j = 0; j < static_cast<int>(b.edges.size()); ++j) {
       const Polyhedron::Edge& edgeB = b.edges[j];
       if (facesB && !(heights[edgeB.left] * heights[edgeB.right] < 0.0)) continue;
-      const Vec3 eb = b.along(edgeB);
+      const Vec3& eb = alongB[j];
       double up = 0.0;  // the side of ea × eb on which both have their normals
       if (facesA) {
         const double left = a.normals[edgeA.left].dot(eb), right = a.normals[edgeA.right].dot(eb);
@@ -108,10 +117,10 @@ void tryAllEdges(const Core& a, const Core& b, double bias, Plane& best) {
         up = side;
       }
       if (up != 0.0) {
-        tryEdges(a, i, b, j, up, bias, best);
+        tryEdges(a, i, ea, b, j, eb, up, bias, best);
       } else {
-        tryEdges(a, i, b, j, 1.0, bias, best);
-        tryEdges(a, i, b, j, -1.0, bias, best);
+        tryEdges(a, i, ea, b, j, eb, 1.0, bias, best);
+        tryEdges(a, i, ea, b, j, eb, -1.0, bias, best);
       }
     }
   }
