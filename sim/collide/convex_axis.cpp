@@ -90,38 +90,61 @@ void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const 
   crossing(p, ea, q, eb, best);
 }
 
+// What the search over pairs of edges asks of one solid.
+struct Edges {
+  Few<Vec3> along;
+  const Polyhedron::Edge* edges;
+  const Vec3* normals;  // none if the solid is a segment
+  int count, faces;
+
+  explicit Edges(const Core& core)
+      : along(directions(core)),
+        edges(core.edges.data()),
+        normals(core.normals.data()),
+        count(static_cast<int>(core.edges.size())),
+        faces(static_cast<int>(core.normals.size())) {}
+};
+
+// The edges of b whose arcs of normals cross the great circle that edge `ea` of a stands square on;
+// the heights of b's normals over that circle. Written without branches, which would be guessed
+// wrong half the time.
+int crossingEdges(const Vec3& ea, const Edges& b, double* heights, int* crossing) {
+  for (int f = 0; f < b.faces; ++f) heights[f] = b.normals[f].dot(ea);
+  int count = 0;
+  for (int j = 0; j < b.count; ++j) {
+    crossing[count] = j;
+    count += b.faces == 0 || heights[b.edges[j].left] * heights[b.edges[j].right] < 0.0 ? 1 : 0;
+  }
+  return count;
+}
+
 // An edge between two faces is an arc of normals; that of a segment is a whole circle. The arc of
 // an edge of b and the mirrored arc of one of a cross if each has its ends on two sides of the
 // other, and both are on one side of the sphere.
-void tryAllEdges(const Core& a, const Core& b, double bias, Plane& best) {
-  const bool facesA = !a.normals.empty(), facesB = !b.normals.empty();
-  const Few<Vec3> alongA = directions(a), alongB = directions(b);
-  Few<double> heights(b.normals.size());
-  for (int i = 0; i < static_cast<int>(a.edges.size()); ++i) {
+void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best) {
+  const Edges a(coreA), b(coreB);
+  Few<double> heights(b.faces);
+  Few<int> crossing(b.count + 1);
+  for (int i = 0; i < a.count; ++i) {
     const Polyhedron::Edge& edgeA = a.edges[i];
-    const Vec3& ea = alongA[i];
-    for (std::size_t f = 0; f < heights.size(); ++f) heights[f] = b.normals[f].dot(ea);
-    for (int j = 0; j < static_cast<int>(b.edges.size()); ++j) {
-      const Polyhedron::Edge& edgeB = b.edges[j];
-      if (facesB && !(heights[edgeB.left] * heights[edgeB.right] < 0.0)) continue;
-      const Vec3& eb = alongB[j];
+    const Vec3& ea = a.along.data()[i];
+    const int found = crossingEdges(ea, b, heights.data(), crossing.data());
+    for (int k = 0; k < found; ++k) {
+      const int j = crossing.data()[k];
+      const Vec3& eb = b.along.data()[j];
       double up = 0.0;  // the side of ea × eb on which both have their normals
-      if (facesA) {
+      if (a.faces > 0) {
         const double left = a.normals[edgeA.left].dot(eb), right = a.normals[edgeA.right].dot(eb);
         if (!(left * right < 0.0)) continue;
         up = left < 0.0 ? 1.0 : -1.0;
       }
-      if (facesB) {
-        const double side = heights[edgeB.left] < 0.0 ? 1.0 : -1.0;
-        if (facesA && side != up) continue;
+      if (b.faces > 0) {
+        const double side = heights.data()[b.edges[j].left] < 0.0 ? 1.0 : -1.0;
+        if (a.faces > 0 && side != up) continue;
         up = side;
       }
-      if (up != 0.0) {
-        tryEdges(a, i, ea, b, j, eb, up, bias, best);
-      } else {
-        tryEdges(a, i, ea, b, j, eb, 1.0, bias, best);
-        tryEdges(a, i, ea, b, j, eb, -1.0, bias, best);
-      }
+      if (up == 0.0) tryEdges(coreA, i, ea, coreB, j, eb, -1.0, bias, best);
+      tryEdges(coreA, i, ea, coreB, j, eb, up == 0.0 ? 1.0 : up, bias, best);
     }
   }
 }
