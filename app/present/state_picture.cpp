@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/present/bodies.h"
 #include "app/present/palette.h"
 #include "app/present/present.h"
 
@@ -32,6 +33,24 @@ Label pageLabel(double y, const std::string& text, float size, const Colour& col
   return label;
 }
 
+// The points, and as much room again around them, for arrows.
+std::vector<Eigen::Vector3d> withRoom(std::vector<Eigen::Vector3d> points) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) middle += point / static_cast<double>(points.size());
+  for (Eigen::Vector3d& point : points) point = middle + 1.8 * (point - middle);
+  return points;
+}
+
+// One ring for faults at the same place.
+void addRing(const StateFault& fault, Picture& picture) {
+  for (Mark& mark : picture.marks)
+    if ((mark.position - fault.p).isZero(0.0)) {
+      mark.lines.emplace_back(layerName(fault.layer));
+      return;
+    }
+  picture.marks.push_back({fault.p, {layerName(fault.layer)}, colour::kForce});
+}
+
 }  // namespace
 
 std::string faultText(const Scene& scene, const StateFault& fault) {
@@ -48,10 +67,12 @@ Picture statePicture(const Scene& scene, const StartCheck& check) {
   recording.samples = {check.sample};
   recording.rate = scene.image.rate;
   Scene plain = scene;
+  plain.subtitle = "The state at its start.";
   plain.checks.clear();  // claims are about motions
   plain.show.velocities = true;
   plain.show.contact_forces = check.faults.empty() && check.resting > 0;
-  Picture picture = Presenter(plain, recording).image(0);
+  const std::vector<Eigen::Vector3d> points = withRoom(motionPoints(plain, recording));
+  Picture picture = Presenter(plain, recording, framingOf(plain, points)).image(0);
   picture.labels.push_back(pageLabel(104.0, heading(check.faults), 20.0f,
                                      check.faults.empty() ? colour::kInk : colour::kForce));
   double y = 128.0;
@@ -59,8 +80,7 @@ Picture statePicture(const Scene& scene, const StartCheck& check) {
     Label line = pageLabel(y, faultText(scene, check.faults[i]), 14.0f, colour::kInk);
     line.bold = false;
     picture.labels.push_back(line);
-    picture.marks.push_back(
-        {check.faults[i].p, {layerName(check.faults[i].layer)}, colour::kForce});
+    addRing(check.faults[i], picture);
   }
   return picture;
 }
