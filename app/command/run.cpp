@@ -29,6 +29,8 @@ void printCertificate(const Recording& recording) {
              c.energy_start, c.energy_end, c.energy_lost_impact, c.energy_lost_friction);
   fmt::print("energy balance error {:.2g}   momentum error {:.2g}\n", c.energy_balance_error,
              c.momentum_error);
+  if (c.energy_added_repair != 0.0)
+    fmt::print("energy added by repairs {:.6g} J\n", c.energy_added_repair);
   for (const std::string& note : recording.report.notes) fmt::print("note: {}\n", note);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/present/arrows.h"
 #include "app/present/bodies.h"
 #include "app/present/palette.h"
 #include "app/present/present.h"
@@ -69,10 +70,10 @@ Picture statePicture(const Scene& scene, const StartCheck& check) {
   Scene plain = scene;
   plain.subtitle = "The state at its start.";
   plain.checks.clear();  // claims are about motions
-  plain.show.velocities = true;
   plain.show.contact_forces = check.faults.empty() && check.resting > 0;
   const std::vector<Eigen::Vector3d> points = withRoom(motionPoints(plain, recording));
   Picture picture = Presenter(plain, recording, framingOf(plain, points)).image(0);
+  addVelocities(plain, recording, check.sample, 0.6 * typicalHeight(plain), picture);
   picture.labels.push_back(pageLabel(104.0, heading(check.faults), 20.0f,
                                      check.faults.empty() ? colour::kInk : colour::kForce));
   double y = 128.0;
