@@ -319,7 +319,10 @@ std::vector<std::string> World::features(bool used) const {
   add(!model.def.gravity.isZero(0.0), "gravity");
   const bool contact = model.solid.size() > 1 && parts_->method->contact;
   add(contact, "contact");
-  add(contact && anyBody([](const BodyDef& b) { return b.restitution > 0.0; }), "restitution");
+  const bool springs = model.def.method == "course" && model.def.course.contact == "penalty";
+  add(contact && springs, "penalty springs");
+  add(contact && !springs && anyBody([](const BodyDef& b) { return b.restitution > 0.0; }),
+      "restitution");
   add(contact && anyFriction(model), "friction");
   add(anyBody([](const BodyDef& b) {
         return b.fixed && !(b.velocity.isZero(0.0) && b.angularVelocity.isZero(0.0));

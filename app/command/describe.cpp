@@ -29,10 +29,19 @@ std::string countShapes(const Scene& scene) {
 }
 
 // "course, rk4 at 0.00416667 s, 5 s"
+// What differs from going back to collisions and giving impulses.
+std::string strategyOf(const CourseSettings& course) {
+  if (course.contact == "penalty")
+    return fmt::format(", penalty springs of {:g} N/m, {:g} N s/m", course.stiffness,
+                       course.damping);
+  return course.plan == "backstep" ? "" : ", plan " + course.plan;
+}
+
 std::string methodLine(const WorldDef& world) {
   std::string steps;
   if (world.method == "course")
-    steps = fmt::format(", {} at {:g} s", world.course.integrator, world.course.step);
+    steps = fmt::format(", {} at {:g} s{}", world.course.integrator, world.course.step,
+                        strategyOf(world.course));
   if (world.method == "stepping")
     steps = fmt::format(", {} at {:g} s", world.stepping.solver, world.stepping.step);
   return fmt::format("{}{}, {:g} s", world.method, steps, world.duration);
@@ -97,6 +106,9 @@ int describe(int argc, char** argv) {
   fmt::print("without   {}\n", join(running.features(false)));
   printMasses(scene);
   for (const PanelDef& panel : scene.panels) fmt::print("panel     {}\n", panel.variant.title);
+  for (const GraphDef& graph : scene.graphs)
+    fmt::print("graph     {}: {} of {}, {} curves\n", graph.variant.title, graph.shows, graph.body,
+               graph.curves.size());
   for (const ChartDef& chart : scene.charts)
     fmt::print("chart     {}: {} along {}, {} curves\n", chart.variant.title, chart.error,
                chart.along.parameter, chart.curves.size());

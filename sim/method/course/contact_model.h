@@ -18,7 +18,7 @@ class ContactForces {
  public:
   virtual ~ContactForces() = default;
 
-  /// Begins a stretch of motion in which these contacts last.
+  /// Begins a stretch of motion in which these contacts last, or these pairs overlap.
   virtual void begin(std::span<const Contact> lasting) = 0;
   /// Finds the forces [N] of this moment and adds them to the bodies, which carry their outer
   /// forces.

@@ -18,6 +18,9 @@ void advanceCourse(const Model& model, State& state, double t_end, Report& repor
 void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                 std::vector<Contact>& contacts);
 
+/// Events that are located exactly come out of a store of so many, which every step refills.
+inline constexpr int kBackUps = 400;
+
 /// The integrator that the scene names, and the one that stands in for it while contacts last that
 /// do not offer what it needs.
 class CourseSteppers {
@@ -75,7 +78,14 @@ class Course {
   void chooseLasting();
   /// The contacts that are springs now; tells when they began and ended.
   void chooseSprings();
-  Event springEvent(EventKind kind, const Contact& contact);
+  /// The instant [s] in a step at which the first pair begins or ceases to overlap, so that forces
+  /// set in and end at the ends of steps, where an integrator keeps its order; the step if none
+  /// does. Leaves the motion there in y_ and trial_.
+  /// @param h  of the step, whose end they hold
+  double firstTouch(double h);
+  Event springEvent(EventKind kind, const Contact& contact) const;
+  /// Separation [m] of a pair a time h after now; trial_ is then there.
+  double gapAfter(double h, int a, int b);
   bool wasLasting(int a, int b) const;
   /// Upper estimate [m/s²] of what outer forces do to any body.
   double accelerationScale() const;

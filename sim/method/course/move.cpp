@@ -9,10 +9,10 @@
 namespace tumble {
 namespace {
 
-/// Events that are located exactly come out of a store of kBackUps, which every step refills by
-/// kRefill; beyond, and after kPatience events in a row that move time by nothing, an event may be
-/// seen late by a share kLate of the step.
-constexpr int kBackUps = 400, kRefill = 20, kPatience = 50;
+/// The store of located events is refilled by kRefill in every step; beyond it, and after kPatience
+/// events in a row that move time by nothing, an event may be seen late by a share kLate of the
+/// step.
+constexpr int kRefill = 20, kPatience = 50;
 constexpr double kLate = 0.05;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
@@ -48,6 +48,7 @@ void Course::move() {
     allowance(h);
     closeMissteps(trial_, state_.t + h);
   }
+  if (!contact_.impulses) h = firstTouch(h);
   commit(h < span ? state_.t + h : grid);
 }
 

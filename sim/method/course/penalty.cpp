@@ -1,7 +1,6 @@
 // The penalty method: bodies may sink into each other, and are pushed out the harder the deeper.
 #include <algorithm>
 
-#include "sim/collide/broad_phase.h"
 #include "sim/method/course/contact_model.h"
 #include "sim/method/method.h"
 
@@ -12,7 +11,12 @@ class PenaltyForces : public ContactForces {
  public:
   explicit PenaltyForces(const Model& model) : model_(model) {}
 
-  void begin(std::span<const Contact>) override {}
+  // A stretch ends where another pair begins to overlap.
+  void begin(std::span<const Contact> touching) override {
+    pairs_.clear();
+    for (const Contact& c : touching)
+      if (pairs_.empty() || pairs_.back() != std::pair(c.b, c.a)) pairs_.emplace_back(c.b, c.a);
+  }
 
   SolveReport apply(std::span<RigidBody> bodies) override {
     findOverlaps(bodies);
@@ -46,23 +50,13 @@ class PenaltyForces : public ContactForces {
 
  private:
   void findOverlaps(std::span<const RigidBody> bodies) {
-    boxes_.clear();
-    for (const int i : model_.solid)
-      boxes_.push_back(boundingBox(model_.shapes[i], bodies[i].pose(), 0.0));
-    broadPhase_.update(boxes_);
     contacts_.clear();
-    for (const auto& [i, j] : broadPhase_.pairs()) {
-      const int b = model_.solid[i], a = model_.solid[j];
-      if (model_.fixed(a) && model_.fixed(b)) continue;
-      findContacts(model_, bodies, {b, a}, 0.0, contacts_);
-    }
-    std::erase_if(contacts_, [](const Contact& c) { return c.point.separation >= 0.0; });
+    for (const auto& pair : pairs_) findContacts(model_, bodies, pair, 0.0, contacts_);
     for (Contact& c : contacts_) c.lasting = true;
   }
 
   const Model& model_;
-  std::vector<Aabb> boxes_;
-  BroadPhase broadPhase_;
+  std::vector<std::pair<int, int>> pairs_;  ///< (b, a), each once
   std::vector<Contact> contacts_;
 };
 

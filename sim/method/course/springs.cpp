@@ -1,6 +1,7 @@
 // Contacts that are springs: which there are, and when they began and ended.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collide/collide.h"
 #include "sim/math/root.h"
@@ -18,6 +19,7 @@ bool holds(const std::vector<Contact>& list, const Contact& c) {
 
 void Course::chooseSprings() {
   const std::vector<Contact> before = std::move(state_.lasting);
+  system_.begin(touching_);
   system_.findForces(state_.bodies);
   state_.lasting = system_.contacts();
   // What they took and did not store is lost.
@@ -34,24 +36,34 @@ void Course::chooseSprings() {
   tell(EventKind::Separate, before, state_.lasting);
 }
 
-Event Course::springEvent(EventKind kind, const Contact& c) {
-  Event event{.t = state_.t, .kind = kind, .a = c.a, .b = c.b, .p = c.point.p, .n = c.point.n};
-  if (state_.trail.empty()) return event;
+double Course::gapAfter(double h, int a, int b) {
+  y_ = y0_;
+  steppers_.of(system_).step(system_, state_.t, h, y_);
+  system_.unpack(y_, trial_);
+  return separation(model_.shapes[a], trial_[a].pose(), model_.shapes[b], trial_[b].pose());
+}
 
-  // When the surfaces met: the step is not cut there, since forces do not jump.
-  const double t0 = state_.trail.back().t0, span = state_.t - t0;
-  const auto gap = [&](double h) {
-    y_ = y0_;
-    steppers_.of(system_).step(system_, t0, h, y_);
-    system_.unpack(y_, trial_);
-    return separation(model_.shapes[c.a], trial_[c.a].pose(), model_.shapes[c.b],
-                      trial_[c.b].pose());
-  };
-  const double first = gap(0.0), last = gap(span);
-  if (first != 0.0 && (first > 0.0) != (last > 0.0))
-    event.t = t0 + findRoot(gap, 0.0, span, first, last, 1e-15 + 1e-15 * state_.t).hi;
-  gap(event.t - t0);
-  event.vrel = approachVelocity(trial_[c.a], trial_[c.b], c.point);
+double Course::firstTouch(double h) {
+  const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
+  double first = h;
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto [b, a] = state_.near[k];
+    const auto gap = [&, a = a, b = b](double s) { return gapAfter(s, a, b); };
+    const double end = gap(first);
+    if (gaps_[k] == 0.0 || (gaps_[k] > 0.0) == (end > 0.0)) continue;
+    first = findRoot(gap, 0.0, first, gaps_[k], end, instant).hi;
+  }
+  if (first < h && ++state_.backUpsSpent > kBackUps) {
+    report_.note("more springs set in than a step can hold; some inside a step");
+    first = h;
+  }
+  allowance(first);
+  return first;
+}
+
+Event Course::springEvent(EventKind kind, const Contact& c) const {
+  Event event{.t = state_.t, .kind = kind, .a = c.a, .b = c.b, .p = c.point.p, .n = c.point.n};
+  event.vrel = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
   return event;
 }
 
