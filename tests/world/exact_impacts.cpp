@@ -193,41 +193,82 @@ TEST_CASE("a block slides over a plane, brakes and sticks") {
   CHECK(world.report().certificate.energy_balance_error < 1e-11);
 }
 
-// Oracle: every thin body ends on the side that it came from, or hits. Hit times of those that do
-// not turn have a closed form.
-TEST_CASE("nothing passes through a thin plate, however fast and thin it is") {
-  Random random(17);
-  int hits = 0;
-  double worst = 0.0;
-  for (int k = 0; k < 2000; ++k) {
-    WorldDef def = exactWorld(2.0);
-    def.gravity.setZero();
-    BodyDef plate = box("plate", {1e-4, 4.0, 4.0}, Vec3::Zero(), 1.0);
+namespace {
+
+/// What many thin, fast, spinning bodies did at a plate of 0.1 mm, or at a slot between two.
+struct Throws {
+  int hits = 0, passes = 0, through = 0;
+  double deepest = 0.0;    // [m] overlap at 200 instants of each flight
+  double worstTime = 0.0;  // relative, of those that do not turn
+};
+
+void throwBlade(Random& random, Throws& out) {
+  const Vec3 half(1e-4, 0.2, 0.5);
+  const double gap = random.below(2) == 0 ? 0.0 : random.uniform(0.01, 0.6);
+  const double speed = std::pow(10.0, random.uniform(0.0, 3.0));
+  WorldDef def = exactWorld(6.0 / speed);
+  def.gravity.setZero();
+  for (const double side : {-1.0, 1.0}) {
+    BodyDef plate = box(side < 0 ? "lower" : "upper", {1e-4, 2.0, 4.0}, Vec3::Zero(), 1.0);
+    plate.position.y() = side * (1.0 + 0.5 * gap);
     plate.fixed = true;
-    const Vec3 half = Vec3(1e-4, 0.2, 0.5);
-    BodyDef blade = box("blade", 2.0 * half, Vec3::Zero(), 1.0);
-    blade.position = {-random.uniform(1.0, 3.0), random.uniform(-0.5, 0.5),
-                      random.uniform(-0.5, 0.5)};
-    blade.orientation = random.rotation();
-    const double speed = std::pow(10.0, random.uniform(0.0, 3.0));
-    blade.velocity = {speed, 0.0, 0.0};
-    const bool turns = random.below(2) == 0;
-    if (turns) blade.angularVelocity = random.vector(-300.0, 300.0);
-    def.duration = 6.0 / speed;
-    def.bodies = {plate, blade};
-    World world(def);
-    world.advance(def.duration);
-    const BodySample end = world.sample(def.duration).bodies[1];
-    CAPTURE(k, speed, turns);
-    REQUIRE(end.x.x() < 0.5);
-    REQUIRE(countOf(world.report(), EventKind::Impact) > 0);
-    ++hits;
-    if (turns) continue;
-    const Mat3 R = blade.orientation.toRotationMatrix();
-    const double reach = R.row(0).cwiseAbs() * half;
-    const double exact = (-blade.position.x() - reach - 0.5e-4) / speed;
-    worst = std::max(worst, std::abs(world.report().events[0].t - exact) / exact);
+    def.bodies.push_back(plate);
   }
-  CHECK(hits == 2000);
-  CHECK(worst < 1e-12);
+  BodyDef blade = box("blade", 2.0 * half, Vec3::Zero(), 1.0);
+  const double x = random.uniform(1.0, 3.0), y = random.uniform(-0.5, 0.5),
+               z = random.uniform(-0.5, 0.5);
+  blade.position = {-x, y, z};
+  blade.orientation = random.rotation();
+  blade.velocity = {speed, 0.0, 0.0};
+  const bool turns = random.below(2) == 0;
+  if (turns) blade.angularVelocity = random.vector(-300.0, 300.0);
+  def.bodies.push_back(blade);
+  World world(def);
+  const Shape shape = Box{half};
+  for (int k = 1; k <= 200; ++k) {
+    const double t = def.duration * k / 200;
+    world.advance(t);
+    const BodySample now = world.sample(t).bodies[2];
+    for (int plate : {0, 1})
+      out.deepest =
+          std::max(out.deepest, -separation(shape, {now.x, now.q}, def.bodies[plate].shape,
+                                            {def.bodies[plate].position, Quat::Identity()}));
+  }
+  const bool hit = countOf(world.report(), EventKind::Impact) > 0;
+  ++(hit ? out.hits : out.passes);
+  if (gap == 0.0 && world.sample(def.duration).bodies[2].x.x() > 0.5) ++out.through;
+  if (turns || gap > 0.0) return;
+  const Mat3 R = blade.orientation.toRotationMatrix();
+  const double exact = (x - R.row(0).cwiseAbs() * half - 0.5e-4) / speed;
+  out.worstTime = std::max(out.worstTime, std::abs(world.report().events.at(0).t - exact) / exact);
+}
+
+Throws throwBlades(int count) {
+  Random random(17);
+  Throws all;
+  for (int k = 0; k < count; ++k) throwBlade(random, all);
+  WARN(count << " thin blades at a plate or a slot: through the plate " << all.through
+             << " (0), hits " << all.hits << ", passes of the slot " << all.passes
+             << ", deepest overlap " << all.deepest << " m (1e-11), time of hit " << all.worstTime
+             << " relative (1e-12)");
+  return all;
+}
+
+}  // namespace
+
+// Oracles: sides, brute sampling of gaps, and a closed form for those that do not turn.
+// Measured 2e-13 m at up to 1000 m/s and 300 rad/s, and 3e-16.
+TEST_CASE("nothing passes through a thin plate, however fast and thin it is") {
+  const Throws all = throwBlades(1000);
+  CHECK(all.through == 0);
+  CHECK(all.passes > 10);
+  CHECK(all.deepest < 1e-11);
+  CHECK(all.worstTime < 1e-12);
+}
+
+TEST_CASE("of a hundred thousand blades none does", "[long][figures]") {
+  const Throws all = throwBlades(100'000);
+  CHECK(all.through == 0);
+  CHECK(all.deepest < 1e-11);
+  CHECK(all.worstTime < 1e-12);
 }
