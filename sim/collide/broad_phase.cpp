@@ -28,8 +28,8 @@ constexpr BroadPhaseRow kRows[] = {
     {"grid", "cells of space, and the near pairs found there while boxes stay near", updateGrid},
 };
 
-// Up to this many boxes, looking at every pair costs less (0.74 µs of 30 boxes, the grid 0.97; of
-// 100, 10 µs and 3): tests/bench/sim/broad_phase.cpp.
+// Up to this many boxes, looking at every pair costs less (0.6 µs of 30 boxes, the grid 0.9; of
+// 100, 7 µs and 3): tests/bench/sim/broad_phase.cpp.
 constexpr std::size_t kFewBoxes = 32;
 
 }  // namespace

@@ -38,10 +38,19 @@ float larger(float x, float y) {
   return x < y ? y : x;
 }
 
+/// Widest gap [m] along an axis; < 0 for boxes that overlap.
+template <class Box>
+float gapOf(const Box& a, const Box& b) {
+  const float x = larger(a.lo[0] - b.hi[0], b.lo[0] - a.hi[0]);
+  const float y = larger(a.lo[1] - b.hi[1], b.lo[1] - a.hi[1]);
+  const float z = larger(a.lo[2] - b.hi[2], b.lo[2] - a.hi[2]);
+  return larger(larger(x, y), z);
+}
+
+/// Boxes that overlap are never apart, rounded or not.
 template <class Box>
 bool apart(const Box& a, const Box& b) {
-  return (a.lo[0] > b.hi[0]) | (b.lo[0] > a.hi[0]) | (a.lo[1] > b.hi[1]) | (b.lo[1] > a.hi[1]) |
-         (a.lo[2] > b.hi[2]) | (b.lo[2] > a.hi[2]);
+  return gapOf(a, b) > 0.0f;
 }
 
 /// Calls act(first, last) for the entries in the cells from x0 to x1 of a row, which are fewer than
@@ -97,11 +106,7 @@ void CellGrid::findOverlaps(std::span<const Aabb> boxes, std::vector<Pair>& pair
       const auto j = static_cast<std::size_t>(partner_[k]);
       // Boxes of later partners are on their way from memory meanwhile.
       __builtin_prefetch(&now_[static_cast<std::size_t>(partner_[std::min(k + kAhead, last)])]);
-      const ShortBox b = now_[j];
-      const float gapX = larger(a.lo[0] - b.hi[0], b.lo[0] - a.hi[0]);
-      const float gapY = larger(a.lo[1] - b.hi[1], b.lo[1] - a.hi[1]);
-      const float gapZ = larger(a.lo[2] - b.hi[2], b.lo[2] - a.hi[2]);
-      const float gap = larger(larger(gapX, gapY), gapZ);
+      const float gap = gapOf(a, now_[j]);
       bool is = gap < 0.0f;
       if (!(std::abs(gap) > rounding_)) is = boxes[i].overlaps(boxes[j]);
       pairs[count] = {static_cast<int>(i), static_cast<int>(j)};
