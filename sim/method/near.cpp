@@ -97,10 +97,9 @@ void findNearContacts(const Model& model, State& state, std::size_t k, double ma
   if (!model.def.rememberPlanes) return;
   const auto [b, a] = state.near[k];
   const Pose poseA = state.bodies[a].pose(), poseB = state.bodies[b].pose();
-  const ContactPoint plane =
-      contacts.size() > before
-          ? contacts[before].point
-          : separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB);
+  const ContactPoint plane = contacts.size() > before
+                                 ? contacts[before].point
+                                 : separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB);
   state.witnesses[k] = witnessOf(plane, poseA, poseB);
 }
 
