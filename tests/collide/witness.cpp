@@ -94,7 +94,7 @@ Hull wrapped() {
 
 // Slide SH27, "a good decomposition". Oracle: two methods agree; the triangle between foot, stem
 // and hull is 0.5 m² of the hull's 3.5 m².
-TEST_CASE("a hull around an L is hit where nothing is; boxes and slivers are not", "[figures]") {
+TEST_CASE("a hull around an L is hit where nothing is, boxes and slivers are not", "[figures]") {
   Random random(82);
   const Compound two = twoBoxes(), eight = eightSlivers();
   const Hull one = wrapped();
