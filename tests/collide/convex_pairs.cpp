@@ -110,7 +110,7 @@ TEST_CASE("the plane between any two convex solids is as wide as it says, and no
   }
   WARN("planes between convex solids: measured width off by "
        << off << " m, wider by search: apart " << missed << " m, touching to 1 mm "
-       << missedTouching << " m");
+       << missedTouching << " m; with a cylinder, overlaps to 1 mm, " << missedRound << " m");
   REQUIRE(off < 1e-13);
   REQUIRE(missed < 1e-12);
   REQUIRE(missedTouching < 1e-12);
