@@ -22,8 +22,9 @@ struct Event {
   EventKind kind = EventKind::Impact;
   int a = 0, b = 0;
   Vec3 p = Vec3::Zero(), n = Vec3::UnitY();  ///< n out of b towards a
-  double vrel = 0.0;                         ///< [m/s] most negative n·(ṗa − ṗb) before
-  double j = 0.0;                            ///< [N·s] sum of normal impulses
+  /// [m/s] most negative n·(ṗa − ṗb) before; of springs, when they set in or end
+  double vrel = 0.0;
+  double j = 0.0;  ///< [N·s] sum of normal impulses
 };
 
 /// The certificate that every run ends with. SI.
