@@ -13,7 +13,7 @@ namespace {
 
 /// The worst contact of each pair, of those that `amountOf` gives less than −tolerance.
 template <class Amount>
-std::vector<StateFault> worstOfPairs(Layer layer, double tolerance,
+std::vector<StateFault> worstOfPairs(StateLayer layer, double tolerance,
                                      std::span<const Contact> contacts, Amount amountOf) {
   std::vector<StateFault> faults;
   for (const Contact& c : contacts) {
@@ -66,9 +66,9 @@ void addConstraintForces(const Model& model, std::span<RigidBody> bodies,
 
 }  // namespace
 
-const char* layerName(Layer layer) {
-  if (layer == Layer::Positions) return "positions";
-  return layer == Layer::Velocities ? "velocities" : "accelerations";
+const char* layerName(StateLayer layer) {
+  if (layer == StateLayer::Positions) return "positions";
+  return layer == StateLayer::Velocities ? "velocities" : "accelerations";
 }
 
 std::vector<Contact> touchingContacts(const Model& model, std::span<const RigidBody> bodies) {
@@ -89,14 +89,14 @@ std::vector<Contact> touchingContacts(const Model& model, std::span<const RigidB
 }
 
 std::vector<StateFault> overlapping(const Model& model, std::span<const Contact> contacts) {
-  return worstOfPairs(Layer::Positions, ContactTolerance::forSize(model.size).touch, contacts,
+  return worstOfPairs(StateLayer::Positions, ContactTolerance::forSize(model.size).touch, contacts,
                       [](const Contact& c) { return c.point.separation; });
 }
 
 std::vector<StateFault> approaching(const Model& model, std::span<const RigidBody> bodies,
                                     std::span<const Contact> contacts) {
   return worstOfPairs(
-      Layer::Velocities, ContactTolerance::forSize(model.size).rest, contacts,
+      StateLayer::Velocities, ContactTolerance::forSize(model.size).rest, contacts,
       [&](const Contact& c) { return approachVelocity(bodies[c.a], bodies[c.b], c.point); });
 }
 
@@ -105,7 +105,7 @@ std::vector<StateFault> sinking(const Model& model, std::span<const RigidBody> b
   constexpr double kRounding = 1e-9;  // of the largest acceleration
   double scale = model.def.gravity.norm();
   for (const RigidBody& body : bodies) scale = std::max(scale, body.invM * body.force.norm());
-  return worstOfPairs(Layer::Accelerations, kRounding * std::max(scale, 1e-3), contacts,
+  return worstOfPairs(StateLayer::Accelerations, kRounding * std::max(scale, 1e-3), contacts,
                       [&](const Contact& c) {
                         if (!rests(model, bodies, c)) return 0.0;
                         return normalAcceleration(bodies[c.a], bodies[c.b], c.point);

@@ -11,14 +11,14 @@ namespace tumble {
 
 /// The layers of a state, each of which can be wrong while those before it are right (the three
 /// "Problem" slides of the lecture on contact).
-enum class Layer { Positions, Velocities, Accelerations };
+enum class StateLayer { Positions, Velocities, Accelerations };
 
 /// "positions", "velocities" or "accelerations".
-const char* layerName(Layer layer);
+const char* layerName(StateLayer layer);
 
 /// What is wrong between two bodies, at the worst of their contact points. World frame, SI.
 struct StateFault {
-  Layer layer = Layer::Positions;
+  StateLayer layer = StateLayer::Positions;
   int a = 0, b = 0;
   Vec3 p = Vec3::Zero(), n = Vec3::UnitY();  ///< n out of b towards a
   double amount = 0.0;                       ///< < 0: separation [m], vrel [m/s] or n·p″ [m/s²]

@@ -21,11 +21,11 @@ StartCheck checkedStart(const Scene& scene) {
   }
 }
 
-void printLayer(const Scene& scene, const StartCheck& check, Layer layer) {
+void printLayer(const Scene& scene, const StartCheck& check, StateLayer layer) {
   const auto count = std::count_if(check.faults.begin(), check.faults.end(),
                                    [&](const StateFault& fault) { return fault.layer == layer; });
   fmt::print("  {:<14}{}", layerName(layer), count > 0 ? "NOT OK" : "ok");
-  if (layer == Layer::Accelerations && count == 0 && check.resting > 0)
+  if (layer == StateLayer::Accelerations && count == 0 && check.resting > 0)
     fmt::print("      forces at {} contact points hold what would close at up to {:.4g} m/s²",
                check.resting, -check.unheld);
   fmt::print("\n");
@@ -38,7 +38,8 @@ void printLayer(const Scene& scene, const StartCheck& check, Layer layer) {
 int checkState(const Scene& scene, const std::string& folder) {
   const StartCheck check = checkedStart(scene);
   fmt::print("{}: the state at its start\n", scene.name);
-  for (const Layer layer : {Layer::Positions, Layer::Velocities, Layer::Accelerations})
+  for (const StateLayer layer :
+       {StateLayer::Positions, StateLayer::Velocities, StateLayer::Accelerations})
     printLayer(scene, check, layer);
   if (!folder.empty()) {
     makeFolder(folder);

@@ -56,9 +56,9 @@ void addRing(const StateFault& fault, Picture& picture) {
 
 std::string faultText(const Scene& scene, const StateFault& fault) {
   const std::string &a = scene.world.bodies[fault.a].name, &b = scene.world.bodies[fault.b].name;
-  if (fault.layer == Layer::Positions)
+  if (fault.layer == StateLayer::Positions)
     return fmt::format("\"{}\" is {:.4g} m inside \"{}\"", a, -fault.amount, b);
-  if (fault.layer == Layer::Velocities)
+  if (fault.layer == StateLayer::Velocities)
     return fmt::format("\"{}\" moves into \"{}\" at {:.4g} m/s", a, b, -fault.amount);
   return fmt::format("\"{}\" accelerates into \"{}\" at {:.4g} m/s²", a, b, -fault.amount);
 }

@@ -19,8 +19,8 @@ WorldDef twoBoxes() {
   return def;
 }
 
-std::vector<Layer> layers(const StartCheck& check) {
-  std::vector<Layer> list;
+std::vector<StateLayer> layers(const StartCheck& check) {
+  std::vector<StateLayer> list;
   for (const StateFault& fault : check.faults) list.push_back(fault.layer);
   return list;
 }
@@ -46,7 +46,7 @@ TEST_CASE("positions that are not ok are named with pair and depth") {
   WorldDef def = twoBoxes();
   def.bodies[2].position.y() = 0.75 - 0.03;
   const StartCheck check = World::checkStart(def);
-  REQUIRE(layers(check) == std::vector<Layer>{Layer::Positions});
+  REQUIRE(layers(check) == std::vector<StateLayer>{StateLayer::Positions});
   CHECK(check.faults[0].a == 2);
   CHECK(check.faults[0].b == 1);
   CHECK(check.faults[0].amount == Approx(-0.03).epsilon(1e-12));
@@ -59,7 +59,7 @@ TEST_CASE("velocities that are not ok are named with pair and approach") {
   WorldDef def = twoBoxes();
   def.bodies[2].velocity = {0.2, -0.4, 0.0};
   const StartCheck check = World::checkStart(def);
-  REQUIRE(layers(check) == std::vector<Layer>{Layer::Velocities});
+  REQUIRE(layers(check) == std::vector<StateLayer>{StateLayer::Velocities});
   CHECK(check.faults[0].a == 2);
   CHECK(check.faults[0].b == 1);
   CHECK(check.faults[0].amount == Approx(-0.4).epsilon(1e-12));
@@ -78,7 +78,7 @@ TEST_CASE("accelerations that are not ok are named with pair and size") {
   def.course.contact = "penalty";
   def.bodies.pop_back();
   const StartCheck check = World::checkStart(def);
-  REQUIRE(layers(check) == std::vector<Layer>{Layer::Accelerations});
+  REQUIRE(layers(check) == std::vector<StateLayer>{StateLayer::Accelerations});
   CHECK(check.faults[0].a == 1);
   CHECK(check.faults[0].b == 0);
   CHECK(check.faults[0].amount == Approx(-9.81).epsilon(1e-12));
