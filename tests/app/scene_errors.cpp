@@ -289,7 +289,7 @@ TEST_CASE("a wrong world, or none, is named") {
       {"[world]\nmethod = \"auto\"\n" + body, "2:10",
        "world.method: unknown value 'auto'; valid: course, exact, stepping"},
       {"[world]\nmethod = \"steping\"\n" + body, "2:10", "did you mean 'stepping'?"},
-      {"[world]\nimpact = \"poisson\"\n" + body, "2:10", "valid: simultaneous, sequential"},
+      {"[world]\nimpact = \"bouncy\"\n" + body, "2:10", "valid: reflections, simultaneous, sequential, poisson"},
       {"[world]\nduration = 0\n" + body, "2:12",
        "world.duration: expected a number [s] in (0, 1e+06]"},
       {"[world]\nduration = 1e7\n" + body, "2:12", "found 1e+07"},

@@ -204,7 +204,7 @@ struct Throws {
 
 void throwBlade(Random& random, Throws& out) {
   const Vec3 half(1e-4, 0.2, 0.5);
-  const double gap = random.below(2) == 0 ? 0.0 : random.uniform(0.01, 0.6);
+  const double gap = random.below(2) == 0 ? 0.0 : random.uniform(0.1, 2.0);
   const double speed = std::pow(10.0, random.uniform(0.0, 3.0));
   WorldDef def = exactWorld(6.0 / speed);
   def.gravity.setZero();
