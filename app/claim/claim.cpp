@@ -33,6 +33,8 @@ constexpr Check kChecks[] = {
      planRows, bouncePaths},
     {"spring-contact", "a ball on a penalty floor is half a period in touch; on a rigid one, j",
      springContactRows, nullptr},
+    {"row-of-balls", "balls in a row end with the velocities that the impact law gives them",
+     rowOfBallsRows, nullptr},
 };
 
 }  // namespace

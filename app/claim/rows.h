@@ -20,5 +20,6 @@ std::vector<ClaimRow> flipRows(const Scene&, const Recording&);
 std::vector<ClaimRow> topRows(const Scene&, const Recording&);
 std::vector<ClaimRow> planRows(const Scene&, const Recording&);
 std::vector<ClaimRow> springContactRows(const Scene&, const Recording&);
+std::vector<ClaimRow> rowOfBallsRows(const Scene&, const Recording&);
 
 }  // namespace tumble
