@@ -93,6 +93,58 @@ std::vector<Curve> bouncePaths(const Scene& scene, const Recording&) {
   return curves;
 }
 
+namespace {
+
+// The impact nearest to each true one; nothing for methods whose contacts are no impacts.
+void addHitTimes(const Scene& scene, const Recording& recording, const Fall& fall,
+                 std::vector<ClaimRow>& rows) {
+  const std::vector<Event> hits = eventsOf(recording, fall, EventKind::Impact);
+  if (hits.empty()) return;
+  WorstRow worst(scene.world.bodies[fall.body].name + ": worst instant of a hit / s", 1e-8);
+  for (int n = 1; fall.hitTime(n) < scene.world.duration && fall.apex(n - 1) >= kSmallApex; ++n) {
+    const double exact = fall.hitTime(n);
+    const auto near =
+        std::min_element(hits.begin(), hits.end(), [&](const Event& one, const Event& other) {
+          return std::abs(one.t - exact) < std::abs(other.t - exact);
+        });
+    worst.see(near->t, exact, std::abs(near->t - exact));
+  }
+  rows.push_back(worst.row());
+}
+
+}  // namespace
+
+std::vector<ClaimRow> bouncingRows(const Scene& scene, const Recording& recording) {
+  std::vector<ClaimRow> rows;
+  for (const Fall& fall : fallsOf(scene)) {
+    const BodyDef& body = scene.world.bodies[fall.body];
+    WorstRow worst(body.name + ": worst height, of the first", 1e-8);
+    double height = 0.0, speed = 0.0;
+    for (const Sample& sample : recording.samples) {
+      const BodySample& now = sample.bodies[fall.body];
+      height = fall.height + fall.normal.dot(now.x - body.position);
+      speed = fall.normal.dot(now.v);
+      const double exact = fall.heightAt(sample.t);
+      worst.see(height, exact, std::abs(height - exact) / fall.apex(0));
+    }
+    rows.push_back(worst.row());
+
+    // The energy at the end, as the height that it reaches.
+    double exact = 0.0;
+    if (const double end = scene.world.duration; end < fall.restTime()) {
+      int n = 0;
+      while (fall.hitTime(n + 1) <= end) ++n;
+      exact = fall.apex(n) / fall.apex(0);
+    }
+    const double energy = (height + speed * speed / (2.0 * fall.g)) / fall.apex(0);
+    rows.push_back({body.name + ": energy at the end, of the first", energy, exact,
+                    std::abs(energy - exact), 1e-8});
+    addHitTimes(scene, recording, fall, rows);
+  }
+  if (rows.empty()) rows.push_back(emptyClaim("no body falls onto a floor without spin"));
+  return rows;
+}
+
 std::vector<ClaimRow> restTimeRows(const Scene& scene, const Recording& recording) {
   std::vector<ClaimRow> rows;
   for (const Fall& fall : fallsOf(scene)) {

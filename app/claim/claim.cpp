@@ -13,6 +13,8 @@ namespace {
 constexpr Check kChecks[] = {
     {"bounce-apex", "n-th apex = e^(2n) h for bodies that fall without spin on a floor",
      bounceApexRows, bouncePaths},
+    {"bouncing", "height, energy and hits of what bounces without spin are those of its parabolas",
+     bouncingRows, bouncePaths},
     {"rest-time", "a bouncing body rests at t1 (1+e)/(1-e)", restTimeRows, nullptr},
     {"first-hit", "the first hit comes when parabola and free rotation say", firstHitRows, nullptr},
     {"arcs",

@@ -22,11 +22,15 @@ double Fall::apex(int n) const {
   return v * v / (2.0 * g);
 }
 
-double Fall::apexTime(int n) const {
+double Fall::hitTime(int n) const {
   double t = firstHit();
   double v = e * hitSpeed();
   for (int k = 1; k < n; ++k, v *= e) t += 2.0 * v / g;
-  return t + v / g;
+  return t;
+}
+
+double Fall::apexTime(int n) const {
+  return hitTime(n) + std::pow(e, n) * hitSpeed() / g;
 }
 
 double Fall::restTime() const {

@@ -23,6 +23,8 @@ struct Fall {
   double hitSpeed() const;
   /// (v + √(v² + 2 g h))/g [s].
   double firstHit() const;
+  /// Time of the n-th hit [s], n ≥ 1.
+  double hitTime(int n) const;
   /// Height of the n-th apex, e^(2n) hitSpeed²/(2 g); n = 0 is the one of the first fall. [m]
   double apex(int n) const;
   /// Time of the n-th apex [s], n ≥ 1.

@@ -7,6 +7,7 @@ namespace tumble {
 
 std::vector<ClaimRow> bounceApexRows(const Scene&, const Recording&);
 std::vector<Curve> bouncePaths(const Scene&, const Recording&);
+std::vector<ClaimRow> bouncingRows(const Scene&, const Recording&);
 std::vector<ClaimRow> restTimeRows(const Scene&, const Recording&);
 std::vector<ClaimRow> firstHitRows(const Scene&, const Recording&);
 std::vector<ClaimRow> arcRows(const Scene&, const Recording&);
