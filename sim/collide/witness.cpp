@@ -51,7 +51,18 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n) {
   return std::visit([&](const auto& s) { return reach(s, n_B); }, shape);
 }
 
-Vec3 normalNow(const Witness& w, const Quat& qa, const Quat& qb) {
+}  // namespace
+
+Witness witnessOf(const ContactPoint& plane, const Pose& poseA, const Pose& poseB) {
+  const bool onA = plane.tie == NormalTie::FaceOfA || plane.tie == NormalTie::EdgeOfA;
+  return {.known = plane.separation > 0.0,
+          .tie = plane.tie,
+          .n_B = (onA ? poseA.q : poseB.q).conjugate() * plane.n,
+          .ea_B = poseA.q.conjugate() * plane.ea,
+          .eb_B = poseB.q.conjugate() * plane.eb};
+}
+
+Vec3 normalOf(const Witness& w, const Quat& qa, const Quat& qb) {
   switch (w.tie) {
     case NormalTie::FaceOfA:
     case NormalTie::EdgeOfA:
@@ -65,17 +76,6 @@ Vec3 normalNow(const Witness& w, const Quat& qa, const Quat& qb) {
   }
 }
 
-}  // namespace
-
-Witness witnessOf(const ContactPoint& plane, const Pose& poseA, const Pose& poseB) {
-  const bool onA = plane.tie == NormalTie::FaceOfA || plane.tie == NormalTie::EdgeOfA;
-  return {.known = plane.separation > 0.0,
-          .tie = plane.tie,
-          .n_B = (onA ? poseA.q : poseB.q).conjugate() * plane.n,
-          .ea_B = poseA.q.conjugate() * plane.ea,
-          .eb_B = poseB.q.conjugate() * plane.eb};
-}
-
 double gapAlong(const Witness& w, const Shape& a, const Pose& poseA, const Shape& b,
                 const Pose& poseB) {
   // A half-space has but one plane.
@@ -83,7 +83,7 @@ double gapAlong(const Witness& w, const Shape& a, const Pose& poseA, const Shape
     return floor->n.dot(poseA.x) - floor->d - reach(a, poseA.q, -floor->n);
   if (const HalfSpace* floor = std::get_if<HalfSpace>(&a))
     return floor->n.dot(poseB.x) - floor->d - reach(b, poseB.q, -floor->n);
-  const Vec3 n = normalNow(w, poseA.q, poseB.q);
+  const Vec3 n = normalOf(w, poseA.q, poseB.q);
   return n.dot(poseA.x - poseB.x) - reach(a, poseA.q, -n) - reach(b, poseB.q, n);
 }
 

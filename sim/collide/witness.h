@@ -18,6 +18,9 @@ struct Witness {
 /// The witness of a plane found at these poses, as by `separatingPlane`.
 Witness witnessOf(const ContactPoint& plane, const Pose& poseA, const Pose& poseB);
 
+/// The witness's normal where its features are now: [1] unit, world frame, out of b towards a.
+Vec3 normalOf(const Witness& witness, const Quat& qa, const Quat& qb);
+
 /// Width [m] of the slab between two shapes along the witness, where its features are now: at most
 /// the distance of the shapes. O(corners); −∞ of meshes.
 ///   gap(n) = n·(xa − xb) − max over a of −n·R p_B − max over b of n·R p_B
