@@ -37,6 +37,9 @@ constexpr Check kChecks[] = {
      springContactRows, nullptr},
     {"row-of-balls", "balls in a row end with the velocities that the impact law gives them",
      rowOfBallsRows, nullptr},
+    {"apart",
+     "planes part the corners of bodies that pass, remembered or not; hulls of compounds hit",
+     apartRows, nullptr},
 };
 
 }  // namespace

@@ -22,5 +22,6 @@ std::vector<ClaimRow> topRows(const Scene&, const Recording&);
 std::vector<ClaimRow> planRows(const Scene&, const Recording&);
 std::vector<ClaimRow> springContactRows(const Scene&, const Recording&);
 std::vector<ClaimRow> rowOfBallsRows(const Scene&, const Recording&);
+std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
 
 }  // namespace tumble
