@@ -16,6 +16,7 @@
 #include "app/present/missteps.h"
 #include "app/present/palette.h"
 #include "app/present/paths.h"
+#include "app/present/planes.h"
 #include "app/present/samples.h"
 #include "render/axis.h"
 #include "sim/math/rotation.h"
@@ -101,6 +102,7 @@ Picture Presenter::image(int k) const {
   addBodies(sample, false, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
   addTheory(picture);
+  if (scene_.show.planes) addPlanes(scene_, recording_, k, picture);
   addLabels(scene_, sample, picture);
   addAnnotations(sample, picture);
   picture.subtitle +=
@@ -122,6 +124,7 @@ Picture Presenter::strobe() const {
   addGhosts(byTime, picture);
   addBodies(last, byTime, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
+  if (scene_.show.planes) addPlanes(scene_, recording_, count() - 1, picture);
   addTheory(picture);
   addLabels(scene_, last, picture);
   addAnnotations(last, picture);

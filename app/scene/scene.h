@@ -65,7 +65,7 @@ struct ShowFlags {
   bool labels = false;     ///< names of bodies
   bool boxes = false;      ///< bounding boxes
   bool samples = false;    ///< the points inside that bodies are weighed by
-  bool planes = false;     ///< separating planes (accepted; drawn where known)
+  bool planes = false;     ///< planes between bodies near each other
   bool energy = false;     ///< energy in the subtitle
   bool glass = false;      ///< see-through bodies
   bool ellipsoid = false;  ///< the solid ellipsoid that weighs and turns like each body
