@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/claim/parting.h"
 #include "app/present/palette.h"
 #include "app/record/output.h"
 
@@ -18,6 +19,7 @@ int bodyNamed(const Scene& scene, const std::string& name) {
 
 std::string captionOf(const std::string& shows) {
   if (shows == "velocity") return "velocity / (m/s)";
+  if (shows == "planes") return "planes sought";
   if (shows == "force") return "contact force / N";
   return shows == "energy" ? "energy / J" : "height / m";
 }
@@ -37,10 +39,32 @@ double shownOf(const std::string& shows, const Sample& sample, int body) {
   return sum.norm();
 }
 
+namespace {
+
+// Two series: planes sought where those of the sample before are asked first, and where not.
+void addPlaneCounts(const Scene& scene, const std::string& label, std::vector<GraphSeries>& all) {
+  GraphSeries asked{label, {}, {}}, anew{"seeking each anew", {}, {}};
+  Coherence coherence(scene);
+  run(scene, scene.image.rate, [&](Sample&& sample) {
+    coherence.look(sample);
+    asked.points.emplace_back(sample.t, static_cast<double>(coherence.searches()));
+    anew.points.emplace_back(sample.t, static_cast<double>(coherence.pairs()));
+  });
+  all.push_back(std::move(asked));
+  all.push_back(std::move(anew));
+}
+
+}  // namespace
+
 std::vector<GraphSeries> runGraph(const Scene& scene, const GraphDef& graph, const RunDone& done) {
   std::vector<GraphSeries> all;
   for (const Variant& curve : graph.curves) {
     const Scene changed = sceneOf(scene, joined(graph.variant, curve));
+    if (graph.shows == "planes") {
+      addPlaneCounts(changed, curve.title, all);
+      done();
+      continue;
+    }
     const int body = bodyNamed(changed, graph.body);
     GraphSeries& series = all.emplace_back();
     series.label = curve.title;

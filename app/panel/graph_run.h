@@ -17,7 +17,8 @@ struct GraphSeries {
 /// of the contact force [N], or the energy of the whole scene [J].
 double shownOf(const std::string& shows, const Sample& sample, int body);
 
-/// Runs every curve. @throws SceneError
+/// Runs every curve; where planes are shown, each is two: with memory and without.
+/// @throws SceneError
 std::vector<GraphSeries> runGraph(const Scene& scene, const GraphDef& graph, const RunDone& done);
 
 /// Header and rows: curve, t, value; of each curve as many rows as divide it evenly.

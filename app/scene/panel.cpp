@@ -196,10 +196,11 @@ void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& sce
     readVariant(section, "title", parts, graph.variant);
     readLine(section, "subtitle", graph.subtitle);
     section.read("body", graph.body);
+    section.read("shows", graph.shows, {"height", "velocity", "force", "energy", "planes"});
     const auto named = [&](const BodyDef& body) { return body.name == graph.body; };
-    if (std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
+    if (graph.shows != "planes" &&
+        std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
       section.complain("body", "expected the name of a body, found " + inQuotes(graph.body));
-    section.read("shows", graph.shows, {"height", "velocity", "force", "energy"});
     const Array& curves = section.tables("curves");
     if (curves.empty() || curves.size() > kMostPanels)
       section.complain("curves",

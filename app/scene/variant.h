@@ -64,8 +64,8 @@ struct ChartDef {
 struct GraphDef {
   Variant variant;  ///< of all its runs
   std::string subtitle;
-  std::string body;              ///< its name
-  std::string shows = "height";  ///< height | velocity | force | energy
+  std::string body;              ///< its name; of planes none
+  std::string shows = "height";  ///< height | velocity | force | energy | planes
   std::vector<Variant> curves;
 };
 
