@@ -60,35 +60,54 @@ std::vector<Study> study(const Options& options) {
   return studies;
 }
 
+// What finding contacts costs: the chapter of the report that has no scene.
+std::vector<Scaling> detection(const Options& options) {
+  std::vector<Scaling> scalings;
+  Progress progress("Detection");
+  for (Scaling (*measure)() : {broadPhaseScaling, searchScaling}) {
+    scalings.push_back(measure());
+    writeFile(options.folder + "/" + scalings.back().name + ".csv", scalingCsv(scalings.back()));
+    progress.show(static_cast<double>(scalings.size()) / 2.0);
+  }
+  return scalings;
+}
+
 }  // namespace
 
 int report(int argc, char** argv) {
   Options options;
-  CommandLine app("report", "Measures speed against error: CSV, figures, a table, a page.",
-                  {"             # every chart of assets/report, into out/report/index.html",
-                   "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
-  app.add_option("SCENE", options.scenes, "scenes with [[chart]]s [those of assets/report]");
+  CommandLine app(
+      "report", "Measures speed against error: CSV, figures, a table, a page.",
+      {"             # every chart of assets/report, and detection, into out/report/index.html",
+       "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
+  app.add_option("SCENE", options.scenes,
+                 "scenes with [[chart]]s [those of assets/report, and what detection costs]");
   app.add_option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
   app.add_option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]")
       ->type_name("S")
       ->check(between(0.0, 100.0));
   addOverrides(app, options.overrides);
   if (!app.read(argc, argv)) return kOk;
-  if (options.scenes.empty()) options.scenes = reportScenes();
+  const bool whole = options.scenes.empty();
+  if (whole) options.scenes = reportScenes();
 
   // Numbers first: they stay if gnuplot is missing.
   makeFolder(options.folder);
   const std::string machine = machineLine();
   const std::vector<Study> studies = study(options);
+  const std::vector<Scaling> scalings = whole ? detection(options) : std::vector<Scaling>{};
   const std::vector<HeadlineRow> rows = headlineRows(studies);
   writeFile(options.folder + "/table.csv", headlineCsv(rows));
   writeFile(options.folder + "/table.md", headlineMarkdown(rows));
-  writeFile(options.folder + "/index.html", reportPage(studies, machine, false));
+  writeFile(options.folder + "/index.html", reportPage(studies, machine, false, scalings));
   for (const Study& one : studies)
     writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, labelsOf(studies), machine));
+  for (const Scaling& one : scalings)
+    writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, machine));
   fmt::print("{}", headlineMarkdown(rows));
   for (const Study& one : studies) runGnuplot(options.folder, one.name);
-  writeFile(options.folder + "/index.html", reportPage(studies, machine, true));
+  for (const Scaling& one : scalings) runGnuplot(options.folder, one.name);
+  writeFile(options.folder + "/index.html", reportPage(studies, machine, true, scalings));
   fmt::print("{}/index.html\n", options.folder);
   return kOk;
 }

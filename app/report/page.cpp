@@ -41,27 +41,35 @@ std::string tableOf(const std::vector<HeadlineRow>& rows) {
   return out + "</table>\n";
 }
 
+void addFigure(const std::string& name, const std::string& title, const std::string& subtitle,
+               bool figures, std::string& out) {
+  const std::string file = htmlText(name);
+  out +=
+      fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", file, htmlText(title), htmlText(subtitle));
+  if (figures)
+    out += fmt::format("<a href=\"{0}.svg\"><img src=\"{0}.svg\" alt=\"{1}\"></a>\n", file,
+                       htmlText(title));
+  out +=
+      fmt::format("<p><a href=\"{0}.csv\">numbers</a> · <a href=\"{0}.gp\">script</a></p>\n", file);
+}
+
 }  // namespace
 
-std::string reportPage(const std::vector<Study>& studies, const std::string& machine,
-                       bool figures) {
+std::string reportPage(const std::vector<Study>& studies, const std::string& machine, bool figures,
+                       const std::vector<Scaling>& scalings) {
   std::string out = kHead;
   out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine));
-  for (const Study& study : studies) {
-    const std::string name = htmlText(study.name);
-    out += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", name,
-                       htmlText(study.chart.variant.title), htmlText(study.chart.subtitle));
-    if (figures)
-      out += fmt::format("<a href=\"{0}.svg\"><img src=\"{0}.svg\" alt=\"{1}\"></a>\n", name,
-                         htmlText(study.chart.variant.title));
-    out += fmt::format("<p><a href=\"{0}.csv\">numbers</a> · <a href=\"{0}.gp\">script</a></p>\n",
-                       name);
-  }
+  for (const Study& study : studies)
+    addFigure(study.name, study.chart.variant.title, study.chart.subtitle, figures, out);
   out +=
       "<h2 id=\"table\">Time to an accuracy</h2>\n<p>CPU seconds for a simulated second of the "
       "cheapest run that is right to so much; <a href=\"table.csv\">numbers</a>, "
       "<a href=\"table.md\">Markdown</a>.</p>\n";
-  return out + tableOf(headlineRows(studies)) + "</body></html>\n";
+  out += tableOf(headlineRows(studies));
+  if (!scalings.empty()) out += "<h1>Detection</h1>\n";
+  for (const Scaling& scaling : scalings)
+    addFigure(scaling.name, scaling.title, scaling.subtitle, figures, out);
+  return out + "</body></html>\n";
 }
 
 }  // namespace tumble

@@ -49,8 +49,8 @@ std::string quotedText(std::string_view text) {
 }
 
 // A file beside the script, quoted; without a folder gnuplot takes a name like "<ls" for a command.
-std::string quotedFile(const Study& study, const char* kind) {
-  return quotedText(fmt::format("./{}.{}", study.name, kind));
+std::string quotedFile(const std::string& name, const char* kind) {
+  return quotedText(fmt::format("./{}.{}", name, kind));
 }
 
 std::string curveTitle(const Study& study, std::size_t i) {
@@ -61,8 +61,6 @@ std::string curveTitle(const Study& study, std::size_t i) {
 constexpr const char* kStyle = R"(set datafile separator ','
 set logscale xy
 set format xy '10^{%L}'
-set xlabel 'error'
-set ylabel 'CPU seconds per simulated second'
 set grid xtics ytics linecolor rgb '#d8dbe0'
 set border linecolor rgb '#5c636e'
 set key outside right top Left reverse samplen 2 spacing 1.15 noenhanced
@@ -92,11 +90,27 @@ std::string curves(const Study& study, std::span<const std::string> labels) {
     text += fmt::format(
         "{}{} skip 1 every ::{}::{} using 4:6 with linespoints linewidth {} "
         "pointtype {} pointsize {} linecolor rgb '{}' title {}",
-        i == 0 ? "plot " : ", \\\n     ", quotedFile(study, "csv"), first, row - 1,
+        i == 0 ? "plot " : ", \\\n     ", quotedFile(study.name, "csv"), first, row - 1,
         i == 0 ? 3.5 : 1.5, kMarkers[style % kMarkers.size()], i == 0 ? 1.1 : 0.8,
         kColours[style % kColours.size()], quotedText(curveTitle(study, i)));
   }
   return text + "\n";
+}
+
+// The head of a script: what it draws, its axes, title and captions.
+std::string headOf(const std::string& name, const std::string& across, const std::string& upwards,
+                   const std::string& title, const std::string& subtitle,
+                   const std::string& caption) {
+  std::string script =
+      fmt::format("# gnuplot {}: draws {}\n", quotedFile(name, "gp"), quotedFile(name, "csv"));
+  script += kStyle;
+  script += fmt::format("set xlabel {}\nset ylabel {}\n", quotedText(across), quotedText(upwards));
+  script += fmt::format("set title {} noenhanced\n", quotedText(title));
+  script += fmt::format("set label 1 {} at graph 0, screen 0.055 font ',9' noenhanced\n",
+                        quotedText(subtitle));
+  script += fmt::format("set label 2 {} at graph 0, screen 0.02 font ',9' noenhanced\n",
+                        quotedText(caption));
+  return script + "set bmargin 6.5\n";
 }
 
 std::string pathOf(const Figure& figure, const std::string& folder, const std::string& name) {
@@ -156,15 +170,9 @@ std::vector<std::string> labelsOf(std::span<const Study> studies) {
 
 std::string plotScript(const Study& study, std::span<const std::string> labels,
                        const std::string& caption) {
-  std::string script =
-      fmt::format("# gnuplot {}: draws {}\n", quotedFile(study, "gp"), quotedFile(study, "csv"));
-  script += kStyle;
-  script += fmt::format("set title {} noenhanced\n", quotedText(study.chart.variant.title));
-  script += fmt::format("set label 1 {} at graph 0, screen 0.055 font ',9' noenhanced\n",
-                        quotedText(study.chart.subtitle));
-  script += fmt::format("set label 2 {} at graph 0, screen 0.02 font ',9' noenhanced\n",
-                        quotedText(caption));
-  script += fmt::format("set bmargin 6.5\nset xrange {}\n", errorRange(study));
+  std::string script = headOf(study.name, "error", "CPU seconds per simulated second",
+                              study.chart.variant.title, study.chart.subtitle, caption);
+  script += fmt::format("set xrange {}\n", errorRange(study));
   if (study.chart.floor && *study.chart.floor > 0.0)
     script += fmt::format(
         "set arrow 1 from {0:.3g}, graph 0 to {0:.3g}, graph 1 nohead dashtype 2 linecolor rgb "
@@ -173,8 +181,31 @@ std::string plotScript(const Study& study, std::span<const std::string> labels,
         *study.chart.floor);
   for (const Figure& figure : kFigures) {
     script += fmt::format("set terminal {}\nset output {}\n", figure.terminal,
-                          quotedFile(study, figure.kind));
+                          quotedFile(study.name, figure.kind));
     script += curves(study, labels);
+  }
+  return script;
+}
+
+std::string plotScript(const Scaling& scaling, const std::string& caption) {
+  std::string script = headOf(scaling.name, scaling.across, scaling.upwards, scaling.title,
+                              scaling.subtitle, caption);
+  for (const Figure& figure : kFigures) {
+    script += fmt::format("set terminal {}\nset output {}\n", figure.terminal,
+                          quotedFile(scaling.name, figure.kind));
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < scaling.curves.size(); ++i) {
+      const ScalingCurve& curve = scaling.curves[i];
+      const std::size_t first = row;
+      row += curve.points.size();
+      script += fmt::format(
+          "{}{} skip 1 every ::{}::{} using 2:3 with linespoints linewidth 1.5 pointtype {} "
+          "pointsize 0.9 linecolor rgb '{}' title {}",
+          i == 0 ? "plot " : ", \\\n     ", quotedFile(scaling.name, "csv"), first, row - 1,
+          kMarkers[i % kMarkers.size()], kColours[i % kColours.size()],
+          quotedText(fmt::format("{}  (slope {:.2f})", curve.label, curve.slope)));
+    }
+    script += "\n";
   }
   return script;
 }

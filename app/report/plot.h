@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/scaling.h"
 #include "app/report/study.h"
 
 namespace tumble {
@@ -17,6 +18,10 @@ namespace tumble {
 /// @param caption  one line below the axes: machine and build
 std::string plotScript(const Study& study, std::span<const std::string> labels,
                        const std::string& caption);
+
+/// The same for <name>.csv of a scaling: size to the right, CPU seconds upwards, slopes in the
+/// legend.
+std::string plotScript(const Scaling& scaling, const std::string& caption);
 
 /// Labels of all curves of the studies, each once, in the order in which they come.
 std::vector<std::string> labelsOf(std::span<const Study> studies);
