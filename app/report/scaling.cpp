@@ -59,7 +59,7 @@ std::vector<Pair> pairsOf(int corners) {
   return pairs;
 }
 
-/// CPU time [s] of one call, the least of five turns of a millisecond or more each.
+/// CPU time [s] of one call, the least of five turns of two milliseconds each.
 template <class Ask>
 double timeOfCall(const std::vector<Pair>& pairs, Ask ask) {
   constexpr int kTurns = 5;
@@ -104,7 +104,7 @@ Scaling broadPhaseScaling() {
 Scaling searchScaling() {
   Scaling scaling{"search",
                   "Is there a plane between two hulls? Sought, and remembered",
-                  "hulls of random corners on balls of 0.5 m, a few centimetres apart",
+                  "hulls of random corners on balls of 0.5 m, at least 2 cm apart",
                   "corners of each hull",
                   "CPU seconds a question",
                   {{"full search", {}, 0.0}, {"remembered plane", {}, 0.0}}};
