@@ -174,9 +174,12 @@ void play(Random& random, Score& score) {
       ++score.wrong;
       continue;
     }
-    if (k < 5)
-      score.worstTime =
-          std::max(score.worstTime, std::abs(static_cast<double>(Quad(events[k].t) - hits[k].t)));
+    if (k < 5) {
+      const double error = std::abs(static_cast<double>(Quad(events[k].t) - hits[k].t));
+      score.worstTime = std::max(score.worstTime, error);
+      ++(error < 1e-12 ? score.within : score.beyond);
+      score.worstRatio = std::max(score.worstRatio, error / std::max(floor[k], 1e-13));
+    }
     World again(def);
     again.advance(events[k].t);
     if (cornerAt(again.sample(events[k].t).bodies[1], events[k].p) != hits[k].corner) ++score.wrong;
