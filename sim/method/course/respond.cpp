@@ -47,7 +47,7 @@ bool Course::collides() const {
 double Course::restitutionNow(const Contact& c) const {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
-  if (rebound <= 0.0) return c.restitution;
+  if (rebound <= c.restitution * tolerance_.rest) return c.restitution;  // it does not approach
   if (wasLasting(c.a, c.b) && rebound < tolerance_.keep) return 0.0;
   const double press = -normalAcceleration(a, b, c.point);
   if (press > 0.0 && rebound * rebound < 2.0 * press * kHeight &&
@@ -116,7 +116,9 @@ void Course::recordImpact(std::size_t first, std::size_t end, std::span<const do
     if (state_.bodies[c.a].fixed()) state_.externalImpulse -= impulse[k];
   }
   if (event.j <= 0.0) return;
-  if (wasLasting(c.a, c.b) && event.vrel > -tolerance_.keep) return;  // it only leans on
+  // A contact that lasts and gets no more than rounding only leans on.
+  const double kick = event.j * (state_.bodies[c.a].invM + state_.bodies[c.b].invM);
+  if (wasLasting(c.a, c.b) && event.vrel > -tolerance_.keep && kick < tolerance_.keep) return;
   event.p /= event.j;
   report_.events.push_back(event);
 }
