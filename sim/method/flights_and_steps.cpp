@@ -51,7 +51,8 @@ void lookFlightsAndSteps(const Model& model, const State& state, double t,
                          std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) {
   const bool stepped = std::any_of(state.trail.begin(), state.trail.end(),
                                    [&](const Segment& s) { return s.t0 <= t && t < s.t1; });
-  if (stepped || (state.inSteps && t >= state.t))
+  // At the end of a stretch of steps the bodies are where it left them: flights begin later.
+  if (stepped || ((state.inSteps || state.settled) && t >= state.t))
     lookCourse(model, state, t, bodies, contacts);
   else
     lookExact(model, state, t, bodies, contacts);

@@ -134,7 +134,9 @@ void Exact::takeOff() {
     state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, t);
   openWindow();
   if (!report_.stopped) settle();
-  if (!state_.inSteps) keepBooks(t);
+  if (state_.inSteps || report_.stopped) return;
+  openWindow();  // contacts that lasted need not last any more
+  keepBooks(t);
 }
 
 void Exact::settle() {

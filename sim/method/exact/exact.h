@@ -84,7 +84,9 @@ class Exact {
   void solveForces(std::vector<Contact>& resting);
   void stillNormals(const std::vector<Contact>& resting);
   bool steady(const Contact& contact) const;
-  void changeHolds(double t, const Cluster& cluster, const std::vector<Contact>& now);
+  /// @return the contacts of the cluster that lasted before
+  std::vector<Contact> changeHolds(double t, const Cluster& cluster,
+                                   const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
   void goOnInSteps(double t, const Cluster& cluster);
   void lookForStops(double t);

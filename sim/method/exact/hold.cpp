@@ -99,8 +99,11 @@ bool Exact::steady(const Contact& c) const {
   const bool slides = slip.norm() > tolerance_.stick || slipRate.norm() > kRounding * weight;
   if (!onA && !onB) return !slides && a.omega.norm() <= still && b.omega.norm() <= still;
   const RigidBody &owner = onB ? b : a, &other = onB ? a : b;
+  // A ball about the centre of mass touches where it touches, however it turns.
   const double round = onB ? c.point.ra : c.point.rb;
-  if (!turnsAlong(owner) || !(round > 0.0 || turnsAlong(other))) return false;
+  const Vec3& middle = onB ? c.point.pa : c.point.pb;
+  const bool ball = round > 0.0 && (middle - other.x).norm() <= tolerance_.touch;
+  if (!turnsAlong(owner) || !(ball || turnsAlong(other))) return false;
   if (!slides) return true;
   // Only a plane has no edge to slide over; a slip that friction brakes keeps its line.
   const bool endless = std::holds_alternative<HalfSpace>(model_.shapes[onB ? c.b : c.a]);
@@ -164,7 +167,7 @@ void Exact::hold(double t, Cluster& cluster) {
     return c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
   });
   if (!resting.empty()) stillNormals(resting);
-  changeHolds(t, cluster, resting);
+  const std::vector<Contact> before = changeHolds(t, cluster, resting);
   for (const Contact& c : resting)
     if (!steady(c)) return goOnInSteps(t, cluster);
   std::vector<int> renewed;
@@ -184,6 +187,8 @@ void Exact::hold(double t, Cluster& cluster) {
     renewed.push_back(i);
   }
   for (const int i : renewed) lookAround(i, t);
+  for (const Contact& c : before)
+    if (!lasts(c.a, c.b)) lookFor({c.b, c.a}, t);
   lookForStops(t);
   // Many new flights make the rest of the window worthless: begin another.
   State::Window& w = state_.window;
@@ -229,7 +234,8 @@ void Exact::renew(double t, int i, const Vec3& acceleration) {
   ++report_.certificate.steps;
 }
 
-void Exact::changeHolds(double t, const Cluster& cluster, const std::vector<Contact>& now) {
+std::vector<Contact> Exact::changeHolds(double t, const Cluster& cluster,
+                                        const std::vector<Contact>& now) {
   const auto inCluster = [&](const Contact& c) {
     const auto has = [&](int body) {
       return !model_.fixed(body) &&
@@ -239,7 +245,7 @@ void Exact::changeHolds(double t, const Cluster& cluster, const std::vector<Cont
   };
   std::vector<Contact> before;
   std::copy_if(state_.lasting.begin(), state_.lasting.end(), std::back_inserter(before), inCluster);
-  if (before.empty() && now.empty()) return;
+  if (before.empty() && now.empty()) return before;
   bookHolds(t);
   std::erase_if(state_.lasting, inCluster);
   state_.lasting.insert(state_.lasting.end(), now.begin(), now.end());
@@ -260,6 +266,7 @@ void Exact::changeHolds(double t, const Cluster& cluster, const std::vector<Cont
         event.t = std::max(event.t, end);
     (event.t > t ? state_.closing : report_.events).push_back(event);
   }
+  return before;
 }
 
 void Exact::closeRests(double t) {

@@ -12,7 +12,7 @@ namespace {
 /// [m] per size of the world: a bounce that would rise less than this is the last of its row. The
 /// bounces left out would take  2 v/(a (1 − e)), after which the contact counts as at rest.
 constexpr double kLowest = 1e-12;
-/// Events that leave time where it is, in a row, before the run stops.
+/// Events that leave time where it is, in a row, before the run goes on in steps.
 constexpr int kStalled = 1000;
 
 /// Relative normal acceleration [m/s²] of a contact under constant forces alone.
@@ -39,9 +39,10 @@ void Exact::strike(double t, int a, int b) {
   if (held(a) || held(b))
     return stop("\"" + nameOf(a) + "\" touches \"" + nameOf(b) + "\" at t = " + digits(t) +
                 " s; a body with a pivot has no contacts");
-  if (state_.stalled > kStalled)
-    return stop("\"" + nameOf(a) + "\" and \"" + nameOf(b) +
-                "\" hit each other without end at t = " + digits(t) + " s");
+  if (state_.stalled > kStalled) {  // hits without end, as between bodies that close in
+    state_.stalled = 0;
+    return goOnInSteps(t, {});
+  }
 
   const std::size_t firstEvent = report_.events.size();
   ends_.clear();
