@@ -39,12 +39,11 @@ void checkFlightsAndSteps(const Model& model, std::span<const RigidBody> bodies)
 }
 
 void advanceFlightsAndSteps(const Model& model, State& state, double t_end, Report& report) {
-  do {
-    if (state.inSteps)
-      goOneStep(model, state, report);
-    else
-      advanceExact(model, state, t_end, report);
-  } while (state.t < t_end && !report.stopped);
+  for (;;) {
+    if (!state.inSteps) advanceExact(model, state, t_end, report);
+    if (state.t >= t_end || report.stopped) return;
+    if (state.inSteps) goOneStep(model, state, report);
+  }
 }
 
 void lookFlightsAndSteps(const Model& model, const State& state, double t,

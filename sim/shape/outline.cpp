@@ -1,6 +1,8 @@
 #include "sim/shape/outline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "sim/math/rotation.h"
 
@@ -43,6 +45,25 @@ void put(const Mesh&, Outline&) {}
 void put(const Compound&, Outline&) {}
 
 }  // namespace
+
+Vec3 outermost(const Outline& outline, const Vec3& m) {
+  double most = -std::numeric_limits<double>::infinity();
+  Vec3 best = Vec3::Zero();
+  for (const Vec3& p : outline.points) {
+    if (m.dot(p) <= most) continue;
+    most = m.dot(p);
+    best = p;
+  }
+  for (const Outline::Rim& rim : outline.rims) {
+    const double x = m.dot(rim.u), y = m.dot(rim.v), length = std::sqrt(x * x + y * y);
+    const double height = m.dot(rim.centre) + rim.r * length;
+    if (height <= most) continue;
+    most = height;
+    best = rim.centre;
+    if (length > 0.0) best += rim.r / length * (x * rim.u + y * rim.v);
+  }
+  return best + outline.round * m.normalized();
+}
 
 Outline outlineOf(const Shape& shape, const Pose& pose) {
   Outline out;

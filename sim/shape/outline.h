@@ -27,6 +27,9 @@ struct Outline {
 /// has none: empty.
 Outline outlineOf(const Shape& shape, const Pose& pose = {});
 
+/// The point of an outline that is outermost along m, its round part included. Body frame.
+Vec3 outermost(const Outline& outline, const Vec3& m);
+
 /// A convex part of a body: its shape, where that stands in the body frame, and its outline there.
 struct Convex {
   Shape shape;

@@ -154,6 +154,7 @@ void Exact::settle() {
     const int seeds[] = {i};
     Cluster cluster = gather(state_.t, seeds);
     for (const int body : cluster.bodies) settled[body] = 1;
+    noteOverlaps(cluster);
     if (cluster.contacts.empty() && !held(i)) continue;
     if (collides(cluster)) respond(state_.t, cluster);
     hold(state_.t, cluster);

@@ -1,6 +1,7 @@
 // What happens when bodies touch: the contacts of that instant, and their impulses.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
@@ -12,8 +13,16 @@ namespace {
 /// [m] per size of the world: a bounce that would rise less than this is the last of its row. The
 /// bounces left out would take  2 v/(a (1 − e)), after which the contact counts as at rest.
 constexpr double kLowest = 1e-12;
+/// [m] per size of the world: overlap that a contact point may show where bodies just touch.
+constexpr double kOff = 1e-11;
+/// Planes wider than this part of the size of the world do not touch.
+constexpr double kWidest = 1e-6;
 /// Events that leave time where it is, in a row, before the run goes on in steps.
 constexpr int kStalled = 1000;
+
+Pose placed(const RigidBody& body, const Pose& part) {
+  return {body.x + body.q * part.x, body.q * part.q};
+}
 
 /// Relative normal acceleration [m/s²] of a contact under constant forces alone.
 double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
@@ -48,6 +57,8 @@ void Exact::strike(double t, int a, int b) {
   ends_.clear();
   const int seeds[] = {a, b};
   Cluster cluster = gather(t, seeds);
+  addRim({b, a}, cluster);
+  noteOverlaps(cluster);
   if (collides(cluster)) respond(t, cluster);
   if (!report_.stopped) hold(t, cluster);
   sortEvents(report_, firstEvent);
@@ -87,10 +98,49 @@ Cluster Exact::gather(double t, std::span<const int> seeds) {
     for (const int j : w.finite)
       if (j != i && w.swept[i].overlaps(w.swept[j])) meet(j);
   }
-  for (const Contact& c : cluster.contacts)
-    report_.certificate.max_penetration =
-        std::max(report_.certificate.max_penetration, -c.point.separation);
   return cluster;
+}
+
+void Exact::noteOverlaps(const Cluster& cluster) {
+  double& deepest = report_.certificate.max_penetration;
+  for (const Contact& c : cluster.contacts) deepest = std::max(deepest, -c.point.separation);
+}
+
+// Where the rim of a cylinder touches, contact points may be less exact than the plane that told of
+// the touch: then they are not there, or an impulse at them leaves the touch approaching. The
+// outermost point of the round body along the plane stands in.
+void Exact::addRim(Pair pair, Cluster& cluster) const {
+  const auto [b, a] = pair;
+  const auto between = [&, b = b, a = a](const Contact& c) { return c.a == a && c.b == b; };
+  const auto found = std::find_if(cluster.contacts.begin(), cluster.contacts.end(), between);
+  const double off = found == cluster.contacts.end() ? kWidest : -found->point.separation;
+  if (off <= kOff * std::max(1.0, model_.size) && state_.stalled == 0) return;
+  const RigidBody &bodyA = state_.bodies[a], &bodyB = state_.bodies[b];
+  Contact contact;
+  contact.point.separation = std::numeric_limits<double>::infinity();
+  for (const Convex& partA : state_.parts[a]) {
+    for (const Convex& partB : state_.parts[b]) {
+      const ContactPoint plane =
+          separatingPlane(partA.shape, placed(bodyA, partA.pose), partB.shape,
+                          placed(bodyB, partB.pose));
+      const bool rimA = !partA.outline.rims.empty(), rimB = !partB.outline.rims.empty();
+      if (plane.separation >= contact.point.separation || !(rimA || rimB)) continue;
+      const RigidBody& body = rimA ? bodyA : bodyB;
+      const Vec3 along = body.q.conjugate() * (rimA ? Vec3(-plane.n) : plane.n);
+      ContactPoint& c = contact.point;
+      c = plane;
+      c.p = c.pa = c.pb = toWorld(body.pose(), outermost((rimA ? partA : partB).outline, along));
+      c.ra = c.rb = 0.0;
+    }
+  }
+  if (contact.point.separation > kWidest * model_.size) return;
+  std::erase_if(cluster.contacts, between);
+  const Surface surface = model_.surface(a, b);
+  contact.a = a;
+  contact.b = b;
+  contact.restitution = surface.restitution;
+  contact.friction = surface.friction;
+  cluster.contacts.push_back(contact);
 }
 
 bool Exact::collides(const Cluster& cluster) const {
