@@ -136,6 +136,8 @@ void Exact::takeOff() {
   if (!report_.stopped) settle();
   if (state_.inSteps || report_.stopped) return;
   openWindow();  // contacts that lasted need not last any more
+  if (!state_.holds.empty() && state_.holds.back().t < t)
+    state_.holds.push_back({t, state_.lasting});
   keepBooks(t);
 }
 

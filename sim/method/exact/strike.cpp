@@ -120,9 +120,8 @@ void Exact::addRim(Pair pair, Cluster& cluster) const {
   contact.point.separation = std::numeric_limits<double>::infinity();
   for (const Convex& partA : state_.parts[a]) {
     for (const Convex& partB : state_.parts[b]) {
-      const ContactPoint plane =
-          separatingPlane(partA.shape, placed(bodyA, partA.pose), partB.shape,
-                          placed(bodyB, partB.pose));
+      const ContactPoint plane = separatingPlane(partA.shape, placed(bodyA, partA.pose),
+                                                 partB.shape, placed(bodyB, partB.pose));
       const bool rimA = !partA.outline.rims.empty(), rimB = !partB.outline.rims.empty();
       if (plane.separation >= contact.point.separation || !(rimA || rimB)) continue;
       const RigidBody& body = rimA ? bodyA : bodyB;
