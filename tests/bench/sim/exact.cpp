@@ -188,6 +188,35 @@ void bouncing(benchmark::State& state) {
   state.counters["mean squared energy error, J2"] = squares / 1201.0;
 }
 
+/// A light ball between a wall and one of 1e10 times its mass: 314159 collisions.
+void counting(benchmark::State& state) {
+  WorldDef def;
+  def.method = "exact";
+  def.duration = 100.0;
+  def.gravity.setZero();
+  BodyDef wall, light, heavy;
+  wall.name = "wall";
+  wall.shape = HalfSpace{Vec3::UnitX(), 0.0};
+  wall.fixed = true;
+  wall.restitution = 1.0;
+  light.name = "light";
+  light.mass = 1.0;
+  light.position = {2.0, 0.0, 0.0};
+  light.restitution = 1.0;
+  heavy = light;
+  heavy.name = "heavy";
+  heavy.mass = 1e10;
+  heavy.position = {4.0, 0.0, 0.0};
+  heavy.velocity = {-1.0, 0.0, 0.0};
+  def.bodies = {wall, light, heavy};
+  for (auto _ : state) {
+    World world(def);
+    world.advance(100.0);
+    state.counters["collisions"] = static_cast<double>(world.report().events.size());
+  }
+}
+
+BENCHMARK(counting)->Name("exact: counting to 314159 by collisions")->Unit(benchmark::kMillisecond);
 BENCHMARK(bouncing)->Name("exact: 49 elastic balls, 20 s")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(firstTouch, floor, true)
     ->Name("exact: first touch of a tumbling brick and a floor");
