@@ -23,7 +23,7 @@ std::vector<PlacedPart> placedParts(const Scene& scene, const Sample& sample) {
     if (std::holds_alternative<HalfSpace>(scene.world.bodies[i].shape)) continue;
     int number = 0;
     for (PosedPart& part : convexParts(scene.world.bodies[i].shape)) {
-      const Pose pose{body.x + body.q * part.pose.x, body.q * part.pose.q};
+      const Pose pose = toWorld(Pose{body.x, body.q}, part.pose);
       placed.push_back({static_cast<int>(i), number++, std::move(part.solid), pose});
     }
   }

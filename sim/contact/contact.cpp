@@ -168,13 +168,15 @@ double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const Cont
   return c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
 }
 
+Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
+  if (body.fixed()) return Vec3::Zero();
+  const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
+  return body.invM * body.force + alpha.cross(p - body.x);
+}
+
 double normalAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  const auto of = [](const RigidBody& body, const Vec3& p) -> Vec3 {
-    if (body.fixed()) return Vec3::Zero();
-    const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
-    return body.invM * body.force + alpha.cross(p - body.x);
-  };
-  return c.n.dot(of(a, c.p) - of(b, c.p)) + normalAccelerationBias(a, b, c);
+  return c.n.dot(pointAcceleration(a, c.p) - pointAcceleration(b, c.p)) +
+         normalAccelerationBias(a, b, c);
 }
 
 double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c,

@@ -77,6 +77,10 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
 /// Baraff II, §9.3, with the last term added for round bodies. ra, rb reach to pa, pb.
 double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
+/// Acceleration [m/s²] of the material point at p [m] under the body's force and torque; 0 of a
+/// fixed body.
+Vec3 pointAcceleration(const RigidBody& body, const Vec3& p);
+
 /// n·p″ = d²(separation)/dt² [m/s²] under the forces and torques that the bodies carry (slide
 /// SD48).
 double normalAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c);

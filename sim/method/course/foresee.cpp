@@ -34,13 +34,6 @@ double turningSpeed(const RigidBody& body, const Shape& shape) {
   return std::isfinite(radius) ? body.omega.norm() * radius : 0.0;
 }
 
-/// Acceleration [m/s²] of the material point at p under the body's force and torque.
-Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
-  if (body.fixed()) return Vec3::Zero();
-  const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
-  return body.invM * body.force + alpha.cross(p - body.x);
-}
-
 }  // namespace
 
 double Course::foresee(double span) const {

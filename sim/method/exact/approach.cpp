@@ -26,10 +26,6 @@ constexpr double kLow = 1e-6;
 /// kRounding of their size, and it is no longer than kInstant [s].
 constexpr double kRounding = 1e-13, kInstant = 1e-6;
 
-Pose placed(const Vec3& x, const Quat& q, const Pose& part) {
-  return {x + q * part.x, q * part.q};
-}
-
 }  // namespace
 
 Approach::Approach(const Flyer& a, const Flyer& b, double touch) : touch_(touch) {
@@ -106,9 +102,9 @@ void Approach::findPlane(double t) {
     if (!side.flyer.top && !(&side == &side_[1] && plane_))
       side.flyer.flight->at(t, *side.flyer.body);
   const Flyer &a = side_[0].flyer, &b = side_[1].flyer;
-  wide_ =
-      separatingPlane(a.convex->shape, placed(offset_, a.body->q, a.convex->pose), b.convex->shape,
-                      plane_ ? Pose{} : placed(Vec3::Zero(), b.body->q, b.convex->pose));
+  wide_ = separatingPlane(a.convex->shape, toWorld(Pose{offset_, a.body->q}, a.convex->pose),
+                          b.convex->shape,
+                          plane_ ? Pose{} : toWorld(Pose{Vec3::Zero(), b.body->q}, b.convex->pose));
 }
 
 /// Angular velocity [rad/s] at which the plane turns with what it is tied to.

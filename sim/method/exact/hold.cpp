@@ -14,13 +14,6 @@ constexpr double kRounding = 1e-10;
 /// No pull towards zero: flights in contact have no error that grows. [s]
 constexpr double kNoPull = 1e15;
 
-/// Acceleration [m/s²] of the material point at p under the body's force and torque.
-Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
-  if (body.fixed()) return Vec3::Zero();
-  const Vec3 alpha = body.Iinv * (body.torque - body.omega.cross(body.L));
-  return body.invM * body.force + alpha.cross(p - body.x);
-}
-
 }  // namespace
 
 bool Exact::lasts(int i, int j) const {
@@ -160,9 +153,7 @@ void Exact::hold(double t, Cluster& cluster) {
   for (const Contact& c : resting) strongest = std::max(strongest, c.force.norm());
   std::erase_if(resting, [&](const Contact& c) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
-    const double apart =
-        c.point.n.dot(pointAcceleration(a, c.point.p) - pointAcceleration(b, c.point.p)) +
-        normalAccelerationBias(a, b, c.point);
+    const double apart = normalAcceleration(a, b, c.point);
     const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
     return c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
   });

@@ -20,20 +20,6 @@ constexpr double kWidest = 1e-6;
 /// Events that leave time where it is, in a row, before the run goes on in steps.
 constexpr int kStalled = 1000;
 
-Pose placed(const RigidBody& body, const Pose& part) {
-  return {body.x + body.q * part.x, body.q * part.q};
-}
-
-/// Relative normal acceleration [m/s²] of a contact under constant forces alone.
-double freeAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  const auto of = [](const RigidBody& body, const Vec3& p) -> Vec3 {
-    if (body.fixed()) return Vec3::Zero();
-    const Vec3 alpha = body.Iinv * -body.omega.cross(body.L);
-    return body.invM * body.force + alpha.cross(p - body.x);
-  };
-  return c.n.dot(of(a, c.p) - of(b, c.p)) + normalAccelerationBias(a, b, c);
-}
-
 }  // namespace
 
 void Exact::strike(double t, int a, int b) {
@@ -120,8 +106,8 @@ void Exact::addRim(Pair pair, Cluster& cluster) const {
   contact.point.separation = std::numeric_limits<double>::infinity();
   for (const Convex& partA : state_.parts[a]) {
     for (const Convex& partB : state_.parts[b]) {
-      const ContactPoint plane = separatingPlane(partA.shape, placed(bodyA, partA.pose),
-                                                 partB.shape, placed(bodyB, partB.pose));
+      const ContactPoint plane = separatingPlane(partA.shape, toWorld(bodyA.pose(), partA.pose),
+                                                 partB.shape, toWorld(bodyB.pose(), partB.pose));
       const bool rimA = !partA.outline.rims.empty(), rimB = !partB.outline.rims.empty();
       if (plane.separation >= contact.point.separation || !(rimA || rimB)) continue;
       const RigidBody& body = rimA ? bodyA : bodyB;
@@ -151,11 +137,13 @@ bool Exact::collides(const Cluster& cluster) const {
 /// How high [m] a contact would rise again under constant forces, and when [s] the row of bounces
 /// that this begins would be over; nothing if it is no row.
 std::optional<Exact::Bounces> Exact::bouncesOf(double t, const Contact& c) {
-  RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+  const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
-  a.force = state_.outer[c.a];
-  b.force = state_.outer[c.b];
-  const double press = -freeAcceleration(a, b, c.point);
+  for (const int i : {c.a, c.b}) {
+    state_.bodies[i].force = state_.outer[i];
+    state_.bodies[i].torque.setZero();
+  }
+  const double press = -normalAcceleration(a, b, c.point);
   if (!(press > 0.0) || c.restitution == 1.0) return std::nullopt;
   return Bounces{0.5 * rebound * rebound / press,
                  t + 2.0 * rebound / (press * (1.0 - c.restitution))};

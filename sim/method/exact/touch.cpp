@@ -14,10 +14,6 @@ bool later(const State::Touch& p, const State::Touch& q) {
   return std::tie(p.t, p.a, p.b) > std::tie(q.t, q.a, q.b);
 }
 
-Pose placed(const RigidBody& body, const Pose& part) {
-  return {body.x + body.q * part.x, body.q * part.q};
-}
-
 }  // namespace
 
 void Exact::lookFor(Pair pair, double t) {
@@ -38,8 +34,8 @@ void Exact::lookFor(Pair pair, double t) {
       if (held) {  // parts that rest on each other stay so until something happens
         bringTo(t, a);
         bringTo(t, b);
-        if (separation(partA.shape, placed(state_.bodies[a], partA.pose), partB.shape,
-                       placed(state_.bodies[b], partB.pose)) <= tolerance_.touch)
+        if (separation(partA.shape, toWorld(state_.bodies[a].pose(), partA.pose), partB.shape,
+                       toWorld(state_.bodies[b].pose(), partB.pose)) <= tolerance_.touch)
           continue;
       }
       Approach approach(flyer(a, partA), flyer(b, partB), tolerance_.touch);
