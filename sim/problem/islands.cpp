@@ -29,6 +29,7 @@ struct Island {
 /// Copies cones, rows and bodies of one island. `local` is −1 for every body, before and after.
 void gather(const Problem& whole, const std::vector<int>& cones, const Solution& start,
             std::vector<int>& local, Island& island) {
+  const bool known = start.v.size() == whole.vStar.size();
   const auto bodyOf = [&](int body) {
     if (local[body] < 0) {
       local[body] = static_cast<int>(island.bodies.size());
@@ -36,6 +37,7 @@ void gather(const Problem& whole, const std::vector<int>& cones, const Solution&
       island.problem.invM.push_back(whole.invM[body]);
       island.problem.Iinv.push_back(whole.Iinv[body]);
       island.problem.vStar.push_back(whole.vStar[body]);
+      if (known) island.solution.v.push_back(start.v[body]);
     }
     return local[body];
   };
@@ -101,7 +103,7 @@ std::vector<std::vector<int>> islands(const Problem& problem) {
 SolveReport solveByIslands(const Solver& solver, const Problem& problem,
                            const SolveSettings& settings, Solution& solution) {
   Solution start;
-  std::swap(start.lambda, solution.lambda);
+  std::swap(start, solution);
   solution.lambda.assign(problem.rows.size(), 0.0);
   solution.v = problem.vStar;
 
@@ -114,6 +116,7 @@ SolveReport solveByIslands(const Solver& solver, const Problem& problem,
     scatter(problem, cones, island, solution);
     worst.status = std::max(worst.status, report.status);
     worst.residual = std::max(worst.residual, report.residual);
+    worst.balance = std::max(worst.balance, report.balance);
     worst.iterations = std::max(worst.iterations, report.iterations);
   }
   return worst;

@@ -58,7 +58,9 @@ struct SolveReport {
   SolveStatus status = SolveStatus::Solved;
   double residual =
       0.0;  ///< largest entry of the natural map, in units of u, over the largest |J vStar + bias|
-  int iterations = 0;  ///< sweeps or pivots
+  int iterations = 0;  ///< sweeps, pivots or factorizations
+  double balance = 0.0;  ///< largest entry of M (v − vStar) − Jᵀ λ, over the sum of the sizes of
+                         ///< the terms of its body; 0 where v is what λ gives
 };
 
 struct SolveSettings {

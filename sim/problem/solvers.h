@@ -17,4 +17,14 @@ SolveReport solvePgs(const Problem& problem, const SolveSettings& settings, Solu
 SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
                           Solution& solution);
 
+/// Proximal augmented Lagrangian. In stages λ ← Π_K(λ − ρ(u + s)), where v minimises the convex
+///   Φ(v) = ½ |v − v*|²_M + Σ |Π_K(λ − ρ(J v + bias + s))|² / 2ρ
+/// by Newton's method with H = M + ρ Jᵀ ∂Π J, a matrix of 6 × 6 blocks on the graph of bodies:
+/// points that depend on each other make it neither larger nor singular. s = mu |u_t| n follows
+/// from stage to stage, which makes the cone Coulomb's (de Saxcé & Feng 1998; Rockafellar 1976;
+/// Acary, Brémond & Huber 2018). ρ is one for the whole problem. It starts from λ = 0 whatever the
+/// solution holds, and from solution.v if that is of the right length; λ is then the smallest among
+/// equals.
+SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution);
+
 }  // namespace tumble

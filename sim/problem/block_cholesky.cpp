@@ -1,0 +1,153 @@
+#include "sim/problem/block_cholesky.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+BlockStructure::BlockStructure(int rows, std::span<const BlockEdge> edges)
+    : rows_(rows), edges_(edges.begin(), edges.end()) {
+  order();
+  fill();
+}
+
+bool BlockStructure::isFor(int rows, std::span<const BlockEdge> edges) const {
+  return rows == rows_ && std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end());
+}
+
+void BlockStructure::order() {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [i, j] : edges_) {
+    entries.emplace_back(i, j, 1.0);
+    entries.emplace_back(j, i, 1.0);
+  }
+  for (int i = 0; i < rows_; ++i) entries.emplace_back(i, i, 1.0);
+  Eigen::SparseMatrix<double> graph(rows_, rows_);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(graph, permutation);
+  place_.resize(rows_);
+  for (int k = 0; k < rows_; ++k) place_[permutation.indices()[k]] = k;
+}
+
+/// A column of the factor has the blocks of the matrix, and those of the columns whose first block
+/// stands in its row.
+void BlockStructure::fill() {
+  std::vector<std::vector<int>> columns(rows_);
+  for (const auto& [i, j] : edges_) {
+    const auto [first, last] = std::minmax(place_[i], place_[j]);
+    columns[first].push_back(last);
+  }
+  begin_.assign(1, 0);
+  for (int c = 0; c < rows_; ++c) {
+    std::vector<int>& column = columns[c];
+    std::sort(column.begin(), column.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
+    below_.insert(below_.end(), column.begin(), column.end());
+    begin_.push_back(static_cast<int>(below_.size()));
+    if (column.empty()) continue;
+    std::vector<int>& parent = columns[column.front()];
+    parent.insert(parent.end(), column.begin() + 1, column.end());
+  }
+  for (const auto& [i, j] : edges_) {
+    const auto [first, last] = std::minmax(place_[i], place_[j]);
+    const auto from = below_.begin() + begin_[first], to = below_.begin() + begin_[first + 1];
+    slot_.push_back(static_cast<int>(std::lower_bound(from, to, last) - below_.begin()));
+  }
+}
+
+void BlockCholesky::begin(const BlockStructure& structure) {
+  structure_ = &structure;
+  diagonal_.resize(structure.rows_);
+  blocks_.resize(structure.below_.size());
+  moved_.resize(structure.rows_);
+  for (Mat6& block : diagonal_) block.setZero();
+  for (Mat6& block : blocks_) block.setZero();
+}
+
+int BlockCholesky::edgeRow(int e) const {
+  const auto& [i, j] = structure_->edges_[e];
+  return structure_->place_[i] > structure_->place_[j] ? i : j;
+}
+
+namespace {
+
+/// Turns a block A into the inverse of its Cholesky factor. False if A is not positive definite.
+bool invertFactor(Mat6& A) {
+  Mat6 L = Mat6::Zero();
+  for (int j = 0; j < 6; ++j) {
+    double pivot = A(j, j);
+    for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
+    if (!(pivot > 0.0)) return false;
+    L(j, j) = std::sqrt(pivot);
+    const double scale = 1.0 / L(j, j);
+    for (int i = j + 1; i < 6; ++i) {
+      double sum = A(i, j);
+      for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
+      L(i, j) = sum * scale;
+    }
+  }
+  A.setZero();
+  for (int j = 0; j < 6; ++j) {
+    A(j, j) = 1.0 / L(j, j);
+    for (int i = j + 1; i < 6; ++i) {
+      double sum = 0.0;
+      for (int k = j; k < i; ++k) sum -= L(i, k) * A(k, j);
+      A(i, j) = sum / L(i, i);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+/// Divides a column by its diagonal, and takes its products off the columns to the right.
+void BlockCholesky::eliminate(int column) {
+  const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
+  const Mat6& inverse = diagonal_[column];
+  const int first = begin[column], end = begin[column + 1];
+  for (int s = first; s < end; ++s) {
+    const Mat6 block = blocks_[s];
+    blocks_[s].noalias() = block.lazyProduct(inverse.transpose());
+  }
+  for (int s = first; s < end; ++s) {
+    const int j = below[s];
+    diagonal_[j].noalias() -= blocks_[s].lazyProduct(blocks_[s].transpose());
+    int target = begin[j];
+    for (int r = s + 1; r < end; ++r, ++target) {
+      while (below[target] != below[r]) ++target;
+      blocks_[target].noalias() -= blocks_[r].lazyProduct(blocks_[s].transpose());
+    }
+  }
+}
+
+bool BlockCholesky::factor() {
+  for (int c = 0; c < structure_->rows_; ++c) {
+    if (!invertFactor(diagonal_[c])) return false;
+    eliminate(c);
+  }
+  return true;
+}
+
+void BlockCholesky::solve(std::span<Vec6> x) {
+  const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
+  const int n = structure_->rows_;
+  for (int i = 0; i < n; ++i) moved_[structure_->place_[i]] = x[i];
+  for (int c = 0; c < n; ++c) {
+    const Vec6 y = diagonal_[c].lazyProduct(moved_[c]);
+    moved_[c] = y;
+    for (int s = begin[c]; s < begin[c + 1]; ++s)
+      moved_[below[s]].noalias() -= blocks_[s].lazyProduct(y);
+  }
+  for (int c = n - 1; c >= 0; --c) {
+    Vec6 y = moved_[c];
+    for (int s = begin[c]; s < begin[c + 1]; ++s)
+      y.noalias() -= blocks_[s].transpose().lazyProduct(moved_[below[s]]);
+    moved_[c].noalias() = diagonal_[c].transpose().lazyProduct(y);
+  }
+  for (int i = 0; i < n; ++i) x[i] = moved_[structure_->place_[i]];
+}
+
+}  // namespace tumble

@@ -1,0 +1,68 @@
+// Chapter 6, problem: Cholesky factors of sparse symmetric matrices made of 6 × 6 blocks.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sim/math/vec.h"
+
+namespace tumble {
+
+/// Two different rows of blocks that share a block.
+using BlockEdge = std::pair<int, int>;
+
+/// Where the blocks of a matrix and of its factor stand: found once for a graph of bodies, used for
+/// every matrix on it. George & Liu, Computer Solution of Large Sparse Positive Definite Systems,
+/// 1981, ch. 5; the order is that of approximate minimum degree (Amestoy, Davis & Duff 1996).
+class BlockStructure {
+ public:
+  /// @param rows   number of rows of blocks
+  /// @param edges  those off the diagonal, each pair of rows at most once
+  BlockStructure(int rows, std::span<const BlockEdge> edges);
+
+  bool isFor(int rows, std::span<const BlockEdge> edges) const;
+
+ private:
+  friend class BlockCholesky;
+  void order();
+  void fill();
+
+  int rows_;
+  std::vector<BlockEdge> edges_;
+  std::vector<int> place_;  ///< per row: when it is eliminated
+  std::vector<int> begin_;  ///< per column of the factor: its first block below the diagonal
+  std::vector<int> below_;  ///< row of each of these blocks, ascending in a column
+  std::vector<int> slot_;   ///< per edge: its block
+};
+
+/// H = L Lᵀ for a positive definite H, and solutions of H x = b.
+/// Set H block by block: `begin`, then add to `diagonal` and `edge`, then `factor`.
+class BlockCholesky {
+ public:
+  /// Starts a matrix of zeros. The structure must outlive the use.
+  void begin(const BlockStructure& structure);
+
+  Mat6& diagonal(int row) { return diagonal_[structure_->place_[row]]; }
+
+  /// Block of an edge (i, j): row `edgeRow`, column the other one.
+  Mat6& edge(int e) { return blocks_[structure_->slot_[e]]; }
+  /// Which end of the edge is the row of its block.
+  int edgeRow(int e) const;
+
+  /// False if H is not positive definite to rounding.
+  bool factor();
+
+  /// x ← H⁻¹ x.
+  void solve(std::span<Vec6> x);
+
+ private:
+  void eliminate(int column);
+
+  const BlockStructure* structure_ = nullptr;
+  std::vector<Mat6> diagonal_;  ///< by place; after `factor` the inverse of the diagonal of L
+  std::vector<Mat6> blocks_;
+  std::vector<Vec6> moved_;
+};
+
+}  // namespace tumble
