@@ -69,7 +69,7 @@ struct CourseSettings {
 
 struct SteppingSettings {
   double step = 1.0 / 240.0;  ///< [s]
-  std::string solver = "pgs";
+  std::string solver = "newton";
   double tolerance = 1e-12;  ///< natural-map residual, relative
 };
 

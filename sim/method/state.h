@@ -1,8 +1,6 @@
 // Chapter 9, method: the half of a world that changes.
 #pragma once
 
-#include <compare>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
 #include "sim/method/report.h"
+#include "sim/method/stepping/memory.h"
 #include "sim/shape/outline.h"
 
 namespace tumble {
@@ -43,20 +42,8 @@ struct State {
   double momentumScale = 0.0;           ///< [kg m/s] max of Σ|P|
   double kineticMax = 0.0;              ///< [J]
 
-  // What only `stepping` remembers: multipliers of the last step by contact, hits under way.
-  struct ContactKey {
-    int a, b;
-    std::uint64_t feature;
-    auto operator<=>(const ContactKey&) const = default;
-  };
-  std::map<ContactKey, Vec3> warm;
-  /// A hit that closes its gap in one step and rebounds in the next: how fast it came, what it got
-  /// so far.
-  struct Arrival {
-    double approach = 0.0;  ///< [m/s] > 0
-    double j = 0.0;         ///< [N·s]
-  };
-  std::map<ContactKey, Arrival> arrivals;
+  SteppingMemory stepping;          ///< what only `stepping` remembers
+  std::vector<Segment> spareTrail;  ///< stretches gone by, whose memory is used again
 
   std::vector<std::pair<int, int>> near;  ///< pairs that the next step may bring together
   std::vector<Witness> witnesses;         ///< planes that parted them when last looked at

@@ -468,9 +468,13 @@ double Newton::solveCalm(double tolerance) {
   for (int stage = 0; stage < kStages && factorizations_ < kMost; ++stage) {
     if (!minimise(accuracy(tolerance, before), kInner)) break;
     const double now = residual();
-    if (now <= tolerance || now > 0.5 * before) return now;
-    before = now;
+    if (now > tolerance && now > 0.5 * before) return now;
     nextStage(false);
+    if (now <= tolerance) {  // one stage more costs no factor and leaves rounding alone
+      minimise(0.0, kInner);
+      return residual();
+    }
+    before = now;
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -479,13 +483,19 @@ double Newton::solveCalm(double tolerance) {
 double Newton::solveCold(double tolerance, int most) {
   constexpr double kFirstTau = 1.0, kGrowth = 10.0, kLastTau = 1e5;
   constexpr int kStages = 60, kInner = 60, kEasy = 6;
+  constexpr double kNear = 1e-9;  // below this, stages that bring nothing are counted
+  constexpr int kPatience = 4;
   rho_ = kFirstTau * weight_;
-  double before = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity(), best = before;
+  int stalled = 0;
   for (int stage = 0;; ++stage) {
     const int spent = factorizations_;
     minimise(accuracy(tolerance, before), kInner);
     const double now = residual();
-    if (now <= tolerance || stage == kStages || factorizations_ >= most) return now;
+    stalled = now > 0.8 * best && now < kNear ? stalled + 1 : 0;
+    best = std::min(best, now);
+    if (now <= tolerance || stage == kStages || factorizations_ >= most || stalled == kPatience)
+      return now;
     const bool slow = now > 0.01 * before && factorizations_ - spent <= kEasy;
     if (stage == 0 || slow) rho_ = std::min(kGrowth * rho_, kLastTau * weight_);
     before = now;

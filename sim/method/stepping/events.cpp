@@ -4,46 +4,34 @@
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
-std::vector<Stepping::Push> Stepping::pushes(double h) {
-  const std::vector<RigidBody>& start = state_.trail.back().start;
-  std::vector<Push> pushed;
-  std::map<State::ContactKey, State::Arrival> arrivals;
-  state_.warm.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    Contact c = contacts_[i];
-    double j = impulse_[i].dot(c.point.n);
-    if (j <= 0.0) continue;
-    const State::ContactKey key{c.a, c.b, c.point.feature};
-    state_.warm[key] = impulse_[i];
-    c.anchor = anchorOf(start[c.a], start[c.b], c.point);
-    c.force = impulse_[i] / h;
-    const Vec3 tangential = impulse_[i] - j * c.point.n;
-    const Vec3 slip = slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
-    c.sliding = c.friction > 0.0 && tangential.norm() >= c.friction * j * (1.0 - 1e-9) &&
-                slip.norm() > tolerance_.stick;
+namespace {
 
-    // What began as an arrival is told when it has arrived, with all that it got.
-    if (const auto begun = state_.arrivals.find(key); begun != state_.arrivals.end())
-      j += begun->second.j;
-    const bool arriving = c.point.separation > tolerance_.touch;
-    if (arriving) arrivals[key] = {approach_[i], j};
-    c.lasting = !arriving && !rebounds_[i];
-    pushed.push_back({c, approach_[i], j, arriving});
-  }
-  std::swap(state_.arrivals, arrivals);
-  return pushed;
+bool sooner(const Contact& p, const Contact& q) {
+  return std::pair(p.b, p.a) < std::pair(q.b, q.a);
 }
 
-void Stepping::recordImpact(double t, std::span<const Push> pair) {
-  const Contact& first = pair.front().contact;
-  Event event{.t = t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
-  event.n = first.point.n;
+}  // namespace
+
+bool Stepping::arrives(const Touch& touch) const {
+  return touch.contact.point.separation > tolerance_.touch;
+}
+
+/// What began as an arrival is told when it has arrived, with all that it got.
+void Stepping::recordImpact(double t, const PairMemory& pair) {
+  Event event{.t = t, .kind = EventKind::Impact};
   event.p.setZero();
-  for (const Push& push : pair) {
-    if (push.arriving) continue;
-    event.p += push.j * push.contact.point.p;
-    event.j += push.j;
-    event.vrel = std::min(event.vrel, -push.approach);
+  for (const Touch& touch : pair.touches) {
+    const double pushed = touch.impulse.dot(touch.contact.point.n);
+    if (pushed <= 0.0 || arrives(touch)) continue;
+    const double j = pushed + touch.arrivalImpulse;
+    if (event.j == 0.0) {
+      event.a = touch.contact.a;
+      event.b = touch.contact.b;
+      event.n = touch.contact.point.n;
+    }
+    event.p += j * touch.contact.point.p;
+    event.j += j;
+    event.vrel = std::min(event.vrel, -touch.approach);
   }
   if (event.vrel >= landingSpeed()) return;
   event.p /= event.j;
@@ -51,26 +39,50 @@ void Stepping::recordImpact(double t, std::span<const Push> pair) {
 }
 
 void Stepping::recordEvents(double t) {
+  Segment& segment = state_.trail.back();
   const std::size_t firstEvent = report_.events.size();
-  const std::vector<Push> pushed = pushes(t - state_.t);
-  std::vector<Contact> before;
-  std::swap(before, state_.lasting);
-
-  // Contacts of one pair stand together; a pair that rebounds does not last.
-  for (auto first = pushed.begin(); first != pushed.end();) {
-    const auto last = std::find_if(first, pushed.end(), [&](const Push& push) {
-      return push.contact.a != first->contact.a || push.contact.b != first->contact.b;
-    });
-    recordImpact(t, {first, last});
-    const bool rebounds = std::any_of(
-        first, last, [](const Push& push) { return !push.arriving && !push.contact.lasting; });
-    for (auto push = first; push != last; ++push)
-      if (!rebounds && push->contact.lasting) state_.lasting.push_back(push->contact);
-    first = last;
+  lasting_.clear();
+  segment.contacts.clear();
+  for (PairMemory& pair : memory_.pairs) {
+    const Contact* lasting = nullptr;
+    bool rebounds = false;
+    if (!allKept_) recordImpact(t, pair);
+    for (Touch& touch : pair.touches) {
+      const double j = touch.impulse.dot(touch.contact.point.n);
+      if (j > 0.0) {
+        segment.contacts.push_back(touch.contact);
+        if (!lasting && touch.contact.lasting) lasting = &touch.contact;
+        rebounds |= touch.rebounds;
+      }
+      // A hit that closes its gap in this step rebounds in the next.
+      const bool arriving = j > 0.0 && arrives(touch);
+      touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
+      touch.arrivalSpeed = arriving ? touch.approach : 0.0;
+    }
+    if (lasting && !rebounds) lasting_.push_back(*lasting);
   }
-  for (const Push& push : pushed) state_.trail.back().contacts.push_back(push.contact);
-  recordChanges(before, state_.lasting, t, report_);
+  if (allKept_) return;
+  std::swap(lasting_, memory_.lasting);
+  recordLasting(lasting_, t);
   sortEvents(report_, firstEvent);
+}
+
+/// Both lists have one contact of a pair, in order of pairs.
+void Stepping::recordLasting(const std::vector<Contact>& before, double t) {
+  const auto tell = [&](EventKind kind, const Contact& c) {
+    report_.events.push_back(
+        {.t = t, .kind = kind, .a = c.a, .b = c.b, .p = c.point.p, .n = c.point.n});
+  };
+  auto old = before.begin();
+  for (const Contact& c : memory_.lasting) {
+    for (; old != before.end() && sooner(*old, c); ++old) tell(EventKind::Separate, *old);
+    const bool known = old != before.end() && !sooner(c, *old);
+    if (!known) tell(EventKind::Rest, c);
+    if (c.sliding != (known && old->sliding))
+      tell(c.sliding ? EventKind::Slip : EventKind::Stick, c);
+    if (known) ++old;
+  }
+  for (; old != before.end(); ++old) tell(EventKind::Separate, *old);
 }
 
 double Stepping::landingSpeed() const {

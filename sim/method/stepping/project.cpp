@@ -18,13 +18,11 @@ void Stepping::project() {
 }
 
 double Stepping::deepestOverlap() {
-  // Neighbours within this gap take part, so that nothing is lifted into them.
-  constexpr double kNeighbour = 1e-4;  // [m]
-  overlaps_.clear();
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    findNearContacts(model_, state_, k, kNeighbour, overlaps_, report_);
   double deepest = 0.0;
-  for (const Contact& c : overlaps_) deepest = std::max(deepest, -c.point.separation);
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    look(k, memory_.pairs[k].margin);
+    deepest = std::max(deepest, memory_.pairs[k].deepest);
+  }
   return deepest;
 }
 
@@ -34,15 +32,18 @@ void Stepping::lift() {
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
   beginVelocityProblem(state_.bodies, problem_);
   for (Vec6& v : problem_.vStar) v.setZero();
-  for (const Contact& c : overlaps_) {
-    problem_.cones.push_back(
-        {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())});
-    problem_.rows.push_back(
-        pointRow(state_.bodies, c.a, c.b, c.point.p, c.point.n, c.point.separation));
+  for (const PairMemory& pair : memory_.pairs) {
+    for (const Touch& touch : pair.touches) {
+      const Contact& c = touch.contact;
+      problem_.cones.push_back(
+          {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())});
+      problem_.rows.push_back(
+          pointRow(state_.bodies, c.a, c.b, c.point.p, c.point.n, c.point.separation));
+    }
   }
   solution_.lambda.clear();
-  solveByIslands(*findSolver(model_.def.stepping.solver), problem_,
-                 {.tolerance = kTolerance, .maxIterations = 200}, solution_);
+  solution_.v.clear();
+  solveByIslands(solver_, problem_, {.tolerance = kTolerance, .maxIterations = 200}, solution_);
 
   // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
   constexpr double kLargestTurn = 0.1;  // [rad]

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "sim/body/force.h"
-#include "sim/contact/rows.h"
 #include "sim/math/rotation.h"
-#include "sim/problem/cone.h"
 
 namespace tumble {
 void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
@@ -31,7 +29,9 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
     : model_(model),
       state_(state),
       report_(report),
-      tolerance_(ContactTolerance::forSize(model.size)) {}
+      memory_(state.stepping),
+      tolerance_(ContactTolerance::forSize(model.size)),
+      solver_(*findSolver(model.def.stepping.solver)) {}
 
 bool Stepping::finite() const {
   return std::all_of(state_.bodies.begin(), state_.bodies.end(), [](const RigidBody& body) {
@@ -49,20 +49,48 @@ void Stepping::stop() {
 
 void Stepping::step() {
   const double t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
-  const double h = t1 - state_.t;
-  state_.trail.push_back(
-      {.t0 = state_.t, .t1 = t1, .start = state_.bodies, .end = {}, .contacts = {}});
+  const double h = lengthTo(t1);
+  beginSegment(t1);
 
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
-  findNear(h);
-  buildProblem(h);
-  solve();
-  applyImpulses(h);
+  findTouching(h);
+  solveIslands(h);
+  applyTwists(h);
+  recordEvents(t1);
   moveBodies(h);
   if (!finite()) return stop();
   project();
+  endSegment(t1);
+}
 
-  recordEvents(t1);
+/// The length [s] of a step: that of the grid, free of the rounding of its ends, but for a shorter
+/// one at the end of the run.
+double Stepping::lengthTo(double t1) const {
+  const double h = model_.def.stepping.step;
+  const bool whole = t1 == static_cast<double>(state_.gridIndex + 1) * h;
+  return whole ? h : t1 - state_.t;
+}
+
+void Stepping::beginSegment(double t1) {
+  if (state_.spareTrail.empty()) {
+    state_.trail.emplace_back();
+  } else {
+    state_.trail.push_back(std::move(state_.spareTrail.back()));
+    state_.spareTrail.pop_back();
+  }
+  Segment& segment = state_.trail.back();
+  segment.t0 = state_.t;
+  segment.t1 = t1;
+  segment.start = state_.bodies;
+
+  const std::size_t n = state_.bodies.size();
+  before_.resize(n);
+  star_.resize(n);
+  after_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) before_[i] << state_.bodies[i].v, state_.bodies[i].omega;
+}
+
+void Stepping::endSegment(double t1) {
   state_.trail.back().end = state_.bodies;
   state_.t = t1;
   ++state_.gridIndex;
@@ -71,135 +99,24 @@ void Stepping::step() {
   account(model_, state_, report_);
 }
 
-void Stepping::findNear(double h) {
-  std::vector<Aabb> boxes;
-  const double g = model_.def.gravity.norm();
-  sweptBoxes(model_, state_.bodies, h, g, tolerance_.touch, boxes);
-  state_.near = nearPairs(model_, state_, boxes);
-  if (stopAtUnknownPair(model_, state_.near, report_)) return;
-  contacts_.clear();
-  for (std::size_t k = 0; k < state_.near.size(); ++k) {
-    const auto& pair = state_.near[k];
-    // As far as the two surfaces can come towards each other within the step.
-    const RigidBody &b = state_.bodies[pair.first], &a = state_.bodies[pair.second];
-    double speed = (a.v - b.v).norm();
-    for (int i : {pair.first, pair.second}) {
-      const double radius = boundingRadius(model_.shapes[i]);
-      if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
-    }
-    findNearContacts(model_, state_, k, h * speed + 2.0 * g * h * h + tolerance_.touch, contacts_,
-                     report_);
-  }
-}
-
-void Stepping::buildProblem(double h) {
-  beginVelocityProblem(state_.bodies, problem_);
-  before_ = problem_.vStar;
+/// Momenta at the end of the step: those of the forces, and what contacts changed.
+void Stepping::applyTwists(double h) {
+  Certificate& books = report_.certificate;
+  const double powerBefore = powerOfForces(model_.def.forces, state_.bodies);
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
-    const RigidBody& body = state_.bodies[i];
-    if (body.fixed()) continue;
-    problem_.vStar[i] << body.v + h * body.invM * body.force,
-        body.Iinv * (body.L + h * body.torque);
-  }
-  solution_.lambda.clear();
-  rebounds_.clear();
-  approach_.clear();
-  for (const Contact& contact : contacts_) addContact(contact, h);
-}
-
-void Stepping::addContact(const Contact& contact, double h) {
-  const RigidBody &a = state_.bodies[contact.a], &b = state_.bodies[contact.b];
-  const ContactPoint& c = contact.point;
-  Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
-
-  // A gap may be closed by the end of the step and no further. The step after, on the surface, the
-  // hit rebounds with the speed at which it came: so a bounce starts where it should and gains no
-  // height.
-  const auto along = [&](const std::vector<Vec6>& v) {
-    return normal.linear.dot(v[contact.a].head<3>() - v[contact.b].head<3>()) +
-           normal.angularA.dot(v[contact.a].tail<3>()) +
-           normal.angularB.dot(v[contact.b].tail<3>());
-  };
-  const double vrel = along(before_);
-  const auto arrival = state_.arrivals.find({contact.a, contact.b, c.feature});
-  const double known = arrival == state_.arrivals.end() ? 0.0 : arrival->second.approach;
-  const double approach = std::max(known, -vrel);
-  const bool arrived = c.separation <= tolerance_.touch;
-  const bool hits = c.separation + h * along(problem_.vStar) < 0.0;
-  const bool rebounds = arrived && hits && approach > 0.0 && contact.restitution > 0.0;
-  normal.bias = rebounds ? -contact.restitution * approach : std::max(0.0, c.separation) / h;
-  approach_.push_back(approach);
-  rebounds_.push_back(rebounds && normal.bias < landingSpeed());
-
-  const auto warm = state_.warm.find({contact.a, contact.b, c.feature});
-  const Vec3 guess = warm == state_.warm.end() ? Vec3(Vec3::Zero()) : warm->second;
-  Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())};
-  problem_.rows.push_back(normal);
-  solution_.lambda.push_back(std::max(0.0, guess.dot(c.n)));
-  if (contact.friction > 0.0) {
-    cone.kind = ConeKind::Friction;
-    cone.mu = contact.friction;
-    Vec3 t1, t2;
-    tangents(c.n, slipVelocity(a, b, c), t1, t2);
-    for (const Vec3& t : {t1, t2}) {
-      problem_.rows.push_back(pointRow(state_.bodies, contact.a, contact.b, c.p, t, 0.0));
-      solution_.lambda.push_back(guess.dot(t));
-    }
-  }
-  problem_.cones.push_back(cone);
-}
-
-void Stepping::solve() {
-  const SteppingSettings& settings = model_.def.stepping;
-  constexpr int kSweeps = 2000;  // more bring little; what is left is in the certificate
-  const SolveReport solved =
-      solveByIslands(*findSolver(settings.solver), problem_,
-                     {.tolerance = settings.tolerance, .maxIterations = kSweeps}, solution_);
-  Certificate& books = report_.certificate;
-  books.max_complementarity = std::max(books.max_complementarity, solved.residual);
-  if (solved.status != SolveStatus::Solved)
-    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
-}
-
-void Stepping::applyImpulses(double h) {
-  Certificate& books = report_.certificate;
-  std::vector<RigidBody>& bodies = state_.bodies;
-  touched_.assign(bodies.size(), 0);
-  impulse_.assign(contacts_.size(), Vec3::Zero());
-  const double powerBefore = powerOfForces(model_.def.forces, bodies);
-  for (RigidBody& body : bodies) {
+    RigidBody& body = state_.bodies[i];
     if (body.fixed()) continue;
     body.P += h * body.force;
     body.L += h * body.torque;
     state_.externalImpulse += h * body.force;
-  }
-
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    const Cone& cone = problem_.cones[i];
-    for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
-      const Row& row = problem_.rows[r];
-      const double lambda = solution_.lambda[r];
-      impulse_[i] += lambda * row.linear;
-      // Work over the step is λ times the mean of the velocities before and after.
-      const Vec6 a = 0.5 * (before_[row.a] + solution_.v[row.a]);
-      const Vec6 b = 0.5 * (before_[row.b] + solution_.v[row.b]);
-      const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
-      const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
-      (r == cone.row ? books.energy_lost_impact : books.energy_lost_friction) -=
-          lambda * (ofA + ofB);
-      if (bodies[row.a].fixed()) books.work_of_forces -= lambda * ofA;
-      if (bodies[row.b].fixed()) books.work_of_forces -= lambda * ofB;
+    if (touched_[i]) {
+      const Vec6 change = after_[i] - star_[i];
+      body.P += body.M * change.head<3>();
+      if (!body.particle) body.L += body.R * (body.Ibody * (body.R.transpose() * change.tail<3>()));
     }
-    if (impulse_[i].isZero(0.0)) continue;
-    applyImpulse(bodies[contact.a], contact.point.p, impulse_[i]);
-    applyImpulse(bodies[contact.b], contact.point.p, -impulse_[i]);
-    touched_[contact.a] = touched_[contact.b] = 1;
-    if (bodies[contact.b].fixed()) state_.externalImpulse += impulse_[i];
-    if (bodies[contact.a].fixed()) state_.externalImpulse -= impulse_[i];
+    updateDerived(body);
   }
-  for (RigidBody& body : bodies) updateDerived(body);
-  books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, bodies));
+  books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, state_.bodies));
 }
 
 void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {

@@ -1,0 +1,55 @@
+// What `stepping` remembers from step to step. None of it changes an answer beyond rounding: it
+// spares looking twice at what has not changed.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "sim/contact/contact.h"
+#include "sim/problem/problem.h"
+
+namespace tumble {
+
+/// A contact point, and what the last step that solved for it found.
+struct Touch {
+  Contact contact;              ///< as found; with the force of the step
+  Vec3 impulse = Vec3::Zero();  ///< [N·s] on a
+  double approach = 0.0;        ///< [m/s] how fast it came
+  bool rebounds = false;        ///< leaves with e times its approach
+  double arrivalSpeed = 0.0;    ///< [m/s] of a hit that closed its gap in the step before
+  double arrivalImpulse = 0.0;  ///< [N·s] that it got so far
+};
+
+/// The contact points of a near pair, as found at two poses.
+struct PairMemory {
+  Pose poseA, poseB;
+  double margin = -1.0;  ///< [m] up to which points were looked for; < 0: never looked at
+  long look = 0;         ///< number of the look that found them: the same number, the same points
+  double deepest = 0.0;  ///< [m] largest overlap
+  std::vector<Touch> touches;
+};
+
+/// Sums over the contacts of an island in one step, for the books.
+struct IslandBooks {
+  double lostImpact = 0.0, lostFriction = 0.0, work = 0.0;  ///< [J]
+  Vec3 external = Vec3::Zero();                             ///< [N·s] from fixed bodies
+};
+
+/// An island when it was last solved: the question and the answer.
+struct IslandMemory {
+  std::vector<int> bodies;     ///< that move, in order of their first contact
+  std::vector<long> looks;     ///< of its pairs
+  std::vector<Vec6> vStar, v;  ///< per body
+  double scale = 1.0;          ///< [m/s] velocityScale of the problem
+  double residual = 0.0;
+  IslandBooks books;
+};
+
+struct SteppingMemory {
+  std::vector<PairMemory> pairs;      ///< as State::near
+  std::vector<IslandMemory> islands;  ///< by the first of their bodies
+  std::vector<Contact> lasting;       ///< the first lasting contact of each pair that has one
+  long looks = 0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,104 @@
+// Which pairs are near, and where they touch: looked at anew only where a body has moved.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+namespace {
+
+/// Whether a pose is another one but for the rounding of the numbers it is made of.
+bool samePose(const Pose& p, const Pose& q, double size) {
+  constexpr double kRounding = 4e-16;
+  return (p.x - q.x).lpNorm<Eigen::Infinity>() <= kRounding * size &&
+         (p.q.coeffs() - q.q.coeffs()).lpNorm<Eigen::Infinity>() <= kRounding;
+}
+
+}  // namespace
+
+void Stepping::findTouching(double h) {
+  findNear(h);
+  if (stopAtUnknownPair(model_, state_.near, report_)) return;
+  for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, marginOf(k, h));
+}
+
+void Stepping::findNear(double h) {
+  sweptBoxes(model_, state_.bodies, h, model_.def.gravity.norm(), tolerance_.touch, boxes_);
+  state_.broadPhase.update(boxes_);
+  near_.clear();
+  for (const auto& [i, j] : state_.broadPhase.pairs()) {
+    const int b = model_.solid[i], a = model_.solid[j];
+    if (!(model_.fixed(a) && model_.fixed(b))) near_.emplace_back(b, a);
+  }
+  if (near_ == state_.near && memory_.pairs.size() == near_.size()) return;
+
+  // What is known of pairs that stay goes with them. Both lists are sorted.
+  passed_.clear();
+  passed_.resize(near_.size());
+  std::vector<Witness> witnesses(near_.size());
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    while (old < memory_.pairs.size() && state_.near[old] < near_[k]) ++old;
+    if (old == memory_.pairs.size() || state_.near[old] != near_[k]) continue;
+    passed_[k] = std::move(memory_.pairs[old]);
+    witnesses[k] = state_.witnesses[old];
+  }
+  std::swap(state_.near, near_);
+  std::swap(memory_.pairs, passed_);
+  std::swap(state_.witnesses, witnesses);
+}
+
+/// As far [m] as the two surfaces can come towards each other within the step, and no less than
+/// what the projection wants to see; rounded up to a power of two, so that it seldom changes.
+double Stepping::marginOf(std::size_t pair, double h) const {
+  constexpr double kNeighbour = 1e-4;
+  const auto [ib, ia] = state_.near[pair];
+  const RigidBody &b = state_.bodies[ib], &a = state_.bodies[ia];
+  const double g = model_.def.gravity.norm();
+  double speed = (a.v - b.v).norm();
+  for (int i : {ib, ia}) {
+    const double radius = boundingRadius(model_.shapes[i]);
+    if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
+  }
+  const double margin = std::max(kNeighbour, h * speed + 2.0 * g * h * h + tolerance_.touch);
+  return std::exp2(std::ceil(std::log2(margin)));
+}
+
+void Stepping::look(std::size_t pair, double margin) {
+  PairMemory& memory = memory_.pairs[pair];
+  const auto [ib, ia] = state_.near[pair];
+  const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
+  const Pose poseA = a.pose(), poseB = b.pose();
+  if (memory.margin == margin && samePose(memory.poseA, poseA, model_.size) &&
+      samePose(memory.poseB, poseB, model_.size))
+    return;
+  found_.clear();
+  findNearContacts(model_, state_, pair, margin, found_, report_);
+  const bool hadNone = memory.touches.empty() && memory.margin >= 0.0;
+  memory.poseA = poseA;
+  memory.poseB = poseB;
+  memory.margin = margin;
+  memory.deepest = 0.0;
+  if (found_.empty() && hadNone) return;  // still nothing
+
+  // Hits under way go on where the same features touch.
+  thread_local std::vector<Touch> old;
+  old.clear();
+  for (const Touch& touch : memory.touches)
+    if (touch.arrivalSpeed > 0.0) old.push_back(touch);
+  memory.look = ++memory_.looks;
+  memory.touches.assign(found_.size(), Touch{});
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    Touch& touch = memory.touches[i];
+    touch.contact = found_[i];
+    touch.contact.anchor = anchorOf(a, b, touch.contact.point);
+    memory.deepest = std::max(memory.deepest, -touch.contact.point.separation);
+    for (const Touch& before : old) {
+      if (before.contact.point.feature != touch.contact.point.feature) continue;
+      touch.arrivalSpeed = before.arrivalSpeed;
+      touch.arrivalImpulse = before.arrivalImpulse;
+    }
+  }
+}
+
+}  // namespace tumble
