@@ -56,18 +56,21 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
     const LcpReport lcp = solveLcp(system.A, system.b, lo, hi, lambda);
     SolveReport report = look(problem, lambda, lcp, solution);
     report.iterations = pivots += lcp.pivots;
-    if (!friction || lcp.status == SolveStatus::Infeasible) return report;
-    if (report.residual <= settings.tolerance) return report;
-    if (atRounding(problem, solution, report.residual)) return report;
+    if (report.residual <= settings.tolerance || atRounding(problem, solution, report.residual)) {
+      report.status = SolveStatus::Solved;
+      return report;
+    }
+    if (lcp.status == SolveStatus::Infeasible) return report;
     ++sinceBest;
     if (report.residual < kGain * bestResidual) sinceBest = 0;
     if (report.residual < bestResidual) {
       bestResidual = report.residual;
       best = solution;
     }
+    if (!friction) break;
   }
 
-  // What the pyramid leaves to the cone is done by sweeps.
+  // What the pyramid leaves to the cone, and the pivots to rounding, is done by sweeps.
   solution = best;
   SolveReport report = solvePgs(problem, {settings.tolerance, kPolishSweeps}, solution);
   report.iterations += pivots;
