@@ -15,7 +15,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPivot = 1e-12;  ///< Schur pivots below this, of a diagonal of 1, count as zero
 constexpr double kNoise = 32.0 * kEps;  ///< of a sum, relative to the sum of the sizes of its terms
 constexpr double kFoot = 1e-7;          ///< compliance that makes f unique: see solveLcp
-constexpr int kRounds = 20;             ///< times that what rounding spoiled is driven again
+constexpr double kExcuse = 1e-6;  ///< of |b|: the most that rounding, which grows with f, excuses
+constexpr double kGain = 1e-6;    ///< of |b| |d|: what counts as a gain along a direction d
+constexpr int kRounds = 20;       ///< times that what rounding spoiled is driven again
 
 /// Where an index stands, and so which condition it keeps while others are driven.
 enum class Place {
@@ -58,12 +60,14 @@ class Dantzig {
   bool clip();
   double noiseOf(int i) const;
   bool violated(int i) const;
+  bool endless() const;
   LcpReport report() const;
 
   MatX A_;
   VecX scale_, b_, lo_, hi_, f_, a_;
   VecX df_, da_, column_;  // direction: df over free_, da over all; scratch
   double foot_;            // compliance of each index, relative to its own diagonal
+  double largest_;         // |b|
   double rateNoise_ = 0.0;
   std::vector<Place> place_;
   std::vector<bool> skip_;      // does not enter during this drive: too dependent on the free ones
@@ -82,7 +86,10 @@ double scaleOf(double diagonal) {
 }
 
 Dantzig::Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi, double foot)
-    : foot_(foot), n_(static_cast<int>(b.size())), cap_(50 * n_ + 200) {
+    : foot_(foot),
+      largest_(b.size() > 0 ? b.lpNorm<Eigen::Infinity>() : 0.0),
+      n_(static_cast<int>(b.size())),
+      cap_(50 * n_ + 200) {
   scale_.resize(n_);
   for (int i = 0; i < n_; ++i) scale_[i] = scaleOf(A(i, i));
   A_ = scale_.asDiagonal() * A * scale_.asDiagonal();
@@ -279,23 +286,37 @@ double Dantzig::noiseOf(int i) const {
 
 bool Dantzig::violated(int i) const {
   if (lo_[i] >= hi_[i]) return false;
-  const double noise = 2.0 * kNoise * (std::abs(b_[i]) + A_.col(i).cwiseAbs().dot(f_.cwiseAbs()));
+  const double noise = std::min(2.0 * noiseOf(i), kExcuse * largest_ * scale_[i]);
   return (a_[i] < -noise && f_[i] < hi_[i]) || (a_[i] > noise && f_[i] > lo_[i]);
+}
+
+/// Whether f has grown along a direction that certifies that there is no solution: it may go on for
+/// ever, moves nothing, and gains all the way,  A d = 0,  bᵀd < 0  (Farkas' lemma).
+bool Dantzig::endless() const {
+  VecX d = f_;
+  for (int i = 0; i < n_; ++i)
+    if ((f_[i] > 0.0 && hi_[i] < kInfinity) || (f_[i] < 0.0 && lo_[i] > -kInfinity)) d[i] = 0.0;
+  const double size = d.lpNorm<Eigen::Infinity>(), gain = -b_.dot(d);
+  return (A_ * d).lpNorm<Eigen::Infinity>() <= kPivot * size &&
+         gain > kGain * b_.lpNorm<Eigen::Infinity>() * size;
 }
 
 LcpReport Dantzig::report() const {
   LcpReport report{.pivots = pivots_};
-  const VecX b = b_.cwiseQuotient(scale_), a = a_.cwiseQuotient(scale_);
+  const VecX a = a_.cwiseQuotient(scale_);
   for (int i = 0; i < n_; ++i) {
     const double wanted = a[i] > 0.0 ? std::min(a[i], (f_[i] - lo_[i]) * (A_(i, i) / scale_[i]))
                                      : std::min(-a[i], (hi_[i] - f_[i]) * (A_(i, i) / scale_[i]));
     if (wanted > report.residual) report.residual = wanted;
-    if (violated(i)) report.status = SolveStatus::NotConverged;
+    // Where rounding could hide so much, an answer that looks right says nothing.
+    const bool blind = noiseOf(i) > kExcuse * largest_ * scale_[i];
+    if (violated(i) || blind) report.status = SolveStatus::NotConverged;
   }
-  const double largest = b.lpNorm<Eigen::Infinity>();
-  if (largest > 0.0) report.residual /= largest;
+  if (largest_ > 0.0) report.residual /= largest_;
   for (int i = 0; i < n_; ++i)
     if (hopeless_[i] && violated(i)) report.status = SolveStatus::Infeasible;
+  if (report.status == SolveStatus::NotConverged && endless())
+    report.status = SolveStatus::Infeasible;
   return report;
 }
 

@@ -25,8 +25,10 @@ struct LcpReport {
 /// @param A   symmetric positive semidefinite, of any rank
 /// @param lo  may be −∞; lo = −∞, hi = +∞ makes an equality a = 0
 /// @param f   result; always finite and within its bounds
-/// @return Infeasible if some index can be driven for ever without its condition coming true
-///         (f is then the best point reached); NotConverged if the cap on pivots ended it.
+/// @return Infeasible if some index can be driven for ever without its condition coming true, or f
+///         has grown along a direction that moves nothing and gains for ever (f is then the best
+///         point reached); NotConverged if the cap on pivots ended it. What rounding is taken to
+///         excuse in a solution stays below 1e-6 of the largest |b|.
 LcpReport solveLcp(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi, VecX& f);
 
 }  // namespace tumble

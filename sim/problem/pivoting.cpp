@@ -1,4 +1,5 @@
 // Chapter 6, problem: Dantzig pivoting on a whole problem.
+#include <algorithm>
 #include <limits>
 
 #include "sim/problem/cone.h"
@@ -13,7 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kPasses = 100;
 constexpr int kPolishSweeps = 2000;
 constexpr int kPatience = 3;  ///< passes without gain after which the pyramid has told all it knows
-constexpr double kGain = 0.9;  ///< a gain: the residual falls below this part of the best before
+constexpr double kExcuse = 1e-6;  ///< the largest residual that rounding, growing with λ, excuses
+constexpr double kGain = 0.9;     ///< a gain: the residual falls below this part of the best before
 
 /// Bounds of every row, given the normal λ of the pass before. Returns whether they depend on it.
 bool setBounds(const Problem& problem, const VecX& lambda, VecX& lo, VecX& hi) {
@@ -56,11 +58,14 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
     const LcpReport lcp = solveLcp(system.A, system.b, lo, hi, lambda);
     SolveReport report = look(problem, lambda, lcp, solution);
     report.iterations = pivots += lcp.pivots;
-    if (report.residual <= settings.tolerance || atRounding(problem, solution, report.residual)) {
+    const bool endless = lcp.status == SolveStatus::Infeasible;
+    const bool rounded =
+        !endless && report.residual <= kExcuse && atRounding(problem, solution, report.residual);
+    if (report.residual <= settings.tolerance || rounded) {
       report.status = SolveStatus::Solved;
       return report;
     }
-    if (lcp.status == SolveStatus::Infeasible) return report;
+    if (endless) return report;
     ++sinceBest;
     if (report.residual < kGain * bestResidual) sinceBest = 0;
     if (report.residual < bestResidual) {
@@ -74,6 +79,8 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
   solution = best;
   SolveReport report = solvePgs(problem, {settings.tolerance, kPolishSweeps}, solution);
   report.iterations += pivots;
+  if (report.residual > std::max(settings.tolerance, kExcuse))
+    report.status = SolveStatus::NotConverged;
   return report;
 }
 

@@ -1,7 +1,6 @@
-// The boxed LCP: exact fractions, conditions of the solution, singular and impossible problems.
+// The boxed LCP: conditions of the solution, singular and impossible problems.
 #include "sim/problem/lcp.h"
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <limits>
 #include <vector>
 
@@ -67,79 +66,6 @@ double violation(const Lcp& lcp, const VecX& f) {
   return worst / std::max(1.0, lcp.b.lpNorm<Eigen::Infinity>());
 }
 
-using Fraction = boost::multiprecision::cpp_rational;
-
-/// Solves M x = r exactly by elimination; false if M is singular.
-bool solveExactly(std::vector<std::vector<Fraction>> M, std::vector<Fraction>& r) {
-  const std::size_t n = r.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    while (pivot < n && M[pivot][k] == 0) ++pivot;
-    if (pivot == n) return false;
-    std::swap(M[k], M[pivot]);
-    std::swap(r[k], r[pivot]);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i == k || M[i][k] == 0) continue;
-      const Fraction factor = M[i][k] / M[k][k];
-      for (std::size_t j = k; j < n; ++j) M[i][j] -= factor * M[k][j];
-      r[i] -= factor * r[k];
-    }
-  }
-  for (std::size_t k = 0; k < n; ++k) r[k] /= M[k][k];
-  return true;
-}
-
-/// a of the exact solution if the places given (0 lower, 1 upper, 2 free) make one; else empty.
-/// Lower of an equality row means f = 0: it leaves a = 0 to the rows that it doubles.
-std::vector<Fraction> tryPlaces(const Lcp& lcp, const std::vector<int>& place) {
-  const int n = static_cast<int>(place.size());
-  std::vector<Fraction> f(n);
-  std::vector<int> free;
-  for (int i = 0; i < n; ++i) {
-    if (place[i] == 2) free.push_back(i);
-    if (place[i] == 1 && !std::isfinite(lcp.hi[i])) return {};
-    if (place[i] == 1) f[i] = Fraction(lcp.hi[i]);
-    if (place[i] == 0 && std::isfinite(lcp.lo[i])) f[i] = Fraction(lcp.lo[i]);
-  }
-  const auto rowSum = [&](int i) {
-    Fraction sum(lcp.b[i]);
-    for (int j = 0; j < n; ++j) sum += Fraction(lcp.A(i, j)) * f[j];
-    return sum;
-  };
-  std::vector<std::vector<Fraction>> M;
-  std::vector<Fraction> r;
-  for (int i : free) {
-    r.push_back(-rowSum(i));
-    M.emplace_back();
-    for (int j : free) M.back().push_back(Fraction(lcp.A(i, j)));
-  }
-  if (!solveExactly(M, r)) return {};
-  for (std::size_t k = 0; k < free.size(); ++k) f[free[k]] = r[k];
-  std::vector<Fraction> a;
-  for (int i = 0; i < n; ++i) {
-    a.push_back(rowSum(i));
-    if (place[i] == 0 && a[i] < 0) return {};
-    if (place[i] == 0 && a[i] != 0 && !std::isfinite(lcp.lo[i])) return {};
-    if (place[i] == 1 && a[i] > 0) return {};
-    if (std::isfinite(lcp.lo[i]) && f[i] < Fraction(lcp.lo[i])) return {};
-    if (std::isfinite(lcp.hi[i]) && f[i] > Fraction(lcp.hi[i])) return {};
-  }
-  return a;
-}
-
-/// a of the LCP as fractions, by trying all 3ⁿ places; a is unique though f need not be.
-std::vector<Fraction> solveExactly(const Lcp& lcp) {
-  const int n = static_cast<int>(lcp.b.size());
-  std::vector<int> place(n, 0);
-  while (true) {
-    const std::vector<Fraction> a = tryPlaces(lcp, place);
-    if (!a.empty()) return a;
-    int k = 0;
-    while (k < n && ++place[k] == 3) place[k++] = 0;
-    if (k == n) return {};
-  }
-}
-
 }  // namespace
 
 // Oracle: the conditions themselves. Measured 6e-15, allowed 1e-12.
@@ -154,24 +80,6 @@ TEST_CASE("every consistent LCP, of any rank and with doubled rows, is solved") 
     REQUIRE(report.status == SolveStatus::Solved);
     REQUIRE(violation(lcp, f) < 1e-12);
     REQUIRE(report.residual < 1e-12);
-  }
-}
-
-// Oracle: exact fractions over all sets of free indices. Measured 2e-15, allowed 1e-12.
-TEST_CASE("the accelerations of small singular LCPs are those of exact arithmetic") {
-  Draw draw(2);
-  for (int trial = 0; trial < 150; ++trial) {
-    const int n = 1 + draw.below(6);
-    const Lcp lcp = randomLcp(draw, n, 1 + draw.below(n));
-    const std::vector<Fraction> exact = solveExactly(lcp);
-    REQUIRE(!exact.empty());
-    VecX f;
-    solveLcp(lcp.A, lcp.b, lcp.lo, lcp.hi, f);
-    const VecX a = lcp.A * f + lcp.b;
-    const double scale = std::max(1.0, lcp.b.lpNorm<Eigen::Infinity>());
-    CAPTURE(trial, n);
-    for (int i = 0; i < n; ++i)
-      REQUIRE(std::abs(a[i] - exact[i].convert_to<double>()) < 1e-12 * scale);
   }
 }
 

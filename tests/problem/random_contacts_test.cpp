@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kTolerance = 1e-12;  ///< asked of the solvers
 constexpr double kGoal = 1e-8;        ///< what counts as solved
-constexpr double kRounding = 4.0;  ///< times Worth::rounding: as good as double precision lets it
+constexpr double kRounding = 4.0;     ///< times Worth::rounding: as good as doubles let it be
+constexpr double kExcuse = 1e-4;      ///< the most that rounding may excuse: it grows with λ
 
 /// What a solver is held to: how many problems it gets and what share it must solve to kGoal, or as
 /// far as rounding lets it. A solver that is not named here takes the last row.
@@ -72,7 +73,7 @@ void Tally::add(std::uint64_t seed, const SolveReport& report, const Worth& wort
   const double bin = std::clamp(decade - kLeast, 0.0, static_cast<double>(decades.size() - 1));
   ++decades[static_cast<std::size_t>(bin)];
   balance = std::max(balance, worth.balance);
-  const double allowed = kRounding * worth.rounding;
+  const double allowed = std::min(kRounding * worth.rounding, kExcuse);
   solved += worth.residual <= kGoal;
   const bool good = worth.residual <= std::max(kGoal, allowed);
   solvedOrRounding += good;
