@@ -69,6 +69,42 @@ inline Problem tower(const std::vector<double>& masses, double mu) {
   return problem;
 }
 
+/// nx × ny × nz unit cubes of 1 kg on an immovable floor, body 0, as a step of h [s] finds them at
+/// rest. Each touches what is below it with four points a pair; in a bond every other level is
+/// shifted by half a cube along x, so that a cube stands on two.
+inline Problem pile(int nx, int ny, int nz, bool bond, double mu, double h) {
+  Problem problem;
+  addCube(problem, 0.0, 1.0, Vec3::Zero());
+  const auto indexOf = [&](int x, int y, int z) { return 1 + x + nx * (z + nz * y); };
+  const auto place = [&](int x, int y) { return x + (bond && y % 2 == 1 ? 0.5 : 0.0); };
+  for (int y = 0; y < ny; ++y) {
+    for (int k = 0; k < nx * nz; ++k) addCube(problem, 1.0, 1.0, Vec3(0.0, -kG * h, 0.0));
+    for (int z = 0; z < nz; ++z)
+      for (int x = 0; x < nx; ++x)
+        for (int below = y > 0 ? 0 : x; below < (y > 0 ? nx : x + 1); ++below) {
+          const double offset = y > 0 ? place(x, y) - place(below, y - 1) : 0.0;
+          if (std::abs(offset) > 0.9) continue;
+          for (double side : {-0.5, 0.5})
+            for (double dz : {-0.5, 0.5}) {
+              const double at = side - (side * offset > 0.0 ? offset : 0.0);
+              addContact(problem, indexOf(x, y, z), y > 0 ? indexOf(below, y - 1, z) : 0,
+                         Vec3(at, -0.5, dz),
+                         y > 0 ? Vec3(at + offset, 0.5, dz) : Vec3(place(x, y), 0.0, z), mu);
+            }
+        }
+  }
+  return problem;
+}
+
+/// Every body that can move gets up to `noise` [m/s, rad/s] more in each component of vStar.
+inline void shake(Problem& problem, double noise, std::uint64_t seed) {
+  Draw draw(seed);
+  for (std::size_t body = 0; body < problem.invM.size(); ++body) {
+    if (problem.invM[body] == 0.0) continue;
+    for (int k = 0; k < 6; ++k) problem.vStar[body][k] += draw(-noise, noise);
+  }
+}
+
 /// Sum of the normal λ of the four corners below cube k = 0, 1, … of a tower.
 inline double levelForce(const Problem& problem, const Solution& solution, int k) {
   double sum = 0.0;
