@@ -100,7 +100,8 @@ Long naturalMap(const Cone& cone, const double* lambda, const Long* u, Long rho)
   if (cone.kind == ConeKind::Equality) return std::abs(u[0]);
   const Long mu = cone.mu;
   if (cone.kind != ConeKind::Friction) {
-    const Long push = std::abs(lambda[0] - std::max(lambda[0] - rho * u[0], 0.0L)) / rho;
+    // λ − max(λ − ρ u, 0), without the difference in which a large λ hides u.
+    const Long push = std::abs(std::min(lambda[0] / rho, u[0]));
     if (cone.kind == ConeKind::Push) return push;
     return std::max(push, std::abs(lambda[1] + mu * lambda[0]) / rho);
   }
@@ -126,7 +127,10 @@ Worth worthOf(const Problem& problem, const Solution& solution) {
   for (const Vec6& twist : solution.v) worth.finite = worth.finite && twist.allFinite();
   worth.finite = worth.finite && solution.lambda.size() == problem.rows.size() &&
                  solution.v.size() == problem.vStar.size();
-  if (!worth.finite) return worth;
+  if (!worth.finite) {
+    worth.residual = worth.balance = std::numeric_limits<double>::infinity();
+    return worth;
+  }
 
   // Newton's law, body by body.
   const std::vector<Sums> pushed = motion(problem, solution.lambda);
