@@ -12,6 +12,7 @@
 #include "app/report/machine.h"
 #include "app/report/page.h"
 #include "app/report/plot.h"
+#include "app/scene/demos.h"
 
 namespace tumble::command {
 
@@ -72,16 +73,38 @@ std::vector<Scaling> detection(const Options& options) {
   return scalings;
 }
 
+// How the solvers of the contact problem do on what the demos ask of them.
+std::vector<Profile> contact(const Options& options) {
+  constexpr int kInstants = 30;
+  constexpr double kStep = 1.0 / 240.0;  // s
+  Progress progress("Contact");
+  std::vector<Problem> problems;
+  const std::vector<std::string> names = demoNames();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (Problem& problem : contactProblems(load({names[i], {}}), kInstants, kStep))
+      problems.push_back(std::move(problem));
+    progress.show(0.5 * static_cast<double>(i + 1) / static_cast<double>(names.size()));
+  }
+  std::vector<Profile> profiles;
+  for (const double goal : {1e-4, 1e-8, 1e-12}) {
+    profiles.push_back(solverProfile(problems, goal));
+    writeFile(options.folder + "/" + profiles.back().name + ".csv", profileCsv(profiles.back()));
+    progress.show(0.5 + static_cast<double>(profiles.size()) / 6.0);
+  }
+  return profiles;
+}
+
 }  // namespace
 
 int report(int argc, char** argv) {
   Options options;
   CommandLine app(
       "report", "Measures speed against error: CSV, figures, a table, a page.",
-      {"             # every chart of assets/report, and detection, into out/report/index.html",
+      {"             # charts of assets/report, detection, solvers, into out/report/index.html",
        "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
-  app.add_option("SCENE", options.scenes,
-                 "scenes with [[chart]]s [those of assets/report, and what detection costs]");
+  app.add_option(
+      "SCENE", options.scenes,
+      "scenes with [[chart]]s [those of assets/report, and what detection and contact cost]");
   app.add_option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
   app.add_option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]")
       ->type_name("S")
@@ -96,18 +119,23 @@ int report(int argc, char** argv) {
   const std::string machine = machineLine();
   const std::vector<Study> studies = study(options);
   const std::vector<Scaling> scalings = whole ? detection(options) : std::vector<Scaling>{};
+  const std::vector<Profile> profiles = whole ? contact(options) : std::vector<Profile>{};
   const std::vector<HeadlineRow> rows = headlineRows(studies);
   writeFile(options.folder + "/table.csv", headlineCsv(rows));
   writeFile(options.folder + "/table.md", headlineMarkdown(rows));
-  writeFile(options.folder + "/index.html", reportPage(studies, machine, false, scalings));
+  writeFile(options.folder + "/index.html",
+            reportPage(studies, machine, false, scalings, profiles));
   for (const Study& one : studies)
     writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, labelsOf(studies), machine));
   for (const Scaling& one : scalings)
     writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, machine));
+  for (const Profile& one : profiles)
+    writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, machine));
   fmt::print("{}", headlineMarkdown(rows));
   for (const Study& one : studies) runGnuplot(options.folder, one.name);
   for (const Scaling& one : scalings) runGnuplot(options.folder, one.name);
-  writeFile(options.folder + "/index.html", reportPage(studies, machine, true, scalings));
+  for (const Profile& one : profiles) runGnuplot(options.folder, one.name);
+  writeFile(options.folder + "/index.html", reportPage(studies, machine, true, scalings, profiles));
   fmt::print("{}/index.html\n", options.folder);
   return kOk;
 }

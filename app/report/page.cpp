@@ -56,7 +56,7 @@ void addFigure(const std::string& name, const std::string& title, const std::str
 }  // namespace
 
 std::string reportPage(const std::vector<Study>& studies, const std::string& machine, bool figures,
-                       const std::vector<Scaling>& scalings) {
+                       const std::vector<Scaling>& scalings, const std::vector<Profile>& profiles) {
   std::string out = kHead;
   out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine));
   for (const Study& study : studies)
@@ -69,6 +69,13 @@ std::string reportPage(const std::vector<Study>& studies, const std::string& mac
   if (!scalings.empty()) out += "<h1>Detection</h1>\n";
   for (const Scaling& scaling : scalings)
     addFigure(scaling.name, scaling.title, scaling.subtitle, figures, out);
+  if (!profiles.empty())
+    out +=
+        "<h1>Contact</h1>\n<p>For what share of the problems a solver takes at most so many times "
+        "the CPU time of the fastest; where a curve ends is the share that it solves. The residual "
+        "is that of the natural map, over the largest velocity of the problem.</p>\n";
+  for (const Profile& profile : profiles)
+    addFigure(profile.name, profile.title, profile.subtitle, figures, out);
   return out + "</body></html>\n";
 }
 

@@ -210,6 +210,31 @@ std::string plotScript(const Scaling& scaling, const std::string& caption) {
   return script;
 }
 
+std::string plotScript(const Profile& profile, const std::string& caption) {
+  std::string script = headOf(profile.name, "times the fastest", "share of the problems",
+                              profile.title, profile.subtitle, caption);
+  script += "unset logscale y\nset format y '%g'\nset yrange [0:1.02]\n";
+  for (const Figure& figure : kFigures) {
+    script += fmt::format("set terminal {}\nset output {}\n", figure.terminal,
+                          quotedFile(profile.name, figure.kind));
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < profile.curves.size(); ++i) {
+      const auto steps = profileSteps(profile, i);
+      const std::size_t first = row;
+      row += steps.size();
+      script += fmt::format(
+          "{}{} skip 1 every ::{}::{} using 2:3 with steps linewidth 2.5 linecolor rgb '{}' title "
+          "{}",
+          i == 0 ? "plot " : ", \\\n     ", quotedFile(profile.name, "csv"), first, row - 1,
+          kColours[i % kColours.size()],
+          quotedText(
+              fmt::format("{}  ({:.0f} %)", profile.curves[i].label, 100.0 * steps.back().second)));
+    }
+    script += "\n";
+  }
+  return script;
+}
+
 void runGnuplot(const std::string& folder, const std::string& name) {
   // A figure of an earlier run would pass for one of this; after a failure none is left.
   removeFigures(folder, name);

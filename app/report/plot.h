@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/report/profile.h"
 #include "app/report/scaling.h"
 #include "app/report/study.h"
 
@@ -22,6 +23,10 @@ std::string plotScript(const Study& study, std::span<const std::string> labels,
 /// The same for <name>.csv of a scaling: size to the right, CPU seconds upwards, slopes in the
 /// legend.
 std::string plotScript(const Scaling& scaling, const std::string& caption);
+
+/// The same for <name>.csv of a profile: times the fastest to the right, share solved upwards, the
+/// share in the end in the legend.
+std::string plotScript(const Profile& profile, const std::string& caption);
 
 /// Labels of all curves of the studies, each once, in the order in which they come.
 std::vector<std::string> labelsOf(std::span<const Study> studies);
