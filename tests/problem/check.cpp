@@ -132,21 +132,21 @@ Worth worthOf(const Problem& problem, const Solution& solution) {
     return worth;
   }
 
-  // Newton's law, body by body.
+  // Newton's law: linear, then angular.
   const std::vector<Sums> pushed = motion(problem, solution.lambda);
   std::vector<Sums> v(problem.vStar.size()), start = v;
-  for (std::size_t body = 0; body < v.size(); ++body) {
-    for (int part : {0, 3}) {
-      Long error = 0.0L, size = 0.0L;
+  for (int part : {0, 3}) {
+    Long error = 0.0L, size = 0.0L;
+    for (std::size_t body = 0; body < v.size(); ++body)
       for (int k = part; k < part + 3; ++k) {
         v[body][k].add(solution.v[body][k]);
         start[body][k].add(problem.vStar[body][k]);
         error = std::max(error, std::abs(solution.v[body][k] - pushed[body][k].value));
         size = std::max(size, pushed[body][k].size);
       }
-      if (error > std::numeric_limits<double>::min())
-        worth.balance = std::max(worth.balance, static_cast<double>(error / size));
-    }
+    if (error > std::numeric_limits<double>::min())
+      worth.balance =
+          std::max(worth.balance, static_cast<double>(size > 0.0L ? error / size : error));
   }
 
   // The cones, by the velocities given.

@@ -10,7 +10,7 @@ struct Worth {
   double residual =
       0.0;  ///< natural map as problem.h defines it, over the largest |J vStar + bias|
   double rounding = 0.0;  ///< what rounding of λ, v and their sums to double may leave of it
-  double balance = 0.0;   ///< |M (v − vStar) − Jᵀ λ| over the sizes of its terms, worst body
+  double balance = 0.0;   ///< |v − vStar − M⁻¹ Jᵀ λ| over the largest size of its terms
   bool finite = true;
 };
 
