@@ -47,6 +47,7 @@ class Dantzig {
   VecX result() const { return scale_.cwiseProduct(f_); }
 
  private:
+  void takeEqualities();
   void drive(int d);
   bool settled(int d);
   bool depends(int d);
@@ -106,7 +107,9 @@ Dantzig::Dantzig(const MatX& A, const VecX& b, const VecX& lo, const VecX& hi, d
 }
 
 LcpReport Dantzig::solve() {
-  for (int d = 0; d < n_; ++d) drive(d);
+  takeEqualities();
+  for (int d = 0; d < n_; ++d)
+    if (place_[d] == Place::Outside) drive(d);
   for (int round = 0; round < kRounds; ++round) {
     do refine();
     while (!clip());
@@ -119,6 +122,19 @@ LcpReport Dantzig::solve() {
     if (clean) break;
   }
   return report();
+}
+
+/// Puts all equalities into the factor at once: none of them ever leaves it. Those that depend on
+/// the others stay outside, to be driven like the rest.
+void Dantzig::takeEqualities() {
+  for (int i = 0; i < n_; ++i) {
+    if (lo_[i] > -kInfinity || hi_[i] < kInfinity) continue;
+    for (int k = 0; k < factor_.size(); ++k) column_[k] = A_(free_[k], i);
+    if (factor_.append(column_, (1.0 + foot_) * A_(i, i), kPivot) <= kPivot) continue;
+    free_.push_back(i);
+    place_[i] = Place::Free;
+  }
+  if (!free_.empty()) refine();
 }
 
 /// Moves f_d, and the free ones with it, until the condition of d holds.
