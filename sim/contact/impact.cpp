@@ -46,7 +46,17 @@ std::vector<int> reachOfImpact(const Impact& impact) {
     if (impact.bodies[body].fixed()) return;
     bodyReached[body] = 1;
   };
+  const auto reachBond = [&](const Row& row) {
+    reachBody(row.a);
+    if (row.b < static_cast<int>(impact.bodies.size())) reachBody(row.b);
+  };
   bool grew = false;
+  for (std::size_t i = 0; impact.bound() && i < impact.bonds->rows.size(); ++i) {
+    const Row& row = impact.bonds->rows[i];
+    if (bondVelocity(row, impact.bodies) >= -impact.tolerance.rest) continue;
+    grew = true;
+    reachBond(row);
+  }
   for (std::size_t i = 0; i < impact.contacts.size(); ++i) {
     if (!approaching(impact.contacts[i])) continue;
     reached[i] = 1;
@@ -56,6 +66,15 @@ std::vector<int> reachOfImpact(const Impact& impact) {
   }
   while (grew) {
     grew = false;
+    for (std::size_t i = 0; impact.bound() && i < impact.bonds->rows.size(); ++i) {
+      const Row& row = impact.bonds->rows[i];
+      const bool inWorld = row.b >= static_cast<int>(impact.bodies.size());
+      if (inWorld || impact.bodies[row.a].fixed() || impact.bodies[row.b].fixed() ||
+          bodyReached[row.a] == bodyReached[row.b])
+        continue;
+      grew = true;
+      reachBond(row);
+    }
     for (std::size_t i = 0; i < impact.contacts.size(); ++i) {
       const Contact& c = impact.contacts[i];
       if (reached[i] || !(bodyReached[c.a] || bodyReached[c.b])) continue;

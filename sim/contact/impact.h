@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/contact/bonds.h"
 #include "sim/contact/contact.h"
 
 namespace tumble {
@@ -25,6 +26,10 @@ struct Impact {
   std::span<const double> restitution;  ///< [1] per contact, for this instant
   std::span<Vec3> impulse;              ///< [N·s] out: on a, per contact, friction included
   ContactTolerance tolerance;
+  /// Rows that hold at the end of every pass, u = 0 or u ≥ 0; their λ adds up. Null: none.
+  Bonds* bonds = nullptr;
+
+  bool bound() const { return bonds && !bonds->empty(); }
 };
 
 /// A row of the table of impact laws. Changes P and L (and what is derived) of the bodies until no
@@ -60,8 +65,9 @@ ImpactReport impactPoisson(const Impact& impact);
 /// Newton's law for one contact at a time, the fastest approach first (slide SD46).
 ImpactReport impactSequential(const Impact& impact);
 
-/// Contacts that a collision can reach: those connected to an approaching one through bodies that
-/// can move. Ascending indices into impact.contacts; empty if nothing approaches.
+/// Contacts that a collision can reach: those connected to an approaching one, or to a bond that
+/// gives way, through bonds and bodies that can move. Ascending indices into impact.contacts; empty
+/// if nothing approaches.
 std::vector<int> reachOfImpact(const Impact& impact);
 
 /// What an impulse did to the energy [J]: taken from the bodies, and given by fixed bodies that

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sim/body/force.h"
 #include "sim/contact/rows.h"
 
 namespace tumble {
@@ -34,6 +35,17 @@ void addContact(const Impact& impact, int i, double bias, bool withFriction, Str
     problem.rows.push_back(pointRow(impact.bodies, c.a, c.b, c.point.p, t, 0.0));
 }
 
+/// Gives the impulses of all bonds as one, after which their λ hold the sum of all passes.
+ImpulseEnergy giveBonds(const Impact& impact, const Solution& solution, std::size_t firstBond) {
+  Bonds now = *impact.bonds;
+  readBonds(solution.lambda, firstBond, now);
+  const double before = kineticEnergy(impact.bodies);
+  addBondImpulses(now, impact.bodies);
+  const double work = outerBonds(now, impact.bodies).power;
+  for (std::size_t i = 0; i < now.rows.size(); ++i) impact.bonds->lambda[i] += now.lambda[i];
+  return {.lost = before - kineticEnergy(impact.bodies) + work, .work = work};
+}
+
 /// Gives the impulses of a solved pass, first along the normals, then across them.
 std::vector<double> give(const Impact& impact, const Strike& strike, const Solution& solution,
                          ImpactReport& report) {
@@ -53,6 +65,33 @@ std::vector<double> give(const Impact& impact, const Strike& strike, const Solut
     report.work += friction.work;
   }
   return j;
+}
+
+/// Solves for the impulses of a pass; those of bonds are given at once.
+SolveReport solvePass(const Impact& impact, Strike& strike, Solution& solution,
+                      ImpactReport& report) {
+  const bool friction = strike.problem.rows.size() > strike.problem.cones.size();
+  const std::size_t firstBond = strike.problem.rows.size();
+  if (impact.bound()) appendBonds(*impact.bonds, strike.problem);
+  const bool sweeps = friction && !impact.bound();
+  const SolveReport solved = solveByIslands(*findSolver(sweeps ? "pgs" : "pivoting"),
+                                            strike.problem, {.maxIterations = kSweeps}, solution);
+  report.residual = std::max(report.residual, solved.residual);
+  if (impact.bound()) {
+    const ImpulseEnergy energy = giveBonds(impact, solution, firstBond);
+    report.lostNormal += energy.lost;
+    report.work += energy.work;
+  }
+  return solved;
+}
+
+/// Friction bounded by the normal impulses j of the contacts, held to the bonds.
+void rub(const Impact& impact, std::span<const int> contacts, std::span<const double> j,
+         ImpactReport& report) {
+  const ImpulseEnergy energy = frictionImpulses(impact, contacts, j);
+  report.lostFriction += energy.lost;
+  report.work += energy.work;
+  tighten(impact, true, report);
 }
 
 /// Whether a contact takes part, by how it moves now.
@@ -89,19 +128,42 @@ void strikeOnce(const Impact& impact, PassKind kind, ImpactReport& report) {
     addContact(impact, i, bounces ? impact.restitution[i] * vrel(i) : 0.0, together, pass);
   }
 
-  const bool friction = pass.problem.rows.size() > pass.problem.cones.size();
   Solution solution;
-  const SolveReport solved = solveByIslands(*findSolver(friction ? "pgs" : "pivoting"),
-                                            pass.problem, {.maxIterations = kSweeps}, solution);
-  report.residual = std::max(report.residual, solved.residual);
+  solvePass(impact, pass, solution, report);
   const std::vector<double> j = give(impact, pass, solution, report);
-  if (together) return;
-  const ImpulseEnergy energy = frictionImpulses(impact, pass.contacts, j);
-  report.lostFriction += energy.lost;
+  if (!together) rub(impact, pass.contacts, j, report);
+}
+
+void strikeOne(const Impact& impact, int contact, ImpactReport& report) {
+  Strike pass;
+  beginVelocityProblem(impact.bodies, pass.problem);
+  const Contact& c = impact.contacts[contact];
+  const double vrel = approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point);
+  addContact(impact, contact, impact.restitution[contact] * vrel, false, pass);
+  Solution solution;
+  solvePass(impact, pass, solution, report);
+  const std::vector<double> j = give(impact, pass, solution, report);
+  rub(impact, pass.contacts, j, report);
+}
+
+void tighten(const Impact& impact, bool afterFriction, ImpactReport& report) {
+  if (!impact.bound()) return;
+  Problem problem;
+  beginVelocityProblem(impact.bodies, problem);
+  appendBonds(*impact.bonds, problem);
+  Solution solution;
+  const SolveReport solved = solveByIslands(*findSolver("pivoting"), problem, {}, solution);
+  report.residual = std::max(report.residual, solved.residual);
+  const ImpulseEnergy energy = giveBonds(impact, solution, 0);
+  (afterFriction ? report.lostFriction : report.lostNormal) += energy.lost;
   report.work += energy.work;
 }
 
 bool anyApproaching(const Impact& impact) {
+  for (std::size_t i = 0; impact.bound() && i < impact.bonds->rows.size(); ++i)
+    if (impact.bonds->kinds[i] == ConeKind::Push &&
+        bondVelocity(impact.bonds->rows[i], impact.bodies) < -impact.tolerance.rest)
+      return true;
   return std::any_of(impact.contacts.begin(), impact.contacts.end(), [&](const Contact& c) {
     return approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point) <
            -impact.tolerance.rest;

@@ -20,10 +20,17 @@ enum class PassKind {
 /// friction, bounded by them, after.
 void strikeOnce(const Impact& impact, PassKind kind, ImpactReport& report);
 
+/// Newton's law at one contact, with what it does through bonds; then its friction.
+void strikeOne(const Impact& impact, int contact, ImpactReport& report);
+
+/// The least change of velocity, weighed by mass, after which all bonds hold. What it takes from
+/// the energy counts as friction if that was what broke them, else as restitution.
+void tighten(const Impact& impact, bool afterFriction, ImpactReport& report);
+
 /// Passes until nothing approaches; after so many, one more without rebound.
 ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes);
 
-/// Whether some contact still approaches.
+/// Whether some contact still approaches, or a bond gives way.
 bool anyApproaching(const Impact& impact);
 
 }  // namespace tumble

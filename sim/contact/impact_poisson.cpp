@@ -29,9 +29,11 @@ ImpactReport restore(const Impact& impact, std::span<const Vec3> compression, do
     struck.push_back(static_cast<int>(i));
     normal.push_back(j);
   }
+  tighten(impact, false, report);
   const ImpulseEnergy friction = frictionImpulses(impact, struck, normal);
   report.lostFriction += friction.lost;
   report.work += friction.work;
+  tighten(impact, true, report);
   for (int pass = 0; pass < kPasses && anyApproaching(impact); ++pass)
     strikeOnce(impact, PassKind::Inelastic, report);
   return report;
@@ -53,6 +55,7 @@ ImpactReport impactPoisson(const Impact& impact) {
   strikeOnce(impact, PassKind::Inelastic, report);
   const std::vector<Vec3> compression(impact.impulse.begin(), impact.impulse.end());
   const std::vector<RigidBody> compressed(impact.bodies.begin(), impact.bodies.end());
+  const Bonds bonds = impact.bound() ? *impact.bonds : Bonds{};
   const double work = report.work;
 
   // With unlike restitutions the law can add energy: then the largest share that does not.
@@ -66,6 +69,7 @@ ImpactReport impactPoisson(const Impact& impact) {
     }
     std::copy(compressed.begin(), compressed.end(), impact.bodies.begin());
     std::copy(compression.begin(), compression.end(), impact.impulse.begin());
+    if (impact.bound()) *impact.bonds = bonds;
     if (gains && share == 1.0) {
       share = 0.5;
     } else {

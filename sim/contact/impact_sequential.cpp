@@ -1,5 +1,5 @@
 // Newton's impact law at one contact after the other.
-#include "sim/contact/impact.h"
+#include "sim/contact/impact_pass.h"
 #include "sim/contact/impulse.h"
 
 namespace tumble {
@@ -7,6 +7,7 @@ namespace tumble {
 ImpactReport impactSequential(const Impact& impact) {
   constexpr int kHitsPerContact = 1000;
   ImpactReport report;
+  tighten(impact, false, report);
   const int hits = kHitsPerContact * static_cast<int>(impact.contacts.size());
   for (int hit = 0; hit < hits; ++hit) {
     // The contact that approaches fastest is next.
@@ -22,7 +23,11 @@ ImpactReport impactSequential(const Impact& impact) {
     }
     if (fastest < 0) return report;
 
-    // It gets its own impulse, as if it were alone.
+    // It gets its own impulse, as if it were alone with the bonds.
+    if (impact.bound()) {
+      strikeOne(impact, fastest, report);
+      continue;
+    }
     const Contact& c = impact.contacts[fastest];
     const double j = collisionImpulse(impact.bodies[c.a], impact.bodies[c.b], c.point,
                                       impact.restitution[fastest]);

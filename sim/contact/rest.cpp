@@ -53,13 +53,14 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
   problem_.cones.back().mu = contact.friction;
 }
 
-SolveReport RestForces::solve(std::span<const Contact> contacts) {
+SolveReport RestForces::solve(std::span<const Contact> contacts, bool bonds) {
   // Pivoting is exact where there is no friction; with it, sweeps that start from the last solution
-  // (the stage before) are soon there. What they leave is in the certificate.
+  // (the stage before) are soon there, unless bonds carry pushes far. What they leave is in the
+  // certificate.
   constexpr int kSweeps = 200;
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
-  return solveByIslands(*findSolver(friction ? "pgs" : "pivoting"), problem_,
+  return solveByIslands(*findSolver(friction && !bonds ? "pgs" : "pivoting"), problem_,
                         {.maxIterations = kSweeps}, solution_);
 }
 
@@ -71,11 +72,19 @@ Vec3 RestForces::force(std::size_t contact) const {
   return sum;
 }
 
-SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts) {
-  if (contacts.empty()) return {};
+SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts,
+                              Bonds* bonds) {
+  const bool bound = bonds && !bonds->empty();
+  if (contacts.empty() && !bound) return {};
   beginAccelerationProblem(bodies, problem_);
   for (const Contact& contact : contacts) addRows(bodies, contact);
-  const SolveReport report = solve(contacts);
+  const std::size_t firstBond = problem_.rows.size();
+  if (bound) appendBonds(*bonds, problem_);
+  const SolveReport report = solve(contacts, bound);
+  if (bound) {
+    readBonds(solution_.lambda, firstBond, *bonds);
+    addBondForces(*bonds, bodies);
+  }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& contact = contacts[i];
     contact.force = force(i);
@@ -86,7 +95,7 @@ SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> co
 }
 
 void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts,
-                             double h) {
+                             double h, const Bonds* bonds) {
   const auto creeps = [](const Contact& c) { return c.creeping; };
   if (std::none_of(contacts.begin(), contacts.end(), creeps)) return;
   solution_.lambda.clear();  // the same answer whatever was solved before
@@ -99,7 +108,9 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
     problem_.rows.pop_back();
     addFrictionRows(bodies, contact, h);
   }
-  solve(contacts);
+  const bool bound = bonds && !bonds->empty();
+  if (bound) appendBonds(*bonds, problem_);
+  solve(contacts, bound);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& c = contacts[i];
     if (!c.creeping) continue;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/contact/bonds.h"
 #include "sim/contact/contact.h"
 #include "sim/problem/problem.h"
 
@@ -25,19 +26,21 @@ class RestForces {
 
   /// Reads pose, velocity, force and torque of the bodies, sets `force` of every lasting contact
   /// and adds the contact forces to force and torque. Contacts must have been followed to this
-  /// pose.
-  SolveReport apply(std::span<RigidBody> bodies, std::span<Contact> contacts);
+  /// pose. Bonds, if there are any, take part in the same problem, get their λ, and act.
+  SolveReport apply(std::span<RigidBody> bodies, std::span<Contact> contacts,
+                    Bonds* bonds = nullptr);
 
   /// Chooses the slip direction of creeping contacts for the next h seconds. The direction of a
   /// slow slip obeys a stiff equation (rate mu f_n/(m |slip|)), which an explicit integrator turns
   /// into chatter. So it is taken as at the end of the step: from Coulomb's cone with  a_t + slip/h
   /// in place of a_t. Bodies must carry their outer forces.
-  void settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts, double h);
+  void settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts, double h,
+                   const Bonds* bonds = nullptr);
 
  private:
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
   void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact, double slipTime);
-  SolveReport solve(std::span<const Contact> contacts);
+  SolveReport solve(std::span<const Contact> contacts, bool bonds);
   Vec3 force(std::size_t contact) const;
 
   double tau_;
