@@ -1,63 +1,54 @@
 #include "sim/joint/joint.h"
 
+#include "sim/body/mass_properties.h"
+
 namespace tumble {
 namespace {
 
-/// The two joined points, and what moves them apart besides accelerations.
-struct Ends {
-  Vec3 pa, pb;       // [m]
-  Vec3 rate;         // [m/s] ṗa − ṗb
-  Vec3 centripetal;  // [m/s²]
+constexpr JointName kNames[] = {
+    {JointKind::Ball, "ball", false, false},   {JointKind::Hinge, "hinge", true, true},
+    {JointKind::Slider, "slider", true, true}, {JointKind::Distance, "distance", false, true},
+    {JointKind::Fixed, "fixed", false, false},
 };
 
-template <class Joint>
-Ends endsOf(std::span<const RigidBody> bodies, const Joint& joint) {
-  const RigidBody &a = bodies[joint.a], &b = bodies[joint.b];
-  Ends ends;
-  ends.pa = toWorld(a.pose(), joint.anchorA_B);
-  ends.pb = toWorld(b.pose(), joint.anchorB_B);
-  ends.rate = pointVelocity(a, ends.pa) - pointVelocity(b, ends.pb);
-  ends.centripetal =
-      a.omega.cross(a.omega.cross(ends.pa - a.x)) - b.omega.cross(b.omega.cross(ends.pb - b.x));
-  return ends;
-}
-
-void addEquality(std::span<const RigidBody> bodies, int a, int b, const Ends& ends, const Vec3& d,
-                 double bias, Problem& problem) {
-  problem.cones.push_back(
-      {.kind = ConeKind::Equality, .row = static_cast<int>(problem.rows.size()), .mu = 0.0});
-  problem.rows.push_back({.a = a,
-                          .b = b,
-                          .linear = d,
-                          .angularA = (ends.pa - bodies[a].x).cross(d),
-                          .angularB = -(ends.pb - bodies[b].x).cross(d),
-                          .bias = bias});
+/// The axis and two unit vectors across it, right-handed.
+Mat3 frameAlong(const Vec3& axis) {
+  Mat3 frame;
+  frame.col(0) = axis.stableNormalized();
+  frame.col(1) = frame.col(0).unitOrthogonal();
+  frame.col(2) = frame.col(0).cross(frame.col(1));
+  return frame;
 }
 
 }  // namespace
 
-double gap(std::span<const RigidBody> bodies, const BallJoint& joint) {
-  const Ends ends = endsOf(bodies, joint);
-  return (ends.pa - ends.pb).norm();
+std::span<const JointName> jointNames() {
+  return kNames;
 }
 
-double gap(std::span<const RigidBody> bodies, const DistanceJoint& joint) {
-  const Ends ends = endsOf(bodies, joint);
-  return (ends.pa - ends.pb).norm() - joint.length;
+const JointName& jointName(JointKind kind) {
+  return kNames[static_cast<int>(kind)];
 }
 
-void addRows(std::span<const RigidBody> bodies, const BallJoint& joint, Problem& problem) {
-  const Ends ends = endsOf(bodies, joint);
-  for (int axis = 0; axis < 3; ++axis)
-    addEquality(bodies, joint.a, joint.b, ends, Vec3::Unit(axis), ends.centripetal[axis], problem);
+const RigidBody& partner(std::span<const RigidBody> bodies, int b) {
+  static const RigidBody world = makeFixedBody({});
+  return b < static_cast<int>(bodies.size()) ? bodies[b] : world;
 }
 
-void addRows(std::span<const RigidBody> bodies, const DistanceJoint& joint, Problem& problem) {
-  const Ends ends = endsOf(bodies, joint);
-  const Vec3 offset = ends.pa - ends.pb, d = offset.normalized();
-  const Vec3 across = ends.rate - ends.rate.dot(d) * d;
-  const double bias = d.dot(ends.centripetal) + across.squaredNorm() / offset.norm();
-  addEquality(bodies, joint.a, joint.b, ends, d, bias, problem);
+Joint makeJoint(const JointDef& def, std::span<const RigidBody> bodies, double arm) {
+  const int world = static_cast<int>(bodies.size());
+  Joint joint{.kind = def.kind, .a = def.a, .b = def.b < 0 ? world : def.b};
+  const RigidBody &a = bodies[joint.a], &b = partner(bodies, joint.b);
+  joint.anchorA_B = a.R.transpose() * (def.anchorA - a.x);
+  joint.anchorB_B = b.R.transpose() * (def.anchorB - b.x);
+  const Mat3 frame = frameAlong(def.axis);
+  joint.frameA_B = a.R.transpose() * frame;
+  joint.frameB_B = b.R.transpose() * frame;
+  joint.lo = def.lo;
+  joint.hi = def.hi;
+  joint.length = (def.anchorA - def.anchorB).norm();
+  joint.arm = arm;
+  return joint;
 }
 
 }  // namespace tumble

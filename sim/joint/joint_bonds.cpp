@@ -1,0 +1,124 @@
+#include "sim/joint/joint_bonds.h"
+
+#include <algorithm>
+
+#include "sim/joint/joint_rows.h"
+
+namespace tumble {
+namespace {
+
+/// Calls see(joint, row) for all rows of all joints.
+template <class See>
+void forRows(std::span<const RigidBody> bodies, std::span<const Joint> joints, See see) {
+  std::vector<JointRow> rows;
+  for (int k = 0; k < static_cast<int>(joints.size()); ++k) {
+    jointRows(bodies, joints[k], rows);
+    for (const JointRow& row : rows) see(k, row);
+  }
+}
+
+Limit limitOf(int joint, const JointRow& row) {
+  return 2 * joint + row.limit;
+}
+
+bool among(std::span<const Limit> limits, Limit limit) {
+  return std::find(limits.begin(), limits.end(), limit) != limits.end();
+}
+
+/// u of a row at these velocities, without bias. Fixed bodies and the world: what they have.
+double along(const Row& row, std::span<const Vec6> v) {
+  double u = row.linear.dot(v[row.a].head<3>()) + row.angularA.dot(v[row.a].tail<3>());
+  if (row.b < static_cast<int>(v.size()))
+    u += row.angularB.dot(v[row.b].tail<3>()) - row.linear.dot(v[row.b].head<3>());
+  return u;
+}
+
+void addRow(const JointRow& found, double bias, int joint, Bonds& bonds) {
+  Row row = found.row;
+  row.bias = bias;
+  bonds.add(row, found.limit < 0 ? ConeKind::Equality : ConeKind::Push, joint);
+}
+
+}  // namespace
+
+void restBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+               std::span<const Limit> limits, double tau, Bonds& bonds) {
+  bonds.clear();
+  forRows(bodies, joints, [&](int joint, const JointRow& row) {
+    if (row.limit >= 0 && !among(limits, limitOf(joint, row))) return;
+    addRow(row, row.row.bias + 2.0 / tau * row.rate + row.gap / (tau * tau), joint, bonds);
+  });
+}
+
+void impactBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints, double touch,
+                 Bonds& bonds) {
+  bonds.clear();
+  forRows(bodies, joints, [&](int joint, const JointRow& row) {
+    if (row.limit >= 0 && row.arm * row.gap > touch) return;
+    addRow(row, 0.0, joint, bonds);
+  });
+}
+
+void stepBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+               std::span<const Vec6> vStar, double h, Bonds& bonds) {
+  constexpr double kNear = 0.5;  // share of a limit's gap that a step may use up unseen
+  bonds.clear();
+  forRows(bodies, joints, [&](int joint, const JointRow& row) {
+    const double bias = row.gap / h + 0.5 * h * row.row.bias;
+    if (row.limit >= 0 && bias + along(row.row, vStar) > kNear * row.gap / h && row.gap > 0.0)
+      return;
+    addRow(row, bias, joint, bonds);
+  });
+}
+
+void liftBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints, Bonds& bonds) {
+  constexpr double kNeighbour = 1e-4;  // [m] limits nearer than this take part
+  bonds.clear();
+  forRows(bodies, joints, [&](int joint, const JointRow& row) {
+    if (row.limit >= 0 && row.arm * row.gap > kNeighbour) return;
+    addRow(row, row.gap, joint, bonds);
+  });
+}
+
+std::vector<Limit> restingLimits(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                                 double touch, double rest, double keep,
+                                 std::span<const Limit> before) {
+  std::vector<Limit> limits;
+  forRows(bodies, joints, [&](int joint, const JointRow& row) {
+    if (row.limit < 0 || row.arm * row.gap > touch) return;
+    const Limit limit = limitOf(joint, row);
+    if (row.arm * row.rate <= (among(before, limit) ? keep : rest)) limits.push_back(limit);
+  });
+  return limits;
+}
+
+double limitApproach(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                     double touch) {
+  double fastest = 0.0;
+  forRows(bodies, joints, [&](int, const JointRow& row) {
+    if (row.limit >= 0 && row.arm * row.gap <= touch)
+      fastest = std::min(fastest, row.arm * row.rate);
+  });
+  return fastest;
+}
+
+std::vector<JointForce> jointForces(std::span<const RigidBody> bodies,
+                                    std::span<const Joint> joints, const Bonds& bonds, double h) {
+  std::vector<JointForce> forces(joints.size());
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    forces[k].joint = static_cast<int>(k);
+    forces[k].a = joints[k].a;
+    forces[k].b = joints[k].b;
+    forces[k].p = toWorld(bodies[joints[k].a].pose(), joints[k].anchorA_B);
+  }
+  for (std::size_t i = 0; i < bonds.rows.size(); ++i) {
+    const Row& row = bonds.rows[i];
+    JointForce& force = forces[bonds.owners[i]];
+    const Vec3 part = bonds.lambda[i] / h * row.linear;
+    force.force += part;
+    force.torque += bonds.lambda[i] / h * row.angularA - (force.p - bodies[row.a].x).cross(part);
+  }
+  return forces;
+}
+
+}  // namespace tumble
