@@ -5,6 +5,7 @@
 #include "sim/collide/broad_phase.h"
 #include "sim/collide/collide.h"
 #include "sim/contact/rest.h"
+#include "sim/joint/joint_bonds.h"
 #include "sim/method/course/contact_model.h"
 #include "sim/method/method.h"
 
@@ -57,9 +58,14 @@ void addConstraintForces(const Model& model, std::span<RigidBody> bodies,
   constexpr int kRounds = 200;
   RestForces forces(kNoPull);
   const std::vector<RigidBody> outer(bodies.begin(), bodies.end());
+  Bonds bonds;
+  restBonds(
+      bodies, model.joints,
+      restingLimits(bodies, model.joints, tolerance.touch, tolerance.rest, tolerance.rest, {}),
+      kNoPull, bonds);
   for (int round = 0; round < kRounds; ++round) {
     std::copy(outer.begin(), outer.end(), bodies.begin());
-    if (forces.apply(bodies, resting).status == SolveStatus::Solved) break;
+    if (forces.apply(bodies, resting, &bonds).status == SolveStatus::Solved) break;
   }
   for (std::size_t k = 0; k < resting.size(); ++k) contacts[index[k]].force = resting[k].force;
 }
@@ -81,7 +87,7 @@ std::vector<Contact> touchingContacts(const Model& model, std::span<const RigidB
   std::vector<Contact> contacts;
   for (const auto& [i, j] : near.pairs()) {
     const int b = model.solid[i], a = model.solid[j];
-    if (model.fixed(a) && model.fixed(b)) continue;
+    if (!model.mayTouch(a, b)) continue;
     if (!canCollide(model.shapes[a], model.shapes[b])) continue;
     findContacts(model, bodies, {b, a}, touch, contacts);
   }

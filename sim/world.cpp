@@ -6,11 +6,15 @@
 
 #include "sim/collide/overlap.h"
 #include "sim/contact/impact.h"
+#include "sim/joined.h"
 #include "sim/method/method.h"
 #include "sim/neighbours.h"
 
 namespace tumble {
 namespace {
+
+/// Error of a substep, where the exact method has to make steps.
+constexpr double kJointTolerance = 1e-13;
 
 std::string bodyPath(std::size_t i, const char* field = "") {
   return "bodies[" + std::to_string(i) + "]" + field;
@@ -199,6 +203,7 @@ struct World::Parts {
   double lastAdvance = 0.0;
   std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
   std::vector<Contact> seenContacts;
+  std::vector<JointForce> seenJoints;
 };
 
 void World::Parts::build(const WorldDef& def) {
@@ -220,6 +225,11 @@ void World::Parts::build(const WorldDef& def) {
   checkForces(def);
   addPivots(model, state.bodies);
   model.size = worldSize(model);
+  joinBodies(model, state.bodies);
+  if (def.method == "exact" && !model.joints.empty()) {
+    // Where the closed forms end, the most accurate steps that there are.
+    model.def.course = {.integrator = "dopri5", .tolerance = kJointTolerance};
+  }
   method->check(model, state.bodies);
 }
 
@@ -250,7 +260,7 @@ void World::advance(double t) {
 namespace {
 
 Sample sampleOf(const WorldDef& def, double t, std::span<const RigidBody> bodies,
-                std::span<const Contact> contacts) {
+                std::span<const Contact> contacts, std::span<const JointForce> joints = {}) {
   Sample sample;
   sample.t = t;
   sample.bodies.reserve(bodies.size());
@@ -263,6 +273,7 @@ Sample sampleOf(const WorldDef& def, double t, std::span<const RigidBody> bodies
                              .R = matrix ? std::optional(body.R) : std::nullopt});
   for (const Contact& c : contacts)
     sample.contacts.push_back({c.a, c.b, c.point.p, c.point.n, c.point.separation, c.force});
+  sample.joints.assign(joints.begin(), joints.end());
   sample.kinetic = kineticEnergy(bodies);
   sample.potential = potentialEnergy(def.gravity, def.forces, bodies) + energyStored(contacts);
   return sample;
@@ -273,8 +284,9 @@ Sample sampleOf(const WorldDef& def, double t, std::span<const RigidBody> bodies
 Sample World::sample(double t) const {
   std::vector<RigidBody>& bodies = parts_->seen;
   std::vector<Contact>& contacts = parts_->seenContacts;
-  parts_->method->look(parts_->model, parts_->state, t, bodies, contacts);
-  return sampleOf(parts_->model.def, t, bodies, contacts);
+  std::vector<JointForce>& joints = parts_->seenJoints;
+  parts_->method->look(parts_->model, parts_->state, t, bodies, contacts, joints);
+  return sampleOf(parts_->model.def, t, bodies, contacts, joints);
 }
 
 StartCheck World::checkStart(const WorldDef& def) {
@@ -329,6 +341,7 @@ std::vector<std::string> World::features(bool used) const {
       }),
       "moving fixed bodies");
   add(!model.pivots.empty(), "pivots");
+  add(!model.joints.empty(), "joints");
   const char* kForces[] = {"wind", "drag", "point forces", "springs", "circular fields"};
   for (std::size_t kind = 0; kind < std::size(kForces); ++kind)
     add(std::any_of(model.def.forces.begin(), model.def.forces.end(),

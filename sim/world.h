@@ -39,6 +39,7 @@ struct Sample {
   double t = 0.0;
   std::vector<BodySample> bodies;  ///< in scene order, fixed ones too
   std::vector<ContactSample> contacts;
+  std::vector<JointForce> joints;         ///< in scene order
   double kinetic = 0.0, potential = 0.0;  ///< [J]
 };
 

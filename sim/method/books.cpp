@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "sim/body/force.h"
+#include "sim/joint/joint_rows.h"
 #include "sim/method/method.h"
 
 namespace tumble {
@@ -77,6 +78,7 @@ void account(const Model& model, State& state, Report& report) {
   state.kineticMax = std::max(state.kineticMax, kinetic);
   state.momentumScale = std::max(state.momentumScale, size);
 
+  books.max_joint_gap = std::max(books.max_joint_gap, largestJointGap(state.bodies, model.joints));
   books.events = static_cast<long>(report.events.size());
   books.energy_end = kinetic + potentialEnergy(model.def.gravity, model.def.forces, state.bodies) +
                      energyStored(state.lasting);

@@ -34,11 +34,15 @@ void goOneStep(const Model& model, State& state, Report& report) {
 }  // namespace
 
 void checkFlightsAndSteps(const Model& model, std::span<const RigidBody> bodies) {
-  checkExact(model, bodies);
+  if (model.joints.empty()) checkExact(model, bodies);
   checkCourse(model, bodies);
 }
 
 void advanceFlightsAndSteps(const Model& model, State& state, double t_end, Report& report) {
+  if (!model.joints.empty()) {
+    report.note("bodies with joints fly in no closed form: all go on in steps of dopri5");
+    return advanceCourse(model, state, t_end, report);
+  }
   for (;;) {
     if (!state.inSteps) advanceExact(model, state, t_end, report);
     if (state.t >= t_end || report.stopped) return;
@@ -47,12 +51,14 @@ void advanceFlightsAndSteps(const Model& model, State& state, double t_end, Repo
 }
 
 void lookFlightsAndSteps(const Model& model, const State& state, double t,
-                         std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) {
+                         std::vector<RigidBody>& bodies, std::vector<Contact>& contacts,
+                         std::vector<JointForce>& joints) {
+  joints.clear();
   const bool stepped = std::any_of(state.trail.begin(), state.trail.end(),
                                    [&](const Segment& s) { return s.t0 <= t && t < s.t1; });
   // At the end of a stretch of steps the bodies are where it left them: flights begin later.
-  if (stepped || ((state.inSteps || state.settled) && t >= state.t))
-    lookCourse(model, state, t, bodies, contacts);
+  if (!model.joints.empty() || stepped || ((state.inSteps || state.settled) && t >= state.t))
+    lookCourse(model, state, t, bodies, contacts, joints);
   else
     lookExact(model, state, t, bodies, contacts);
 }

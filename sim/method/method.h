@@ -18,9 +18,10 @@ struct Method {
   void (*check)(const Model&, std::span<const RigidBody> bodies);
   /// Makes whole steps of the method's own grid until state.t ≥ t_end or the report says stopped.
   void (*advance)(const Model&, State&, double t_end, Report&);
-  /// The bodies at time t inside the trail, and their lasting contacts with forces.
-  void (*look)(const Model&, const State&, double t, std::vector<RigidBody>&,
-               std::vector<Contact>&);
+  /// The bodies at time t inside the trail, their lasting contacts with forces, and those of
+  /// joints.
+  void (*look)(const Model&, const State&, double t, std::vector<RigidBody>&, std::vector<Contact>&,
+               std::vector<JointForce>&);
   bool contact;  ///< bodies may touch and go on
 };
 

@@ -41,6 +41,11 @@ Shape centredShape(const BodyDef& body) {
   return withOrigin(body.shape, methodOf(body).weigh(body.shape, 1.0, body.samples, 0).centre);
 }
 
+bool Model::mayTouch(int a, int b) const {
+  if (fixed(a) && fixed(b)) return false;
+  return !std::binary_search(partners.begin(), partners.end(), std::minmax({a, b}));
+}
+
 Surface Model::surface(int a, int b) const {
   const BodyDef &p = def.bodies[a], &q = def.bodies[b];
   Surface s{std::max(p.restitution, q.restitution), std::sqrt(p.friction * q.friction)};

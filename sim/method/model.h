@@ -9,6 +9,7 @@
 #include "sim/body/force.h"
 #include "sim/body/inertia_method.h"
 #include "sim/body/pivot.h"
+#include "sim/joint/joint.h"
 #include "sim/shape/shape.h"
 
 namespace tumble {
@@ -83,6 +84,7 @@ struct WorldDef {
   SteppingSettings stepping;
   std::vector<BodyDef> bodies;
   std::vector<Force> forces;
+  std::vector<JointDef> joints;
   std::vector<PairDef> pairs;
   bool rememberPlanes = true;  ///< false: every pair is searched anew, for the same motion
 };
@@ -117,13 +119,17 @@ struct Surface {
 /// The checked definition, ready to run: constant bodies, shapes, surfaces, forces and settings.
 struct Model {
   WorldDef def;
-  std::vector<Shape> shapes;  ///< per body, as others meet it
-  std::vector<int> solid;     ///< the bodies that can touch anything, in order
-  std::vector<Pivot> pivots;  ///< of the bodies that have one
+  std::vector<Shape> shapes;                  ///< per body, as others meet it
+  std::vector<int> solid;                     ///< the bodies that can touch anything, in order
+  std::vector<Pivot> pivots;                  ///< of the bodies that have one
+  std::vector<Joint> joints;                  ///< as in the definition
+  std::vector<std::pair<int, int>> partners;  ///< bodies that a joint keeps from touching, sorted
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }
   bool fixed(int body) const { return def.bodies[body].fixed; }
+  /// Whether two bodies may touch: one of them moves, and no joint keeps them from it.
+  bool mayTouch(int a, int b) const;
   /// e = max(e1, e2), mu = √(mu1 mu2), unless a row of the pairs table says otherwise.
   Surface surface(int a, int b) const;
 };

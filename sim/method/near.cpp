@@ -25,7 +25,7 @@ std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
   std::vector<std::pair<int, int>> near;
   for (const auto& [i, j] : state.broadPhase.pairs()) {
     const int b = model.solid[i], a = model.solid[j];
-    if (!(model.fixed(a) && model.fixed(b))) near.emplace_back(b, a);
+    if (model.mayTouch(a, b)) near.emplace_back(b, a);
   }
   passWitnesses(near, state);
   return near;

@@ -12,6 +12,7 @@
 #include "sim/contact/contact.h"
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
+#include "sim/joint/joint_bonds.h"
 #include "sim/method/report.h"
 #include "sim/method/stepping/memory.h"
 #include "sim/shape/outline.h"
@@ -25,6 +26,8 @@ struct Segment {
   std::vector<RigidBody> end;  ///< the bodies at t1, before its events; only if the method needs it
   std::vector<Contact>
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
+  std::vector<Limit> limits = {};       ///< of joints, that hold
+  std::vector<JointForce> joints = {};  ///< of `stepping`: the forces of the step
 };
 
 /// Time, bodies, and what a method remembers from step to step.
@@ -33,6 +36,7 @@ struct State {
   long gridIndex = 0;  ///< whole steps done; the grid is gridIndex · h
   std::vector<RigidBody> bodies;
   std::vector<Contact> lasting;  ///< contacts that rest or slide
+  std::vector<Limit> limits;     ///< of joints, that are reached and at rest
   BroadPhase broadPhase;
   std::vector<Segment> trail;  ///< from the advance before the last one up to t
 

@@ -38,6 +38,11 @@ void checkContact(const Model& model) {
     throw Refusal("course.stiffness", "a stiffness must be a positive number of N/m");
   if (!(course.damping >= 0.0 && std::isfinite(course.damping)))
     throw Refusal("course.damping", "a damping must be 0 N s/m or more");
+  if (!model.joints.empty() && !(contact->impulses && plan->backsUp))
+    throw Refusal(contact->impulses ? "course.plan" : "course.contact",
+                  "joints need the plan \"backstep\" and the contact model \"constraint\"");
+  if (!model.joints.empty() && model.def.course.attitude == "matrix")
+    throw Refusal("course.attitude", "joints need the attitude \"quaternion\"");
   if (contact->impulses) return;
   if (!plan->backsUp)
     throw Refusal("course.plan", "\"" + course.contact +

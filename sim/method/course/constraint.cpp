@@ -10,19 +10,23 @@ constexpr double kPullSteps = 4.0;
 
 class ConstraintForces : public ContactForces {
  public:
-  explicit ConstraintForces(double tau) : tau_(tau), rest_(tau) {}
+  explicit ConstraintForces(const Model& model)
+      : joints_(model.joints), tau_(pullTime(model)), rest_(tau_) {}
 
-  void begin(std::span<const Contact> lasting) override {
+  void begin(std::span<const Contact> lasting, std::span<const Limit> limits) override {
     contacts_.assign(lasting.begin(), lasting.end());
+    limits_.assign(limits.begin(), limits.end());
     rest_ = RestForces(tau_);
   }
 
   SolveReport apply(std::span<RigidBody> bodies) override {
     for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
-    return rest_.apply(bodies, contacts_);
+    restBonds(bodies, joints_, limits_, tau_, bonds_);
+    return rest_.apply(bodies, contacts_, &bonds_);
   }
 
   const std::vector<Contact>& contacts() const override { return contacts_; }
+  const Bonds& bonds() const override { return bonds_; }
 
   double powerTaken(std::span<const RigidBody> bodies) const override {
     double taken = 0.0;
@@ -32,13 +36,16 @@ class ConstraintForces : public ContactForces {
   }
 
   Offers offers(const Offers& free) const override {
-    return contacts_.empty() ? free : Offers{.split = Split::Rough, .lie = true};
+    return contacts_.empty() && joints_.empty() ? free : Offers{.split = Split::Rough, .lie = true};
   }
 
  private:
+  std::vector<Joint> joints_;
   double tau_;
   RestForces rest_;
   std::vector<Contact> contacts_;
+  std::vector<Limit> limits_;
+  Bonds bonds_;
 };
 
 }  // namespace
@@ -48,7 +55,7 @@ double pullTime(const Model& model) {
 }
 
 std::unique_ptr<ContactForces> makeConstraintForces(const Model& model) {
-  return std::make_unique<ConstraintForces>(pullTime(model));
+  return std::make_unique<ConstraintForces>(model);
 }
 
 }  // namespace tumble

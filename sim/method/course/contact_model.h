@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/contact/contact.h"
+#include "sim/joint/joint_bonds.h"
 #include "sim/method/model.h"
 #include "sim/ode/system.h"
 #include "sim/problem/problem.h"
@@ -18,13 +19,16 @@ class ContactForces {
  public:
   virtual ~ContactForces() = default;
 
-  /// Begins a stretch of motion in which these contacts last, or these pairs overlap.
-  virtual void begin(std::span<const Contact> lasting) = 0;
+  /// Begins a stretch of motion in which these contacts last, or these pairs overlap, and these
+  /// limits of joints hold.
+  virtual void begin(std::span<const Contact> lasting, std::span<const Limit> limits) = 0;
   /// Finds the forces [N] of this moment and adds them to the bodies, which carry their outer
   /// forces.
   virtual SolveReport apply(std::span<RigidBody> bodies) = 0;
   /// The contacts of the last `apply`, with their forces.
   virtual const std::vector<Contact>& contacts() const = 0;
+  /// Rows of joints with the λ of the last `apply`.
+  virtual const Bonds& bonds() const = 0;
   /// Power [W] that contacts took from the bodies at the last `apply`, be it stored or lost.
   virtual double powerTaken(std::span<const RigidBody> bodies) const = 0;
   /// What is left of what the bodies offer in free flight.

@@ -22,7 +22,7 @@ void advanceCourse(const Model& model, State& state, double t_end, Report& repor
 }
 
 void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
-                std::vector<Contact>& contacts) {
+                std::vector<Contact>& contacts, std::vector<JointForce>& joints) {
   // The last stretch that begins at or before t; at the end of the trail, the state itself.
   const Segment* segment = nullptr;
   for (const Segment& s : state.trail)
@@ -30,7 +30,7 @@ void lookCourse(const Model& model, const State& state, double t, std::vector<Ri
   const bool now = !segment || t >= state.t;
   bodies = now ? state.bodies : segment->start;
   CourseSystem system(model, bodies);
-  system.begin(now ? state.lasting : segment->contacts);
+  system.begin(now ? state.lasting : segment->contacts, now ? state.limits : segment->limits);
   if (!now && t > segment->t0) {
     std::vector<double> y(system.size());
     system.pack(bodies, y);
@@ -39,6 +39,7 @@ void lookCourse(const Model& model, const State& state, double t, std::vector<Ri
   }
   system.findForces(bodies);
   contacts = system.contacts();
+  joints = system.jointForces(bodies);
 }
 
 CourseSteppers::CourseSteppers(const Model& model, const System& system)

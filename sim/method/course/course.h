@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sim/contact/rest.h"
+#include "sim/joint/joint_rows.h"
 #include "sim/method/course/plan.h"
 #include "sim/method/course/system.h"
 #include "sim/method/method.h"
@@ -16,7 +17,7 @@ namespace tumble {
 void checkCourse(const Model& model, std::span<const RigidBody> bodies);
 void advanceCourse(const Model& model, State& state, double t_end, Report& report);
 void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
-                std::vector<Contact>& contacts);
+                std::vector<Contact>& contacts, std::vector<JointForce>& joints);
 
 /// Events that are located exactly come out of a store of so many, which every step refills.
 inline constexpr int kBackUps = 400;
@@ -70,6 +71,8 @@ class Course {
   bool collides() const;
   void respond();
   double restitutionNow(const Contact& contact) const;
+  /// What joints gave to bodies from outside in an impact.
+  void recordBonds(const Bonds& bonds);
   /// One event for each pair and normal; per contact: vrel [m/s] before, impulse [N·s] on a.
   void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
   /// That of the contacts in [first, end) that share the normal of the first.
@@ -94,6 +97,8 @@ class Course {
   bool locates() const { return contact_.impulses && plan_.backsUp; }
   /// What each near pair's separation must not fall below in this stretch.
   void setFloors();
+  /// Gaps of all limits of joints with these bodies, into limits_.
+  void lookAtLimits(std::span<const RigidBody> bodies);
   /// How long [s] the motion may go on unseen: no pair passes through each other, no feature dips
   /// in and out again.
   double foresee(double span) const;
@@ -121,9 +126,11 @@ class Course {
   std::vector<RigidBody> trial_;
   Problem lift_;
   Solution lifted_;
-  std::vector<double> gaps_;   ///< [m] per near pair: separation now
-  std::vector<double> floor_;  ///< [m] per near pair: separation that must not be passed
-  double allowanceNow_ = 0.0;  ///< `allowance` of no motion at all
+  std::vector<JointRow> limits_;    ///< those that joints have, at the poses last looked at
+  std::vector<double> limitFloor_;  ///< [m] per limit: gap that must not be passed
+  std::vector<double> gaps_;        ///< [m] per near pair: separation now
+  std::vector<double> floor_;       ///< [m] per near pair: separation that must not be passed
+  double allowanceNow_ = 0.0;       ///< `allowance` of no motion at all
 };
 
 }  // namespace tumble

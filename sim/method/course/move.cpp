@@ -30,8 +30,9 @@ void Course::move() {
   const double span = grid - state_.t;
   state_.trail.push_back(
       {.t0 = state_.t, .t1 = grid, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
+  state_.trail.back().limits = state_.limits;
 
-  system_.begin(state_.lasting);
+  system_.begin(state_.lasting, state_.limits);
   if (steppers_.stands(system_))
     report_.note("while contacts last, rk4 stands in for an integrator that cannot have them");
   y0_.resize(system_.size());
@@ -64,11 +65,30 @@ void Course::setFloors() {
     floor_.push_back(locates() ? std::min(-slack, now - kSink * slack) : -kInfinity);
     allowanceNow_ = std::min(allowanceNow_, now - floor_.back());
   }
+  // Limits of joints are surfaces too.
+  lookAtLimits(state_.bodies);
+  limitFloor_.clear();
+  for (const JointRow& row : limits_) {
+    const double now = row.arm * row.gap;
+    const double slack = now <= tolerance_.touch ? tolerance_.drift : tolerance_.root;
+    limitFloor_.push_back(locates() ? std::min(-slack, now - kSink * slack) : -kInfinity);
+    allowanceNow_ = std::min(allowanceNow_, now - limitFloor_.back());
+  }
   for (const Contact& c : state_.lasting)
     if (c.mayStick)
       allowanceNow_ = std::min(
           allowanceNow_,
           slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).dot(c.slipDirection));
+}
+
+void Course::lookAtLimits(std::span<const RigidBody> bodies) {
+  limits_.clear();
+  std::vector<JointRow> rows;
+  for (const Joint& joint : model_.joints) {
+    jointRows(bodies, joint, rows);
+    for (const JointRow& row : rows)
+      if (row.limit >= 0) limits_.push_back(row);
+  }
 }
 
 double Course::allowance(double h) {
@@ -87,6 +107,9 @@ double Course::allowance(double h) {
         separation(model_.shapes[a], trial_[a].pose(), model_.shapes[b], trial_[b].pose());
     least = std::min(least, gap - floor_[k]);
   }
+  if (!limitFloor_.empty()) lookAtLimits(trial_);
+  for (std::size_t k = 0; k < limitFloor_.size(); ++k)
+    least = std::min(least, limits_[k].arm * limits_[k].gap - limitFloor_[k]);
   for (Contact c : state_.lasting) {
     if (!c.mayStick) continue;
     follow(trial_[c.a], trial_[c.b], c);

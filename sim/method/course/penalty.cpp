@@ -12,7 +12,7 @@ class PenaltyForces : public ContactForces {
   explicit PenaltyForces(const Model& model) : model_(model) {}
 
   // A stretch ends where another pair begins to overlap.
-  void begin(std::span<const Contact> touching) override {
+  void begin(std::span<const Contact> touching, std::span<const Limit>) override {
     pairs_.clear();
     for (const Contact& c : touching)
       if (pairs_.empty() || pairs_.back() != std::pair(c.b, c.a)) pairs_.emplace_back(c.b, c.a);
@@ -34,6 +34,7 @@ class PenaltyForces : public ContactForces {
   }
 
   const std::vector<Contact>& contacts() const override { return contacts_; }
+  const Bonds& bonds() const override { return none_; }
 
   double powerTaken(std::span<const RigidBody> bodies) const override {
     double taken = 0.0;
@@ -58,6 +59,7 @@ class PenaltyForces : public ContactForces {
   const Model& model_;
   std::vector<std::pair<int, int>> pairs_;  ///< (b, a), each once
   std::vector<Contact> contacts_;
+  Bonds none_;
 };
 
 }  // namespace

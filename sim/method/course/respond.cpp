@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/contact/impact.h"
+#include "sim/joint/joint_bonds.h"
 #include "sim/method/course/course.h"
 
 namespace tumble {
@@ -38,6 +39,8 @@ bool sameNormal(const ContactPoint& c, const ContactPoint& d) {
 }  // namespace
 
 bool Course::collides() const {
+  if (limitApproach(state_.bodies, model_.joints, tolerance_.touch) < -kNoise * tolerance_.rest)
+    return true;
   return std::any_of(touching_.begin(), touching_.end(), [&](const Contact& c) {
     return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) <
            -kNoise * tolerance_.rest;
@@ -67,12 +70,15 @@ void Course::respond() {
     vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
   }
   std::vector<Vec3> impulse(touching_.size(), Vec3::Zero());
+  Bonds bonds;
+  impactBonds(state_.bodies, model_.joints, tolerance_.touch, bonds);
   const ImpactReport impact = findImpactLaw(model_.def.impact)
                                   ->apply({.bodies = state_.bodies,
                                            .contacts = touching_,
                                            .restitution = restitution,
                                            .impulse = impulse,
-                                           .tolerance = tolerance_});
+                                           .tolerance = tolerance_,
+                                           .bonds = &bonds});
   Certificate& books = report_.certificate;
   books.energy_lost_impact += impact.lostNormal;
   books.energy_lost_friction += impact.lostFriction;
@@ -81,6 +87,11 @@ void Course::respond() {
   if (impact.finishedInelastic)
     report_.note("impacts that did not come to an end were finished without rebound");
   recordImpacts(vrel, impulse);
+  recordBonds(bonds);
+}
+
+void Course::recordBonds(const Bonds& bonds) {
+  if (!bonds.empty()) state_.externalImpulse += outerBonds(bonds, state_.bodies).force;
 }
 
 void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse) {
@@ -143,7 +154,11 @@ void Course::chooseLasting() {
     c.mayStick = c.sliding;
     lasting.push_back(c);
   }
-  rest_.settleCreep(state_.bodies, lasting, model_.def.course.step);
+  state_.limits = restingLimits(state_.bodies, model_.joints, tolerance_.touch, tolerance_.rest,
+                                tolerance_.keep, state_.limits);
+  Bonds bonds;
+  restBonds(state_.bodies, model_.joints, state_.limits, pullTime(model_), bonds);
+  rest_.settleCreep(state_.bodies, lasting, model_.def.course.step, &bonds);
   std::swap(state_.lasting, lasting);
   recordChanges(lasting, state_.lasting, state_.t, report_);
 }

@@ -19,7 +19,7 @@ bool holds(const std::vector<Contact>& list, const Contact& c) {
 
 void Course::chooseSprings() {
   const std::vector<Contact> before = std::move(state_.lasting);
-  system_.begin(touching_);
+  system_.begin(touching_, {});
   system_.findForces(state_.bodies);
   state_.lasting = system_.contacts();
   // What they took and did not store is lost.

@@ -27,8 +27,8 @@ CourseSystem::CourseSystem(const Model& model, std::span<const RigidBody> bodies
       work_(bodies.begin(), bodies.end()),
       contacts_(findContactModel(model.def.course.contact)->make(model)) {}
 
-void CourseSystem::begin(const std::vector<Contact>& contacts) {
-  contacts_->begin(contacts);
+void CourseSystem::begin(const std::vector<Contact>& contacts, const std::vector<Limit>& limits) {
+  contacts_->begin(contacts, limits);
   residual_ = 0.0;
   unsolved_ = false;
 }
@@ -73,6 +73,11 @@ Ledger CourseSystem::contactRates() const {
       rates.work -= c.force.dot(pointVelocity(a, c.point.p));
       rates.impulse -= c.force;
     }
+  }
+  if (const Bonds& bonds = contacts_->bonds(); !bonds.empty()) {
+    const OuterBonds outer = outerBonds(bonds, work_);
+    rates.work += outer.power;
+    rates.impulse += outer.force;
   }
   return rates;
 }

@@ -25,8 +25,8 @@ class CourseSystem : public System {
 
   CourseSystem(const Model& model, std::span<const RigidBody> bodies);
 
-  /// Begins a stretch of motion with these lasting contacts.
-  void begin(const std::vector<Contact>& contacts);
+  /// Begins a stretch of motion with these lasting contacts, and limits of joints that hold.
+  void begin(const std::vector<Contact>& contacts, const std::vector<Limit>& limits);
 
   int size() const override { return bodies_.size() + kLedgerSize; }
   void derivative(double t, std::span<const double> y, std::span<double> ydot) const override;
@@ -52,6 +52,10 @@ class CourseSystem : public System {
   /// Finds all forces on these bodies, those of contacts too; the bodies keep the sum.
   SolveReport findForces(std::span<RigidBody> bodies) const;
   const std::vector<Contact>& contacts() const { return contacts_->contacts(); }
+  /// Of the same moment.
+  std::vector<JointForce> jointForces(std::span<const RigidBody> bodies) const {
+    return tumble::jointForces(bodies, model_.joints, contacts_->bonds());
+  }
 
   /// Worst residual of the contact problems of this stretch, and whether one was left unsolved.
   double residual() const { return residual_; }

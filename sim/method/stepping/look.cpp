@@ -4,7 +4,8 @@
 namespace tumble {
 
 void lookStepping(const Model& /*model*/, const State& state, double t,
-                  std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) {
+                  std::vector<RigidBody>& bodies, std::vector<Contact>& contacts,
+                  std::vector<JointForce>& joints) {
   // The step that contains t, its end included; at the very start, the first one.
   const Segment* segment = nullptr;
   for (const Segment& s : state.trail)
@@ -12,6 +13,7 @@ void lookStepping(const Model& /*model*/, const State& state, double t,
   if (!segment) {
     bodies = state.bodies;
     contacts.clear();
+    joints.clear();
     return;
   }
   const double h = segment->t1 - segment->t0, s = (t - segment->t0) / h;
@@ -28,6 +30,7 @@ void lookStepping(const Model& /*model*/, const State& state, double t,
     if (!body.fixed()) body.P = body.M * (way + (2.0 * s - 1.0) * bend) / h;
     updateDerived(body);
   }
+  joints = segment->joints;
   contacts = segment->contacts;
   for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
 }

@@ -14,7 +14,7 @@ namespace tumble {
 void checkStepping(const Model& model, std::span<const RigidBody> bodies);
 void advanceStepping(const Model& model, State& state, double t_end, Report& report);
 void lookStepping(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
-                  std::vector<Contact>& contacts);
+                  std::vector<Contact>& contacts, std::vector<JointForce>& joints);
 
 class Stepping {
  public:

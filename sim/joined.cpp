@@ -1,0 +1,126 @@
+#include "sim/joined.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/contact/contact.h"
+#include "sim/joint/joint_rows.h"
+
+namespace tumble {
+namespace {
+
+constexpr double kTurn = 3.14159265358979323846;  // [rad] the widest limit of a hinge
+
+void need(bool holds, const std::string& where, const std::string& what) {
+  if (!holds) throw Refusal(where, what);
+}
+
+std::string pathOf(std::size_t k, const char* field = "") {
+  return "joints[" + std::to_string(k) + "]" + field;
+}
+
+/// The bodies of a joint, and what of a joint they can have.
+void checkBodies(const Model& model, std::span<const RigidBody> bodies, std::size_t k) {
+  const JointDef& def = model.def.joints[k];
+  const std::string name = "\"" + def.name + "\"";
+  const int count = model.count();
+  need(def.a >= 0 && def.a < count, pathOf(k, ".a"), name + " names a body that is not there");
+  need(def.b >= kNoBody && def.b < count, pathOf(k, ".b"),
+       name + " names a body that is not there");
+  need(def.a != def.b, pathOf(k, ".b"), name + " joins a body to itself");
+  const bool fixedB = def.b == kNoBody || model.fixed(def.b);
+  need(!(model.fixed(def.a) && fixedB), pathOf(k), name + " joins nothing that moves");
+  for (const int body : {def.a, def.b}) {
+    if (body == kNoBody) continue;
+    const char* field = body == def.a ? ".a" : ".b";
+    const std::string who = "\"" + model.def.bodies[body].name + "\"";
+    need(!model.def.bodies[body].pivot_B, pathOf(k, field),
+         who + " has a pivot; leave it out, a ball joint to the world holds the same point");
+    if (!bodies[body].particle) continue;
+    const bool point = def.kind == JointKind::Ball || def.kind == JointKind::Distance;
+    need(point, pathOf(k, field),
+         who + " is a particle, which does not turn: \"ball\" or \"distance\" can hold it");
+    const Vec3& anchor = body == def.a ? def.anchorA : def.anchorB;
+    need(anchor == bodies[body].x, pathOf(k, ".anchor"),
+         who + " is a particle, so the anchor must be its position");
+  }
+}
+
+/// Anchors, axis and limits are numbers that make a joint.
+void checkNumbers(const JointDef& def, std::size_t k) {
+  const JointName& row = jointName(def.kind);
+  need(def.anchorA.allFinite() && def.anchorB.allFinite(), pathOf(k, ".anchor"),
+       "an anchor must be a finite point");
+  need(def.axis.allFinite() && (!row.axis || def.axis.norm() > 0.0), pathOf(k, ".axis"),
+       "an axis must be three numbers that are not all zero");
+  const bool limits = std::isfinite(def.lo) || std::isfinite(def.hi);
+  need(row.limits || !limits, pathOf(k), "a joint of this kind has no limits");
+  need(def.lo <= def.hi, pathOf(k, ".min"), "the lower limit lies above the upper one");
+  need(!limits || def.lo < def.hi, pathOf(k, ".min"),
+       "two limits that are one leave nothing free: take a joint that holds it");
+  if (def.kind == JointKind::Hinge) {
+    need(!std::isfinite(def.lo) || def.lo > -kTurn, pathOf(k, ".min"),
+         "a hinge tells turns from -180 to 180 degrees");
+    need(!std::isfinite(def.hi) || def.hi < kTurn, pathOf(k, ".max"),
+         "a hinge tells turns from -180 to 180 degrees");
+  }
+  const double apart = (def.anchorA - def.anchorB).norm();
+  need(def.kind == JointKind::Distance || apart == 0.0, pathOf(k, ".anchor"),
+       "both bodies of such a joint share one anchor");
+  need(def.kind != JointKind::Distance || limits || apart > 0.0, pathOf(k, ".anchor"),
+       "a rod needs two anchors apart; for one point take \"ball\"");
+}
+
+/// Nothing at the start is beyond a limit, or moves as a joint does not let it.
+void checkStart(const Model& model, std::span<const RigidBody> bodies, std::size_t k) {
+  constexpr double kRounding = 1e-9;  // [m], [m/s], and of the speeds
+  const std::string name = "\"" + model.def.joints[k].name + "\"";
+  const Joint& joint = model.joints[k];
+  const double touch = ContactTolerance::forSize(model.size).touch;
+  double speed = 1.0;
+  for (const int body : {joint.a, joint.b})
+    if (body < model.count())
+      speed = std::max(speed, bodies[body].v.norm() + joint.arm * bodies[body].omega.norm());
+  std::vector<JointRow> rows;
+  jointRows(bodies, joint, rows);
+  for (const JointRow& row : rows) {
+    need(row.limit < 0 || row.arm * row.gap >= -touch, pathOf(k, row.limit == 0 ? ".min" : ".max"),
+         name + " begins beyond its " + (row.limit == 0 ? "lower" : "upper") + " limit, by " +
+             (joint.kind == JointKind::Hinge ? shortNumber(-row.gap * 180.0 / kTurn) + " degrees"
+                                             : shortNumber(-row.gap) + " m"));
+    need(row.limit >= 0 || row.arm * std::abs(row.rate) <= kRounding * speed, pathOf(k),
+         name + " does not let its bodies begin as they do: they part at " +
+             shortNumber(row.arm * std::abs(row.rate)) +
+             " m/s there; give both velocities that agree");
+  }
+}
+
+/// The farthest point [m] of the bodies of a joint that move, from its anchor.
+double armOf(const Model& model, std::span<const RigidBody> bodies, const JointDef& def) {
+  double arm = 0.0;
+  for (const int body : {def.a, def.b}) {
+    if (body == kNoBody || model.fixed(body)) continue;
+    const double radius = boundingRadius(model.shapes[body]);
+    arm = std::max(arm,
+                   (bodies[body].x - def.anchorA).norm() + (std::isfinite(radius) ? radius : 0.0));
+  }
+  return arm > 0.0 ? arm : 1.0;
+}
+
+}  // namespace
+
+void joinBodies(Model& model, std::span<const RigidBody> bodies) {
+  const std::vector<JointDef>& defs = model.def.joints;
+  for (std::size_t k = 0; k < defs.size(); ++k) {
+    checkBodies(model, bodies, k);
+    checkNumbers(defs[k], k);
+    model.joints.push_back(makeJoint(defs[k], bodies, armOf(model, bodies, defs[k])));
+    checkStart(model, bodies, k);
+    if (!defs[k].collide && defs[k].b != kNoBody)
+      model.partners.push_back(std::minmax(defs[k].a, defs[k].b));
+  }
+  std::sort(model.partners.begin(), model.partners.end());
+}
+
+}  // namespace tumble
