@@ -28,35 +28,58 @@ double rowSpeed(const Row& row, const Vec6& a, const Vec6& b) {
 
 }  // namespace
 
-void Stepping::solveIslands(double h) {
-  touched_.assign(state_.bodies.size(), 0);
-  local_.assign(state_.bodies.size(), -1);
-  memory_.islands.resize(state_.bodies.size());
-  allKept_ = true;
-  groupPairs();
-  for (std::size_t i = 0; i + 1 < begin_.size(); ++i)
-    solveIsland(std::span(order_).subspan(begin_[i], begin_[i + 1] - begin_[i]), h);
+std::pair<int, int> Stepping::ends(Link link) const {
+  if (isPair(link)) return state_.near[link];
+  const Row& row = bonds_.rows[link - state_.near.size()];
+  return {row.b, row.a};
 }
 
-/// Deals the pairs that touch out to islands, in the order of their first pairs.
-void Stepping::groupPairs() {
-  root_.resize(state_.bodies.size());
+void Stepping::solveIslands(double h) {
+  const std::size_t n = state_.bodies.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const RigidBody& body = state_.bodies[i];
+    star_[i] = before_[i];
+    if (!body.fixed())
+      star_[i] << body.v + h * body.invM * body.force, body.Iinv * (body.L + h * body.torque);
+  }
+  after_ = star_;
+  bonds_.clear();
+  if (!model_.joints.empty()) stepBonds(state_.bodies, model_.joints, star_, h, bonds_);
+  touched_.assign(n, 0);
+  memory_.islands.resize(n);
+  allKept_ = true;
+  groupLinks();
+  for (std::size_t i = 0; i + 1 < begin_.size(); ++i)
+    solveIsland(std::span(order_).subspan(begin_[i], begin_[i + 1] - begin_[i]), h);
+  if (!bonds_.empty()) bookJoints(h);
+}
+
+/// Deals what joins bodies out to islands, in the order of their first links.
+void Stepping::groupLinks() {
+  const int count = static_cast<int>(state_.near.size() + bonds_.rows.size());
+  const int world = static_cast<int>(state_.bodies.size());
+  const auto joins = [&](Link link) {
+    return !isPair(link) || !memory_.pairs[link].touches.empty();
+  };
+  const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
+  root_.resize(world);
   std::iota(root_.begin(), root_.end(), 0);
-  for (std::size_t k = 0; k < state_.near.size(); ++k) {
-    const auto [b, a] = state_.near[k];
-    if (memory_.pairs[k].touches.empty() || model_.fixed(a) || model_.fixed(b)) continue;
+  for (Link link = 0; link < count; ++link) {
+    const auto [b, a] = ends(link);
+    if (!joins(link) || fixed(a) || fixed(b)) continue;
     const int p = find(root_, a), q = find(root_, b);
     root_[std::max(p, q)] = std::min(p, q);
   }
   // Count, then place: `local_` numbers the islands for a moment.
+  local_.assign(world + 1, -1);
   begin_.assign(1, 0);
-  const auto islandOf = [&](std::size_t k) -> int& {
-    const auto [b, a] = state_.near[k];
-    return local_[find(root_, model_.fixed(a) ? b : a)];
+  const auto islandOf = [&](Link link) -> int& {
+    const auto [b, a] = ends(link);
+    return local_[find(root_, fixed(a) ? b : a)];
   };
-  for (std::size_t k = 0; k < state_.near.size(); ++k) {
-    if (memory_.pairs[k].touches.empty()) continue;
-    int& island = islandOf(k);
+  for (Link link = 0; link < count; ++link) {
+    if (!joins(link)) continue;
+    int& island = islandOf(link);
     if (island < 0) {
       island = static_cast<int>(begin_.size()) - 1;
       begin_.push_back(0);
@@ -66,58 +89,56 @@ void Stepping::groupPairs() {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   order_.resize(begin_.back());
   movers_.assign(begin_.begin(), begin_.end());
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (!memory_.pairs[k].touches.empty()) order_[movers_[islandOf(k)]++] = static_cast<int>(k);
+  for (Link link = 0; link < count; ++link)
+    if (joins(link)) order_[movers_[islandOf(link)]++] = link;
   std::fill(local_.begin(), local_.end(), -1);
 }
 
-void Stepping::collectBodies(std::span<const int> pairs, double h) {
-  bodies_.clear();
+/// The bodies of an island that move, in the order of its links.
+void Stepping::collectBodies(std::span<const Link> links) {
+  const int world = static_cast<int>(state_.bodies.size());
   movers_.clear();
-  for (const int k : pairs) {
-    const auto [b, a] = state_.near[k];
+  for (const Link link : links) {
+    const auto [b, a] = ends(link);
     for (const int i : {a, b}) {
-      if (local_[i] >= 0) continue;
-      local_[i] = static_cast<int>(bodies_.size());
-      bodies_.push_back(i);
-      if (model_.fixed(i)) continue;
+      if (i == world || model_.fixed(i) || local_[i] >= 0) continue;
+      local_[i] = 0;
       movers_.push_back(i);
-      const RigidBody& body = state_.bodies[i];
-      star_[i] << body.v + h * body.invM * body.force, body.Iinv * (body.L + h * body.torque);
     }
   }
-  for (const int i : bodies_) local_[i] = -1;
+  for (const int i : movers_) local_[i] = -1;
 }
 
 /// Whether an island asks what it asked when it was solved: the same points, and velocities that
 /// differ by less than the tolerance on the residual.
-bool Stepping::keeps(const IslandMemory& memory, std::span<const int> pairs) const {
-  if (memory.bodies != movers_ || memory.looks.size() != pairs.size()) return false;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (memory.looks[k] != memory_.pairs[pairs[k]].look) return false;
+bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) const {
+  if (memory.bodies != movers_ || memory.looks.size() != links.size()) return false;
+  for (std::size_t k = 0; k < links.size(); ++k)
+    if (!isPair(links[k]) || memory.looks[k] != memory_.pairs[links[k]].look) return false;
   const double allowed = model_.def.stepping.tolerance * memory.scale;
   for (std::size_t i = 0; i < movers_.size(); ++i)
     if (!((star_[movers_[i]] - memory.vStar[i]).lpNorm<Eigen::Infinity>() <= allowed)) return false;
-  for (const int k : pairs)
-    for (const Touch& touch : memory_.pairs[k].touches)
+  for (const Link link : links)
+    for (const Touch& touch : memory_.pairs[link].touches)
       if (touch.arrivalSpeed > 0.0 || touch.rebounds) return false;
   return true;
 }
 
-void Stepping::solveIsland(std::span<const int> pairs, double h) {
+void Stepping::solveIsland(std::span<const Link> links, double h) {
+  constexpr int kMost = 2000;  // sweeps: more bring little; what is left is in the certificate
   Certificate& certificate = report_.certificate;
-  collectBodies(pairs, h);
+  collectBodies(links);
   if (movers_.empty()) return;
   IslandMemory& memory = memory_.islands[movers_.front()];
-  if (!keeps(memory, pairs)) {
+  if (!keeps(memory, links)) {
     allKept_ = false;
-    build(pairs, h);
+    build(links, h);
     const SolveReport solved = solver_.solve(
-        problem_, {.tolerance = model_.def.stepping.tolerance, .maxIterations = 2000}, solution_);
+        problem_, {.tolerance = model_.def.stepping.tolerance, .maxIterations = kMost}, solution_);
     if (solved.status != SolveStatus::Solved)
       report_.note("some steps were left above the tolerance; max_complementarity has the worst");
     memory.residual = solved.residual;
-    share(pairs, memory, h);
+    share(links, memory, h);
   }
   certificate.max_complementarity = std::max(certificate.max_complementarity, memory.residual);
   certificate.energy_lost_impact += memory.books.lostImpact;
@@ -133,17 +154,18 @@ void Stepping::solveIsland(std::span<const int> pairs, double h) {
 /// Number of a body in the problem of its island.
 int Stepping::localOf(int body) {
   if (local_[body] < 0) {
-    const RigidBody& b = state_.bodies[body];
     local_[body] = static_cast<int>(problem_.invM.size());
-    problem_.invM.push_back(b.invM);
-    problem_.Iinv.push_back(b.Iinv);
-    problem_.vStar.push_back(b.fixed() ? before_[body] : star_[body]);
+    const bool world = body == static_cast<int>(state_.bodies.size());
+    problem_.invM.push_back(world ? 0.0 : state_.bodies[body].invM);
+    problem_.Iinv.push_back(world ? Mat3(Mat3::Zero()) : state_.bodies[body].Iinv);
+    problem_.vStar.push_back(star_[body]);
     solution_.v.push_back(before_[body]);
+    bodies_.push_back(body);
   }
   return local_[body];
 }
 
-void Stepping::build(std::span<const int> pairs, double h) {
+void Stepping::build(std::span<const Link> links, double h) {
   problem_.invM.clear();
   problem_.Iinv.clear();
   problem_.vStar.clear();
@@ -151,8 +173,22 @@ void Stepping::build(std::span<const int> pairs, double h) {
   problem_.cones.clear();
   solution_.lambda.clear();
   solution_.v.clear();
-  for (const int k : pairs)
-    for (Touch& touch : memory_.pairs[k].touches) addTouch(touch, h);
+  bodies_.clear();
+  for (const Link link : links) {
+    if (isPair(link)) {
+      for (Touch& touch : memory_.pairs[link].touches) addTouch(touch, h);
+      continue;
+    }
+    problem_.cones.push_back({.kind = bonds_.kinds[link - state_.near.size()],
+                              .row = static_cast<int>(problem_.rows.size())});
+    addRow(bondOf(link));
+  }
+}
+
+void Stepping::addRow(Row row) {
+  row.a = localOf(row.a);
+  row.b = localOf(row.b);
+  problem_.rows.push_back(row);
 }
 
 void Stepping::addTouch(Touch& touch, double h) {
@@ -163,44 +199,42 @@ void Stepping::addTouch(Touch& touch, double h) {
   // A gap may be closed by the end of the step and no further. The step after, on the surface, the
   // hit rebounds with the speed at which it came: so a bounce starts where it should and gains no
   // height.
-  const Vec6& starA = model_.fixed(contact.a) ? before_[contact.a] : star_[contact.a];
-  const Vec6& starB = model_.fixed(contact.b) ? before_[contact.b] : star_[contact.b];
   const double vrel = rowSpeed(normal, before_[contact.a], before_[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
   const bool arrived = c.separation <= tolerance_.touch;
-  const bool hits = c.separation + h * rowSpeed(normal, starA, starB) < 0.0;
+  const bool hits = c.separation + h * rowSpeed(normal, star_[contact.a], star_[contact.b]) < 0.0;
   const bool rebounds = arrived && hits && touch.approach > 0.0 && contact.restitution > 0.0;
   normal.bias = rebounds ? -contact.restitution * touch.approach : std::max(0.0, c.separation) / h;
   touch.rebounds = rebounds && normal.bias < landingSpeed();
 
-  const int a = localOf(contact.a), b = localOf(contact.b);
-  const auto add = [&](Row row) {
-    row.a = a;
-    row.b = b;
-    problem_.rows.push_back(row);
-  };
   Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())};
-  add(normal);
+  addRow(normal);
   if (contact.friction > 0.0) {
     cone.kind = ConeKind::Friction;
     cone.mu = contact.friction;
     Vec3 t1, t2;
     tangents(c.n, slipVelocity(state_.bodies[contact.a], state_.bodies[contact.b], c), t1, t2);
-    for (const Vec3& t : {t1, t2}) add(pointRow(state_.bodies, contact.a, contact.b, c.p, t, 0.0));
+    for (const Vec3& t : {t1, t2})
+      addRow(pointRow(state_.bodies, contact.a, contact.b, c.p, t, 0.0));
   }
   problem_.cones.push_back(cone);
 }
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
-void Stepping::share(std::span<const int> pairs, IslandMemory& memory, double h) {
+void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
   memory.bodies = movers_;
   memory.looks.clear();
   memory.books = {};
   memory.scale = velocityScale(problem_);
   std::size_t cone = 0;
-  for (const int k : pairs) {
-    memory.looks.push_back(memory_.pairs[k].look);
-    for (Touch& touch : memory_.pairs[k].touches)
+  for (const Link link : links) {
+    if (!isPair(link)) {
+      memory.looks.push_back(0);
+      bonds_.lambda[link - state_.near.size()] = solution_.lambda[problem_.cones[cone++].row];
+      continue;
+    }
+    memory.looks.push_back(memory_.pairs[link].look);
+    for (Touch& touch : memory_.pairs[link].touches)
       shareTouch(touch, problem_.cones[cone++], memory.books, h);
   }
   memory.vStar.clear();

@@ -10,7 +10,9 @@ namespace tumble {
 void Stepping::project() {
   constexpr int kRounds = 10;
   double deepest = deepestOverlap();
-  for (int round = 0; round < kRounds && deepest > tolerance_.drift; ++round) {
+  for (int round = 0;
+       round < kRounds && (deepest > tolerance_.drift || largestGap() > tolerance_.drift);
+       ++round) {
     lift();
     deepest = deepestOverlap();
   }
@@ -41,6 +43,8 @@ void Stepping::lift() {
           pointRow(state_.bodies, c.a, c.b, c.point.p, c.point.n, c.point.separation));
     }
   }
+  liftBonds(state_.bodies, model_.joints, bonds_);
+  appendBonds(bonds_, problem_);
   solution_.lambda.clear();
   solution_.v.clear();
   solveByIslands(solver_, problem_, {.tolerance = kTolerance, .maxIterations = 200}, solution_);

@@ -84,9 +84,10 @@ void Stepping::beginSegment(double t1) {
   segment.start = state_.bodies;
 
   const std::size_t n = state_.bodies.size();
-  before_.resize(n);
-  star_.resize(n);
-  after_.resize(n);
+  before_.resize(n + 1);  // the last is the world, for joints
+  star_.resize(n + 1);
+  before_[n].setZero();
+  star_[n].setZero();
   for (std::size_t i = 0; i < n; ++i) before_[i] << state_.bodies[i].v, state_.bodies[i].omega;
 }
 

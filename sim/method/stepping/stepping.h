@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/joint/joint_bonds.h"
+#include "sim/joint/joint_rows.h"
 #include "sim/method/method.h"
 #include "sim/problem/problem.h"
 
@@ -24,11 +26,9 @@ class Stepping {
   void step();
 
  private:
-  /// Pairs that touch, directly or through others, and the bodies among them that move.
-  struct Island {
-    std::span<const int> pairs;
-    std::vector<int> bodies;
-  };
+  /// What joins two bodies: a near pair that touches, by its number, or, numbered after them, a row
+  /// of a joint.
+  using Link = int;
 
   double lengthTo(double t1) const;
   void beginSegment(double t1);
@@ -45,15 +45,22 @@ class Stepping {
 
   // island.cpp: the contact problem of each island.
   void solveIslands(double h);
-  void groupPairs();
-  void solveIsland(std::span<const int> pairs, double h);
-  void collectBodies(std::span<const int> pairs, double h);
-  bool keeps(const IslandMemory& memory, std::span<const int> pairs) const;
-  void build(std::span<const int> pairs, double h);
+  void groupLinks();
+  std::pair<int, int> ends(Link link) const;
+  bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
+  Row& bondOf(Link link) { return bonds_.rows[link - state_.near.size()]; }
+  void solveIsland(std::span<const Link> links, double h);
+  void collectBodies(std::span<const Link> links);
+  bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
+  void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, double h);
-  void share(std::span<const int> pairs, IslandMemory& memory, double h);
+  void addRow(Row row);
+  void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
   int localOf(int body);
+
+  // joined.cpp
+  void bookJoints(double h);
 
   // stepping.cpp: the bodies.
   void applyTwists(double h);
@@ -64,6 +71,7 @@ class Stepping {
   // project.cpp
   void project();
   double deepestOverlap();
+  double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
   void lift();
 
   // events.cpp
@@ -86,7 +94,8 @@ class Stepping {
   std::vector<std::pair<int, int>> near_;
   std::vector<PairMemory> passed_;
   std::vector<Contact> found_;
-  std::vector<int> root_, order_, begin_;  ///< of islands: forest of bodies; pairs by island
+  Bonds bonds_;                            ///< rows of joints
+  std::vector<int> root_, order_, begin_;  ///< of islands: forest of bodies; links by island
   std::vector<int> local_, bodies_;        ///< of one island: numbers in its problem, and back
   std::vector<int> movers_;
   Problem problem_;
