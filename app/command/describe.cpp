@@ -1,6 +1,7 @@
 // tumble describe: what a scene contains and what it uses.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -54,6 +55,28 @@ std::string numbers(const Vec3& v, double scale) {
   return line;
 }
 
+// "joint     hinge: a hinge of plank on the world, from -30 to 60 degrees"; of a long list the
+// beginning.
+void printJoints(const WorldDef& world) {
+  constexpr std::size_t kMost = 12;
+  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  for (std::size_t k = 0; k < std::min(kMost, world.joints.size()); ++k) {
+    const JointDef& joint = world.joints[k];
+    const bool turns = joint.kind == JointKind::Hinge;
+    const double unit = turns ? kDegrees : 1.0;
+    std::string limits;
+    if (std::isfinite(joint.lo)) limits += fmt::format(" from {:g}", unit * joint.lo);
+    if (std::isfinite(joint.hi)) limits += fmt::format(" to {:g}", unit * joint.hi);
+    if (!limits.empty()) limits = "," + limits + (turns ? " degrees" : " m");
+    fmt::print("joint     {}: {}, {} on {}{}{}\n", joint.name, jointName(joint.kind).name,
+               world.bodies[joint.a].name,
+               joint.b == kNoBody ? "the world" : world.bodies[joint.b].name, limits,
+               joint.collide ? ", they may touch" : "");
+  }
+  if (world.joints.size() > kMost)
+    fmt::print("joint     and {} more\n", world.joints.size() - kMost);
+}
+
 // What each body weighs, in the order of the scene; of a long list the beginning.
 void printMasses(const Scene& scene) {
   constexpr int kMost = 12;
@@ -98,6 +121,7 @@ int describe(int argc, char** argv) {
   fmt::print("checks    {}\n", join(scene.checks));
   fmt::print("bodies    {}: {}\n", world.bodies.size(), countShapes(scene));
   fmt::print("forces    {}\n", world.forces.size());
+  printJoints(world);
   fmt::print("gravity   {:g} {:g} {:g} m/s²\n", world.gravity.x(), world.gravity.y(),
              world.gravity.z());
   fmt::print("method    {}\n", methodLine(world));

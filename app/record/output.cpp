@@ -11,6 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr char kTrajectory[] = "t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
+constexpr char kJoints[] = "t,joint,a,b,px,py,pz,fx,fy,fz,tx,ty,tz\n";
 constexpr char kContacts[] = "t,a,b,px,py,pz,nx,ny,nz,separation,fx,fy,fz\n";
 
 // 17 significant digits, as printf's %.17g: every double comes back as it was.
@@ -74,6 +75,21 @@ void addContacts(std::string& out, const Sample& sample, const Scene& scene) {
   }
 }
 
+void addJoints(std::string& out, const Sample& sample, const Scene& scene) {
+  for (const JointForce& force : sample.joints) {
+    const JointDef& joint = scene.world.joints[force.joint];
+    addNumber(out, sample.t);
+    out += ',' + joint.name;
+    addNames(out, scene, {joint.a});
+    out += ',';
+    if (joint.b != kNoBody) out += nameOf(scene, joint.b);
+    addVector(out, force.p);
+    addVector(out, force.force);
+    addVector(out, force.torque);
+    out += '\n';
+  }
+}
+
 }  // namespace
 
 std::string csvQuoted(const std::string& text) {
@@ -109,6 +125,12 @@ std::string contactsCsv(const Recording& recording, const Scene& scene) {
   return out;
 }
 
+std::string jointsCsv(const Recording& recording, const Scene& scene) {
+  std::string out = kJoints;
+  for (const Sample& sample : recording.samples) addJoints(out, sample, scene);
+  return out;
+}
+
 std::string summaryJson(const Recording& recording, const Scene& scene) {
   nlohmann::ordered_json json;
   for (const auto& [key, number] : kCertificateFields)
@@ -141,6 +163,9 @@ OutputFiles::OutputFiles(const std::string& folder, const Scene& scene)
       contacts_(folder + "/contacts.csv") {
   trajectory_.write(kTrajectory);
   contacts_.write(kContacts);
+  if (scene.world.joints.empty()) return;
+  joints_.emplace(folder + "/joints.csv");
+  joints_->write(kJoints);
 }
 
 void OutputFiles::add(const Sample& sample) {
@@ -150,12 +175,17 @@ void OutputFiles::add(const Sample& sample) {
   text_.clear();
   addContacts(text_, sample, scene_);
   contacts_.write(text_);
+  if (!joints_) return;
+  text_.clear();
+  addJoints(text_, sample, scene_);
+  joints_->write(text_);
 }
 
 void OutputFiles::finish(const Recording& recording) {
   trajectory_.finish();
   writeFile(folder_ + "/events.csv", eventsCsv(recording, scene_));
   contacts_.finish();
+  if (joints_) joints_->finish();
   writeFile(folder_ + "/summary.json", summaryJson(recording, scene_));
 }
 

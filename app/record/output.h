@@ -1,6 +1,7 @@
 // A recording as text: the files that `simulate` writes and goldens are compared with.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/file/file.h"
@@ -18,13 +19,18 @@ std::string eventsCsv(const Recording& recording, const Scene& scene);
 /// [N].
 std::string contactsCsv(const Recording& recording, const Scene& scene);
 
+/// t,joint,a,b,px,py,pz,fx,fy,fz,tx,ty,tz – a row per joint and sample: force [N] and torque [N m]
+/// on a, about the anchor p; b is empty for the world.
+std::string jointsCsv(const Recording& recording, const Scene& scene);
+
 /// The certificate as JSON with flat keys.
 std::string summaryJson(const Recording& recording, const Scene& scene);
 
 /// A text as a field of a CSV file, in quotes (RFC 4180).
 std::string csvQuoted(const std::string& text);
 
-/// Writes trajectory.csv, events.csv, contacts.csv and summary.json into a folder while the run
+/// Writes trajectory.csv, events.csv, contacts.csv, summary.json and, if there are joints,
+/// joints.csv into a folder while the run
 /// goes on, so that it need not be kept. Files appear when they are complete.
 class OutputFiles {
  public:
@@ -41,6 +47,7 @@ class OutputFiles {
   std::string folder_;
   const Scene& scene_;
   FileWriter trajectory_, contacts_;
+  std::optional<FileWriter> joints_;
   std::string text_;  ///< scratch
 };
 

@@ -196,7 +196,8 @@ void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& sce
     readVariant(section, "title", parts, graph.variant);
     readLine(section, "subtitle", graph.subtitle);
     section.read("body", graph.body);
-    section.read("shows", graph.shows, {"height", "velocity", "force", "energy", "planes"});
+    section.read("shows", graph.shows,
+                 {"height", "velocity", "force", "joint", "energy", "planes"});
     const auto named = [&](const BodyDef& body) { return body.name == graph.body; };
     if (graph.shows != "planes" &&
         std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))

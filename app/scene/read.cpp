@@ -8,6 +8,7 @@
 
 #include "app/scene/array.h"
 #include "app/scene/force.h"
+#include "app/scene/joint.h"
 #include "app/scene/node.h"
 #include "app/scene/override.h"
 #include "app/scene/panel.h"
@@ -46,7 +47,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   if (bodies.next() == 0 && root.good())
     root.complain("body", "missing; a scene needs at least one [[body]] or [[array]]");
   readForces(root, bodies, scene.world.forces);
-  if (root.find("joint")) root.complain("joint", "joints are not built yet");
+  readJoints(root, bodies, scene.world.joints);
   readCamera(root, scene.camera);
   readImage(root, scene.image);
   readShow(root, scene.show);

@@ -58,6 +58,8 @@ struct ShowFlags {
   bool path = false;   ///< path of each centre of mass
   bool theory = true;  ///< the curves that the scene's checks expect, dotted
   bool contact_forces = false;
+  bool joint_forces = false;  ///< arrows of what joints exert, with numbers
+  double force_scale = 0.0;   ///< [m/N] of arrows of contacts and joints; 0: as the run has them
   bool normals = false;
   bool velocities = false;
   bool forces = false;     ///< arrows of wind and point forces

@@ -110,6 +110,8 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("path", show.path);
   section.read("theory", show.theory);
   section.read("contact_forces", show.contact_forces);
+  section.read("joint_forces", show.joint_forces);
+  section.read("force_scale", show.force_scale, positive("m/N"));
   section.read("normals", show.normals);
   section.read("velocities", show.velocities);
   section.read("forces", show.forces);

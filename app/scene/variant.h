@@ -65,7 +65,7 @@ struct GraphDef {
   Variant variant;  ///< of all its runs
   std::string subtitle;
   std::string body;              ///< its name; of planes none
-  std::string shows = "height";  ///< height | velocity | force | energy | planes
+  std::string shows = "height";  ///< height | velocity | force | joint | energy | planes
   std::vector<Variant> curves;
 };
 

@@ -47,12 +47,12 @@ TEST_CASE("the reference of scene files names every key and kind") {
   const std::set<std::string> keys = knownKeys();
   REQUIRE(keys.size() > 100);
   for (const std::string& key : keys) {
-    // Tables of the root stand in headings, joints are refused.
+    // Tables of the root stand in headings.
     const bool named = kReference.find("`" + key + "`") != std::string::npos ||
                        kReference.find("[" + key + "]") != std::string::npos ||
                        kReference.find("[" + key + ".NAME]") != std::string::npos;
     INFO("not in assets/demos/README.md: " << key);
-    CHECK((named || key == "joint"));
+    CHECK(named);
   }
 }
 
