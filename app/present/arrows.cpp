@@ -52,15 +52,16 @@ void addVelocities(const Scene& scene, const Recording& recording, const Sample&
 
 namespace {
 
-/// A force [N] on a body, whose arrow ends at `tip`.
+/// A force [N] on a body, whose arrow ends at `tip`, or begins there.
 struct Push {
   Vec3 tip, force;
+  bool draws = false;
 };
 
 // An arrow towards the centre of mass ends on the body's surface.
 Push pushAtCentre(const BodyDef& def, const BodySample& body, const Vec3& force) {
   const Vec3 along = force.normalized();
-  return {body.x - reach(def.shape, body.q, along) * along, force};
+  return {body.x - reach(def.shape, body.q, along) * along, force, false};
 }
 
 std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
@@ -73,7 +74,8 @@ std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
           found.push_back(pushAtCentre(bodies[i], sample.bodies[i], wind->force));
     } else if (const PointForce* point = std::get_if<PointForce>(&force)) {
       const BodySample& body = sample.bodies[point->body];
-      found.push_back({toWorld({body.x, body.q}, point->point_B), point->force});
+      const bool draws = (body.q * point->point_B).dot(point->force) > 0.0;
+      found.push_back({toWorld({body.x, body.q}, point->point_B), point->force, draws});
     }
   }
   return found;
@@ -81,14 +83,20 @@ std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
 
 }  // namespace
 
-void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture) {
+void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture,
+               double scale) {
   const std::vector<Push> found = pushes(scene, sample);
   double largest = 0.0;
   for (const Push& push : found) largest = std::max(largest, push.force.norm());
   if (largest == 0.0) return;
-  for (const Push& push : found)
-    picture.arrows.push_back(
-        {push.tip - length / largest * push.force, push.tip, colour::kForce, 1.6f});
+  const double metres = scale > 0.0 ? scale : length / largest;
+  for (const Push& push : found) {
+    const Vec3 way = metres * push.force;
+    if (push.draws)
+      picture.arrows.push_back({push.tip, push.tip + way, colour::kForce, 1.6f});
+    else
+      picture.arrows.push_back({push.tip - way, push.tip, colour::kForce, 1.6f});
+  }
 }
 
 }  // namespace tumble

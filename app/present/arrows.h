@@ -22,8 +22,10 @@ void addNormals(const Sample& sample, double length, Picture& picture);
 void addVelocities(const Scene& scene, const Recording& recording, const Sample& sample,
                    double length, Picture& picture);
 
-/// Uniform and point forces, blowing onto the bodies, the largest drawn `length` [m] long.
-void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture);
+/// Uniform and point forces, the largest drawn `length` [m] long, or all by a scale [m/N] that is
+/// not 0. They blow onto the bodies; a force that draws outward at its point begins there.
+void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture,
+               double scale = 0.0);
 
 /// A bar for each pair of bodies that touch in the tallest group of touching bodies: the sum of the
 /// pair's contact forces in newtons, as long as it is large, level with the contact.

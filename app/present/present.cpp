@@ -11,6 +11,7 @@
 #include "app/present/boxes.h"
 #include "app/present/facets.h"
 #include "app/present/inertia.h"
+#include "app/present/joints.h"
 #include "app/present/labels.h"
 #include "app/present/marks.h"
 #include "app/present/missteps.h"
@@ -35,7 +36,7 @@ Margins marginsOf(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
     named = named || !labelOf(scene, i).empty();
   Margins margins{.left = 0.06, .right = named ? 0.10 : 0.06, .top = 0.14, .bottom = 0.14};
-  if (scene.show.contact_forces)
+  if (scene.show.contact_forces && !scene.show.joint_forces)
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
   return margins;
 }
@@ -100,6 +101,7 @@ Picture Presenter::image(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
   Picture picture = blank();
   addBodies(sample, false, picture);
+  addJoints(scene_, sample, framing_.radius, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
   addTheory(picture);
   if (scene_.show.planes) addPlanes(scene_, recording_, k, picture);
@@ -123,6 +125,7 @@ Picture Presenter::strobe() const {
   const bool byTime = movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed;
   addGhosts(byTime, picture);
   addBodies(last, byTime, picture);
+  addJoints(scene_, last, framing_.radius, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
   if (scene_.show.planes) addPlanes(scene_, recording_, count() - 1, picture);
   addTheory(picture);
@@ -219,12 +222,24 @@ void Presenter::addTheory(Picture& picture) const {
   }
 }
 
+// [m/N] of arrows of forces: the scene's own, or such that the largest is as long as that.
+double Presenter::forceScale(double length) const {
+  if (scene_.show.force_scale > 0.0) return scene_.show.force_scale;
+  double largest = largestJointForce(recording_);
+  if (scene_.show.contact_forces) largest = std::max(largest, largestContactForce(recording_));
+  return largest > 0.0 ? length / largest : 1.0;
+}
+
 void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   const ShowFlags& show = scene_.show;
   const double height = typicalHeight(scene_);
   const double length = 0.88 * height;
-  if (show.contact_forces) {
-    addContactForces(sample, largestContactForce(recording_), length, picture);
+  if (show.joint_forces) {
+    addJointForces(scene_, sample, forceScale(length), picture);
+  } else if (show.contact_forces) {
+    const double largest =
+        show.force_scale > 0.0 ? length / show.force_scale : largestContactForce(recording_);
+    addContactForces(sample, largest, length, picture);
     addForceLadder(scene_, sample, aspectOf(scene_), picture);
   }
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);
@@ -235,7 +250,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.momenta) addMomenta(scene_, recording_, sample, picture);
   if (show.normals) addNormals(sample, length, picture);
   if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
-  if (show.forces) addForces(scene_, sample, height, picture);
+  if (show.forces) addForces(scene_, sample, height, picture, show.force_scale);
   if (show.missteps) addMissteps(scene_, recording_, sample.t, picture);
   if (show.impacts) addImpacts(recording_, sample.t, aspectOf(scene_), picture);
 }

@@ -46,6 +46,7 @@ class Presenter {
   void addBodies(const Sample& sample, bool byTime, Picture& picture) const;
   void addGhosts(bool byTime, Picture& picture) const;
   Colour colourOf(const Sample& sample, std::size_t i) const;
+  double forceScale(double length) const;
   void addTheory(Picture& picture) const;
   void addAnnotations(const Sample& sample, Picture& picture) const;
 

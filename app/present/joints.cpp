@@ -1,0 +1,159 @@
+#include "app/present/joints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/claim/free_body.h"
+#include "app/present/palette.h"
+#include "sim/math/rotation.h"
+
+namespace tumble {
+
+namespace {
+
+constexpr Colour kPin = hex(0x1D2127), kRod = hex(0x4A505A);
+constexpr Colour kUp = hex(0x1B8A4B), kDown = hex(0xC4161C);
+
+// A joint as it stands in a sample. World frame.
+struct Posed {
+  Vec3 pa, pb, axis;
+};
+
+// The pose of an end at the start, and now; of the world none.
+struct End {
+  Pose before, now;
+};
+
+End endOf(const Scene& scene, const Sample& sample, int body) {
+  if (body == kNoBody) return {};
+  const BodyDef& def = scene.world.bodies[body];
+  const BodySample& at = sample.bodies[body];
+  return {{def.position, def.orientation.normalized()}, {at.x, at.q}};
+}
+
+Vec3 carried(const End& end, const Vec3& p) {
+  return toWorld(end.now, end.before.q.conjugate() * (p - end.before.x));
+}
+
+Posed posed(const Scene& scene, const Sample& sample, const JointDef& def) {
+  const End a = endOf(scene, sample, def.a), b = endOf(scene, sample, def.b);
+  const Vec3 axis = def.axis.stableNormalized();
+  return {carried(a, def.anchorA), carried(b, def.anchorB),
+          b.now.q * (b.before.q.conjugate() * axis)};
+}
+
+Instance ballAt(const Vec3& p, double radius, const Colour& colour) {
+  Instance ball;
+  ball.form = Form::Sphere;
+  ball.position = p;
+  ball.scale.setConstant(radius);
+  ball.colour = colour;
+  return ball;
+}
+
+Instance rodFrom(const Vec3& p, const Vec3& q, double radius, const Colour& colour) {
+  Instance rod;
+  rod.form = Form::Cylinder;
+  rod.position = 0.5 * (p + q);
+  rod.orientation = Quat::FromTwoVectors(Vec3::UnitY(), (q - p).stableNormalized());
+  rod.scale = {radius, 0.5 * (q - p).norm(), radius};
+  rod.colour = colour;
+  return rod;
+}
+
+// Half the length of a hinge's pin: through the body that turns, and a little more.
+double throughBody(const Scene& scene, const Sample& sample, const JointDef& def, const Vec3& axis,
+                   double least) {
+  const BodySample& body = sample.bodies[def.a];
+  return std::max(least, reach(scene.world.bodies[def.a].shape, body.q, axis) + 0.7 * least);
+}
+
+void addLabel(const Vec3& p, const Eigen::Vector2d& offset, Align align, const std::string& text,
+              const Colour& colour, Picture& picture) {
+  Label label;
+  label.anchor = p;
+  label.offset = offset;
+  label.text = text;
+  label.size = 15.0f;
+  label.bold = true;
+  label.align = align;
+  label.colour = colour;
+  picture.labels.push_back(label);
+}
+
+// "98.1 N", with a minus as printers have it.
+std::string newtons(double force) {
+  return fmt::format("{}{:.5g} N", force < 0.0 ? "−" : "", std::abs(force));
+}
+
+}  // namespace
+
+void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture) {
+  const double pin = 0.014 * size;
+  for (const JointDef& def : scene.world.joints) {
+    const Posed at = posed(scene, sample, def);
+    switch (def.kind) {
+      case JointKind::Hinge: {
+        const double half = throughBody(scene, sample, def, at.axis, pin);
+        picture.instances.push_back(
+            rodFrom(at.pa - half * at.axis, at.pa + half * at.axis, pin, kPin));
+        break;
+      }
+      case JointKind::Distance:
+        for (const Vec3& p : {at.pa, at.pb}) picture.instances.push_back(ballAt(p, pin, kPin));
+        picture.instances.push_back(rodFrom(at.pa, at.pb, 0.35 * pin, kRod));
+        break;
+      case JointKind::Slider:
+        picture.instances.push_back(
+            rodFrom(at.pb - 0.5 * size * at.axis, at.pb + 0.5 * size * at.axis, 0.35 * pin, kRod));
+        picture.instances.push_back(ballAt(at.pa, pin, kPin));
+        break;
+      case JointKind::Ball:
+      case JointKind::Fixed:
+        picture.instances.push_back(ballAt(at.pa, pin, kPin));
+    }
+  }
+}
+
+void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
+                    Picture& picture) {
+  for (const JointForce& joint : sample.joints) {
+    const bool up = joint.force.y() >= 0.0;
+    const Vec3 tip = joint.p + metresPerNewton * joint.force;
+    if ((tip - joint.p).norm() > 1e-9)
+      picture.arrows.push_back({joint.p, tip, up ? kUp : kDown, 2.6f});
+    const double shown = up ? joint.force.norm() : -joint.force.norm();
+    addLabel(tip, {-16.0, up ? -6.0 : 6.0}, Align::Right,
+             newtons(std::abs(shown) < 5e-10 ? 0.0 : shown), up ? kUp : kDown, picture);
+  }
+  if (!scene.show.contact_forces) return;
+  for (std::size_t i = 0; i < sample.contacts.size(); ++i) {
+    // The contacts of a pair stand together and share a number.
+    const ContactSample& first = sample.contacts[i];
+    if (i > 0 && sample.contacts[i - 1].a == first.a && sample.contacts[i - 1].b == first.b)
+      continue;
+    Vec3 sum = Vec3::Zero(), middle = Vec3::Zero();
+    double count = 0.0;
+    for (const ContactSample& c : sample.contacts) {
+      if (c.a != first.a || c.b != first.b) continue;
+      sum += c.force;
+      middle += c.p;
+      count += 1.0;
+    }
+    if (sum.isZero(0.0)) continue;
+    const Vec3 tip = middle / count + metresPerNewton * (sum.y() < 0.0 ? Vec3(-sum) : sum);
+    picture.arrows.push_back({middle / count, tip, colour::kForce, 2.6f});
+    addLabel(tip, {0.0, -14.0}, Align::Centre, newtons(sum.norm()), colour::kForce, picture);
+  }
+}
+
+double largestJointForce(const Recording& recording) {
+  double largest = 0.0;
+  for (const Sample& sample : recording.samples)
+    for (const JointForce& joint : sample.joints) largest = std::max(largest, joint.force.norm());
+  return largest;
+}
+
+}  // namespace tumble
