@@ -21,6 +21,7 @@ std::string captionOf(const std::string& shows) {
   if (shows == "velocity") return "velocity / (m/s)";
   if (shows == "planes") return "planes sought";
   if (shows == "force") return "contact force / N";
+  if (shows == "joint") return "joint force upward / N";
   return shows == "energy" ? "energy / J" : "height / m";
 }
 
@@ -32,6 +33,13 @@ double shownOf(const std::string& shows, const Sample& sample, int body) {
   if (shows == "energy") return sample.kinetic + sample.potential;
   if (shows == "height") return shown.x.y();
   Vec3 sum = Vec3::Zero();
+  if (shows == "joint") {
+    for (const JointForce& joint : sample.joints) {
+      if (joint.a == body) sum += joint.force;
+      if (joint.b == body) sum -= joint.force;
+    }
+    return sum.y();
+  }
   for (const ContactSample& contact : sample.contacts) {
     if (contact.a == body) sum += contact.force;
     if (contact.b == body) sum -= contact.force;

@@ -14,7 +14,8 @@ struct GraphSeries {
 };
 
 /// What a graph shows of a body at a sample: height of its centre [m], velocity [m/s] upward, size
-/// of the contact force [N], or the energy of the whole scene [J].
+/// of the contact force [N], what joints push it upward with [N], or the energy of the whole scene
+/// [J].
 double shownOf(const std::string& shows, const Sample& sample, int body);
 
 /// Runs every curve; where planes are shown, each is two: with memory and without.
