@@ -22,6 +22,8 @@ std::vector<ClaimRow> topRows(const Scene&, const Recording&);
 std::vector<ClaimRow> planRows(const Scene&, const Recording&);
 std::vector<ClaimRow> springContactRows(const Scene&, const Recording&);
 std::vector<ClaimRow> rowOfBallsRows(const Scene&, const Recording&);
+std::vector<ClaimRow> leverRows(const Scene&, const Recording&);
+std::vector<ClaimRow> grooveRows(const Scene&, const Recording&);
 std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
 
 }  // namespace tumble

@@ -113,6 +113,11 @@ void turn(WorldDef& world, double degrees) {
     body.velocity = q * body.velocity;
     body.angularVelocity = q * body.angularVelocity;
   }
+  for (JointDef& joint : world.joints) {
+    joint.anchorA = q * joint.anchorA;
+    joint.anchorB = q * joint.anchorB;
+    joint.axis = q * joint.axis;
+  }
   for (Force& force : world.forces) {
     if (UniformWind* wind = std::get_if<UniformWind>(&force)) wind->force = q * wind->force;
     if (PointForce* point = std::get_if<PointForce>(&force)) point->force = q * point->force;

@@ -1,0 +1,98 @@
+// The claims of levers and grooves hold for true runs, whatever the scene, and fail for untrue
+// ones.
+#include <algorithm>
+
+#include "app/claim/verdict.h"
+#include "app/file/data.h"
+#include "app/panel/page.h"
+#include "app/present/present.h"
+#include "app/record/output.h"
+#include "tests/app/claims.h"
+
+using namespace tumble;
+
+namespace {
+
+Scene demo(const std::vector<std::string>& overrides = {}) {
+  return readScene(dataFolder("demos") + "/free-or-not.toml", overrides);
+}
+
+bool keeps(const char* check, const std::vector<std::string>& overrides) {
+  const Scene scene = demo(overrides);
+  CAPTURE(scene.line);
+  return holds(check, scene, record(scene, scene.image.rate));
+}
+
+}  // namespace
+
+// Oracles: the closed forms of app/claim/lever.cpp and groove.cpp.
+TEST_CASE("a lever and a groove keep their claims whatever the scene") {
+  for (const char* method : {"course", "exact"}) {
+    const std::string set = std::string("world.method=") + method;
+    CHECK(keeps("lever", {set}));
+    CHECK(keeps("lever", {set, "world.gravity=[0.0, -1.6, 0.0]", "body.plank.mass=0.3"}));
+    CHECK(keeps("lever",
+                {set, "body.prop.position=[1.9, 0.25, 0.0]", "body.prop.velocity=[-0.3, 0, 0]"}));
+    CHECK(keeps("lever", {set, "force.other.force=[0.0, 50.0, 0.0]"}));
+    CHECK(keeps("groove", {set}));
+    CHECK(keeps("groove", {set, "body.ball.mass=7.0", "world.gravity=[0.0, -1.6, 0.0]"}));
+  }
+}
+
+// Oracle: the same closed forms, for a force that obeys a f + b ≥ 0 and f ≥ 0, and is none that a
+// contact gives.
+TEST_CASE("a force that is too large lifts a plank, and its prop gives nothing") {
+  const std::vector<std::string> lifted = {
+      "body.prop.position=[0.6, 0.25, 0.0]", "body.prop.velocity=[0.0, 0.0, 0.0]",
+      "force.other.force=[0.0, 150.0, 0.0]", "world.duration=0.3"};
+  const Scene scene = demo(lifted);
+  CHECK(holds("lever", scene, record(scene, 60.0)));
+  const Verdict verdict = judge(scene, record(scene, 60.0));
+  CHECK(std::any_of(verdict.rows.begin(), verdict.rows.end(), [](const ClaimRow& row) {
+    return row.label.find("is lifted") != std::string::npos && row.measured == 1.0;
+  }));
+}
+
+TEST_CASE("a wrong force of a prop, a hinge or a wall breaks a claim") {
+  const Scene scene = demo({"world.duration=1.0"});
+  const Recording right = record(scene, 10.0);
+  CHECK(holds("lever", scene, right));
+  CHECK_FALSE(holdsBroken("lever", scene, right, [](Recording& r) {
+    for (ContactSample& c : r.samples[3].contacts) c.force *= 1.0 + 1e-10;
+  }));
+  CHECK_FALSE(holdsBroken("lever", scene, right,
+                          [](Recording& r) { r.samples[3].joints[0].force.y() *= -1.0; }));
+  CHECK_FALSE(holdsBroken("lever", scene, right,
+                          [](Recording& r) { r.samples[3].joints[0].force.x() += 1e-8; }));
+  CHECK_FALSE(holdsBroken("groove", scene, right, [](Recording& r) {
+    for (ContactSample& c : r.samples[3].contacts) c.force *= 1.0 + 1e-10;
+  }));
+}
+
+// Oracle: the scene. Every joint and sample has its row, forces as in the sample.
+TEST_CASE("joints are written as a row for each sample, and none without them") {
+  const Scene scene = demo({"world.duration=0.5"});
+  const Recording recording = record(scene, 2.0);
+  const std::string csv = jointsCsv(recording, scene);
+  CHECK(csv.starts_with("t,joint,a,b,px,py,pz,fx,fy,fz,tx,ty,tz\n0,hinge,plank,post,0,0.77"));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
+}
+
+// Oracle: the sign. The arrow of a hinge that pulls down points down and is red.
+TEST_CASE("the arrow of a hinge changes its colour with the sign of its force") {
+  const Scene scene = demo();
+  const Recording recording = record(scene, 2.0);
+  const Presenter presenter(scene, recording);
+  const auto arrowAt = [&](double t) {
+    const Picture picture = presenter.still(t);
+    const auto found = std::find_if(picture.arrows.begin(), picture.arrows.end(),
+                                    [](const Arrow& a) { return a.base.x() < 1e-6; });
+    REQUIRE(found != picture.arrows.end());
+    return *found;
+  };
+  const Arrow pulls = arrowAt(0.5), holds = arrowAt(4.0);
+  CHECK(pulls.tip.y() < pulls.base.y());
+  CHECK(holds.tip.y() > holds.base.y());
+  CHECK(pulls.colour[0] > pulls.colour[1]);
+  CHECK(holds.colour[1] > holds.colour[0]);
+}
