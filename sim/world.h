@@ -39,8 +39,8 @@ struct Sample {
   double t = 0.0;
   std::vector<BodySample> bodies;  ///< in scene order, fixed ones too
   std::vector<ContactSample> contacts;
-  std::vector<JointForce> joints;         ///< in scene order
   double kinetic = 0.0, potential = 0.0;  ///< [J]
+  std::vector<JointForce> joints = {};    ///< in scene order
 };
 
 /// What is wrong with a start, and the start itself, with the contact forces of this instant.

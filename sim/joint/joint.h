@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/body/force.h"
 #include "sim/body/rigid_body.h"
 
 namespace tumble {
@@ -35,7 +36,7 @@ const JointName& jointName(JointKind kind);
 struct JointDef {
   std::string name = {};
   JointKind kind = JointKind::Ball;
-  int a = 0, b = -1;            ///< bodies; b = kNoBody is the world
+  int a = 0, b = kNoBody;       ///< bodies; kNoBody is the world
   Vec3 anchorA = Vec3::Zero();  ///< [m] on a
   Vec3 anchorB = Vec3::Zero();  ///< [m] on b; the same point unless it is a distance
   Vec3 axis = Vec3::UnitZ();    ///< of a hinge, a slider

@@ -23,7 +23,7 @@ struct JointRow {
 ///   distance  |pa − pb| − length   along d, with |ṗa − ṗb across d|²/|pa − pb|
 ///   axes      w·u                  J: (ωa − ωb)·(w × u)
 ///   turn      atan2(v·w, u·w)      v = axis × u; measured from the middle of its limits
-/// Mujoco and Bullet write the same; Featherstone, Rigid Body Dynamics Algorithms, §8.3.
+/// Featherstone, Rigid Body Dynamics Algorithms, §8.3. Departure: no minimal coordinates.
 /// ra, rb reach from the centres of mass to pa. Bodies need current R and velocities.
 void jointRows(std::span<const RigidBody> bodies, const Joint& joint, std::vector<JointRow>& rows);
 

@@ -36,11 +36,14 @@ bool setBounds(const Problem& problem, const VecX& lambda, VecX& lo, VecX& hi) {
 }
 
 /// λ and v of the whole problem from the λ of an LCP, and how good they are.
-SolveReport look(const Problem& problem, const VecX& lambda, const LcpReport& lcp,
+SolveReport look(const Problem& problem, const VecX& lambda, const LcpReport& lcp, double tolerance,
                  Solution& solution) {
   solution.lambda.assign(lambda.data(), lambda.data() + lambda.size());
   velocitiesFromLambda(problem, solution.lambda, solution.v);
-  return {lcp.status, naturalResidual(problem, solution), lcp.pivots};
+  SolveReport report{lcp.status, naturalResidual(problem, solution), lcp.pivots};
+  // Rows that repeat each other may contradict each other by what rounding left in them.
+  if (report.residual <= tolerance) report.status = SolveStatus::Solved;
+  return report;
 }
 
 }  // namespace
@@ -56,7 +59,7 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
   for (int pass = 0; pass < kPasses && sinceBest < kPatience; ++pass) {
     const bool friction = setBounds(problem, lambda, lo, hi);
     const LcpReport lcp = solveLcp(system.A, system.b, lo, hi, lambda);
-    SolveReport report = look(problem, lambda, lcp, solution);
+    SolveReport report = look(problem, lambda, lcp, settings.tolerance, solution);
     report.iterations = pivots += lcp.pivots;
     const bool endless = lcp.status == SolveStatus::Infeasible;
     const bool rounded =

@@ -115,3 +115,31 @@ TEST_CASE("pivots grow about as fast as the number of rows") {
   CHECK(report.status == SolveStatus::Solved);
   CHECK(report.pivots < 6 * n);
 }
+
+// Oracle: construction. Equalities of any rank whose b lies in the range of A are solved to
+// rounding, and of b outside of it there is no solution. Measured 2e-13, allowed 1e-10.
+TEST_CASE("equalities that repeat each other are solved, those that contradict are told") {
+  Draw draw(57);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 2 + draw.below(12), rank = 1 + draw.below(n);
+    MatX G(n, rank);
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < rank; ++k) G(i, k) = draw.below(9) - 4;
+    const MatX A = G * G.transpose();
+    VecX x(n), f;
+    for (int i = 0; i < n; ++i) x[i] = draw.below(9) - 4;
+    const VecX all = VecX::Constant(n, kInfinity), b = -A * x;
+    CAPTURE(trial, n, rank);
+    LcpReport report = solveLcp(A, b, -all, all, f);
+    CHECK(report.status == SolveStatus::Solved);
+    CHECK((A * f + b).lpNorm<Eigen::Infinity>() <= 1e-10 * (1.0 + b.lpNorm<Eigen::Infinity>()));
+
+    // Something that no f can reach.
+    const Eigen::FullPivLU<MatX> lu(A);
+    if (lu.rank() == n) continue;
+    const VecX outside = lu.kernel().col(0).normalized();
+    report = solveLcp(A, b + outside, -all, all, f);
+    CHECK(report.status == SolveStatus::Infeasible);
+    CHECK(f.allFinite());
+  }
+}
