@@ -52,16 +52,15 @@ void addVelocities(const Scene& scene, const Recording& recording, const Sample&
 
 namespace {
 
-/// A force [N] on a body, whose arrow ends at `tip`, or begins there.
+/// A force [N] on a body, whose arrow ends at `tip`.
 struct Push {
   Vec3 tip, force;
-  bool draws = false;
 };
 
 // An arrow towards the centre of mass ends on the body's surface.
 Push pushAtCentre(const BodyDef& def, const BodySample& body, const Vec3& force) {
   const Vec3 along = force.normalized();
-  return {body.x - reach(def.shape, body.q, along) * along, force, false};
+  return {body.x - reach(def.shape, body.q, along) * along, force};
 }
 
 std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
@@ -74,8 +73,7 @@ std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
           found.push_back(pushAtCentre(bodies[i], sample.bodies[i], wind->force));
     } else if (const PointForce* point = std::get_if<PointForce>(&force)) {
       const BodySample& body = sample.bodies[point->body];
-      const bool draws = (body.q * point->point_B).dot(point->force) > 0.0;
-      found.push_back({toWorld({body.x, body.q}, point->point_B), point->force, draws});
+      found.push_back({toWorld({body.x, body.q}, point->point_B), point->force});
     }
   }
   return found;
@@ -90,13 +88,9 @@ void addForces(const Scene& scene, const Sample& sample, double length, Picture&
   for (const Push& push : found) largest = std::max(largest, push.force.norm());
   if (largest == 0.0) return;
   const double metres = scale > 0.0 ? scale : length / largest;
-  for (const Push& push : found) {
-    const Vec3 way = metres * push.force;
-    if (push.draws)
-      picture.arrows.push_back({push.tip, push.tip + way, colour::kForce, 1.6f});
-    else
-      picture.arrows.push_back({push.tip - way, push.tip, colour::kForce, 1.6f});
-  }
+  for (const Push& push : found)
+    picture.arrows.push_back(
+        {push.tip - metres * push.force, push.tip, colour::kForce, scale > 0.0 ? 2.6f : 1.6f});
 }
 
 }  // namespace tumble

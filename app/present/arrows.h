@@ -23,7 +23,7 @@ void addVelocities(const Scene& scene, const Recording& recording, const Sample&
                    double length, Picture& picture);
 
 /// Uniform and point forces, the largest drawn `length` [m] long, or all by a scale [m/N] that is
-/// not 0. They blow onto the bodies; a force that draws outward at its point begins there.
+/// not 0. They blow onto the bodies.
 void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture,
                double scale = 0.0);
 

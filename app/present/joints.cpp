@@ -14,6 +14,7 @@ namespace tumble {
 namespace {
 
 constexpr Colour kPin = hex(0x1D2127), kRod = hex(0x4A505A);
+constexpr double kNothing = 1e-9;  // [N] no force
 constexpr Colour kUp = hex(0x1B8A4B), kDown = hex(0xC4161C);
 
 // A joint as it stands in a sample. World frame.
@@ -91,7 +92,7 @@ std::string newtons(double force) {
 }  // namespace
 
 void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture) {
-  const double pin = 0.014 * size;
+  const double pin = 0.010 * size;
   for (const JointDef& def : scene.world.joints) {
     const Posed at = posed(scene, sample, def);
     switch (def.kind) {
@@ -120,13 +121,24 @@ void addJoints(const Scene& scene, const Sample& sample, double size, Picture& p
 void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
                     Picture& picture) {
   for (const JointForce& joint : sample.joints) {
-    const bool up = joint.force.y() >= 0.0;
-    const Vec3 tip = joint.p + metresPerNewton * joint.force;
-    if ((tip - joint.p).norm() > 1e-9)
-      picture.arrows.push_back({joint.p, tip, up ? kUp : kDown, 2.6f});
-    const double shown = up ? joint.force.norm() : -joint.force.norm();
+    // Along the pin of a hinge, towards the eye: there nothing stands before the arrow.
+    const JointDef& def = scene.world.joints[joint.joint];
+    Vec3 base = joint.p;
+    if (def.kind == JointKind::Hinge) {
+      Vec3 axis = posed(scene, sample, def).axis;
+      if (axis.dot(picture.camera.eye - base) < 0.0) axis = -axis;
+      base += throughBody(scene, sample, def, axis, 0.0) * 1.1 * axis;
+    }
+    const double size = joint.force.norm();
+    const bool up = joint.force.y() >= 0.0, none = size < kNothing;
+    const Colour colour = none ? colour::kInk : up ? kUp : kDown;
+    const Vec3 tip = base + metresPerNewton * joint.force;
+    if (!none) picture.arrows.push_back({base, tip, colour, 2.6f});
     addLabel(tip, {-16.0, up ? -6.0 : 6.0}, Align::Right,
-             newtons(std::abs(shown) < 5e-10 ? 0.0 : shown), up ? kUp : kDown, picture);
+             newtons(none ? 0.0
+                     : up ? size
+                          : -size),
+             colour, picture);
   }
   if (!scene.show.contact_forces) return;
   for (std::size_t i = 0; i < sample.contacts.size(); ++i) {
@@ -145,7 +157,17 @@ void addJointForces(const Scene& scene, const Sample& sample, double metresPerNe
     if (sum.isZero(0.0)) continue;
     const Vec3 tip = middle / count + metresPerNewton * (sum.y() < 0.0 ? Vec3(-sum) : sum);
     picture.arrows.push_back({middle / count, tip, colour::kForce, 2.6f});
-    addLabel(tip, {0.0, -14.0}, Align::Centre, newtons(sum.norm()), colour::kForce, picture);
+    // Beside arrows that lean, above those that stand.
+    const Vec3 right =
+        (picture.camera.target - picture.camera.eye).cross(Vec3::UnitY()).normalized();
+    const double lean = right.dot(tip - middle / count) / (tip - middle / count).norm();
+    const Align align = lean > 0.3 ? Align::Right : lean < -0.3 ? Align::Left : Align::Centre;
+    addLabel(tip,
+             {align == Align::Centre ? 0.0
+              : lean > 0.0           ? -8.0
+                                     : 8.0,
+              -14.0},
+             align, newtons(sum.norm()), colour::kForce, picture);
   }
 }
 

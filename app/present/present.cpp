@@ -36,7 +36,9 @@ Margins marginsOf(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
     named = named || !labelOf(scene, i).empty();
   Margins margins{.left = 0.06, .right = named ? 0.10 : 0.06, .top = 0.14, .bottom = 0.14};
-  if (scene.show.contact_forces && !scene.show.joint_forces)
+  if (scene.show.joint_forces)
+    margins = {.left = 0.13, .right = 0.06, .top = 0.24, .bottom = 0.12};
+  else if (scene.show.contact_forces)
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
   return margins;
 }
