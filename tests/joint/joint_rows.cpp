@@ -163,13 +163,19 @@ TEST_CASE("the turn of a hinge is that of a against b") {
   def.lo = -3.0;
   def.hi = 0.1;
   const Joint joint = makeJoint(def, bodies, 1.0);
-  for (double angle : {-2.9, -1.0, 0.0, 0.05, 0.3}) {
-    bodies[0].q = rotated(Quat::Identity(), {0.0, 0.0, angle});
-    updateDerived(bodies[0]);
-    std::vector<JointRow> rows;
-    jointRows(bodies, joint, rows);
-    REQUIRE(rows.size() == 7);
-    CHECK(rows[5].gap == Approx(angle + 3.0).margin(1e-14));
-    CHECK(rows[6].gap == Approx(0.1 - angle).margin(1e-14));
+  def.lo = -0.1;
+  def.hi = 3.0;
+  const Joint mirrored = makeJoint(def, bodies, 1.0);
+  for (double angle : {-3.3, -2.9, -1.0, 0.0, 0.05, 0.3}) {  // the first beyond half a turn
+    for (const double sign : {1.0, -1.0}) {
+      bodies[0].q = rotated(Quat::Identity(), {0.0, 0.0, sign * angle});
+      updateDerived(bodies[0]);
+      std::vector<JointRow> rows;
+      jointRows(bodies, sign > 0.0 ? joint : mirrored, rows);
+      REQUIRE(rows.size() == 7);
+      const double lower = rows[sign > 0.0 ? 5 : 6].gap, upper = rows[sign > 0.0 ? 6 : 5].gap;
+      CHECK(lower == Approx(angle + 3.0).margin(1e-14));
+      CHECK(upper == Approx(0.1 - angle).margin(1e-14));
+    }
   }
 }
