@@ -150,4 +150,46 @@ void BlockCholesky::solve(std::span<Vec6> x) {
   for (int i = 0; i < n; ++i) x[i] = moved_[structure_->place_[i]];
 }
 
+void BlockLU::begin(const BlockStructure& structure) {
+  structure_ = &structure;
+  diagonal_.assign(structure.rows_, Mat6::Zero());
+  lower_.assign(structure.below_.size(), Mat6::Zero());
+  upper_.assign(structure.below_.size(), Mat6::Zero());
+  moved_.resize(structure.rows_);
+}
+
+void BlockLU::factor() {
+  const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
+  for (int c = 0; c < structure_->rows_; ++c) {
+    diagonal_[c] = Mat6(diagonal_[c].partialPivLu().inverse());
+    for (int s = begin[c]; s < begin[c + 1]; ++s) lower_[s] *= diagonal_[c];
+    for (int s = begin[c]; s < begin[c + 1]; ++s) {
+      const int j = below[s];
+      diagonal_[j].noalias() -= lower_[s].lazyProduct(upper_[s]);
+      int target = begin[j];
+      for (int r = s + 1; r < begin[c + 1]; ++r, ++target) {
+        while (below[target] != below[r]) ++target;
+        lower_[target].noalias() -= lower_[r].lazyProduct(upper_[s]);
+        upper_[target].noalias() -= lower_[s].lazyProduct(upper_[r]);
+      }
+    }
+  }
+}
+
+void BlockLU::solve(std::span<Vec6> x) {
+  const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
+  const int n = structure_->rows_;
+  for (int i = 0; i < n; ++i) moved_[structure_->place_[i]] = x[i];
+  for (int c = 0; c < n; ++c)
+    for (int s = begin[c]; s < begin[c + 1]; ++s)
+      moved_[below[s]].noalias() -= lower_[s].lazyProduct(moved_[c]);
+  for (int c = n - 1; c >= 0; --c) {
+    Vec6 y = moved_[c];
+    for (int s = begin[c]; s < begin[c + 1]; ++s)
+      y.noalias() -= upper_[s].lazyProduct(moved_[below[s]]);
+    moved_[c].noalias() = diagonal_[c].lazyProduct(y);
+  }
+  for (int i = 0; i < n; ++i) x[i] = moved_[structure_->place_[i]];
+}
+
 }  // namespace tumble

@@ -25,6 +25,7 @@ class BlockStructure {
 
  private:
   friend class BlockCholesky;
+  friend class BlockLU;
   void order();
   void fill();
 
@@ -62,6 +63,27 @@ class BlockCholesky {
   const BlockStructure* structure_ = nullptr;
   std::vector<Mat6> diagonal_;  ///< by place; after `factor` the inverse of the diagonal of L
   std::vector<Mat6> blocks_;
+  std::vector<Vec6> moved_;
+};
+
+/// H = L U for an H whose blocks stand where those of a symmetric matrix would, without exchange of
+/// rows: for matrices that are nearly symmetric and positive definite.
+class BlockLU {
+ public:
+  void begin(const BlockStructure& structure);
+
+  Mat6& diagonal(int row) { return diagonal_[structure_->place_[row]]; }
+  /// Blocks of an edge (i, j): row `BlockCholesky::edgeRow` and column the other one, and the other
+  /// way round.
+  Mat6& lower(int e) { return lower_[structure_->slot_[e]]; }
+  Mat6& upper(int e) { return upper_[structure_->slot_[e]]; }
+
+  void factor();
+  void solve(std::span<Vec6> x);
+
+ private:
+  const BlockStructure* structure_ = nullptr;
+  std::vector<Mat6> diagonal_, lower_, upper_;  ///< after `factor`: D⁻¹, L D⁻¹, U
   std::vector<Vec6> moved_;
 };
 
