@@ -37,6 +37,24 @@ void nearestOnEdges(ContactPoint& c) {
   c.pb += ((db - k * da) / det) * c.eb;
 }
 
+/// Moves `p` to the point of a rim that is outermost along −n: the direction across the axis that
+/// leans most, and there the radius of curvature of the solid along the rim's tangent.
+///   d = −(n − (n·u) u)/s,   s = |n − (n·u) u|,   p = centre + r d,   ρ = r/s
+void outermostOnRim(const RigidBody& body, const Anchor::Rim& rim, const Vec3& n, Vec3& p, Vec3& e,
+                    double& bend) {
+  const Vec3 u = body.q * rim.axis_B, lean = across(n, u);
+  const double s = lean.norm();
+  p = toWorld(body.pose(), rim.centre_B) - (rim.r / s) * lean;
+  e = u.cross(lean) / s;
+  bend = rim.r / s;
+}
+
+/// How fast the outermost point of a rim wanders over its solid [m/s].
+Vec3 wandering(const RigidBody& round, const RigidBody& flat, const ContactPoint& c, const Vec3& e,
+               const Vec3& n) {
+  return c.bend * e.dot((round.omega - flat.omega).cross(n)) * e;
+}
+
 }  // namespace
 
 ContactTolerance ContactTolerance::forSize(double size) {
@@ -85,11 +103,13 @@ void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   switch (c.tie) {
     case NormalTie::FaceOfB:  // the foot of pa moves over the face of b
       c.n = b.q * anchor.n_B;
+      if (anchor.rim.r > 0.0) outermostOnRim(a, anchor.rim, c.n, c.pa, c.ea, c.bend);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pb = c.pa - reach(c) * c.n;
       break;
     case NormalTie::FaceOfA:
       c.n = a.q * anchor.n_B;
+      if (anchor.rim.r > 0.0) outermostOnRim(b, anchor.rim, -c.n, c.pb, c.eb, c.bend);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pa = c.pb + reach(c) * c.n;
       break;
@@ -143,6 +163,10 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
 }
 
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  if (c.bend > 0.0)
+    return c.tie == NormalTie::FaceOfB
+               ? Vec3(pointVelocity(a, c.pa) + wandering(a, b, c, c.ea, c.n))
+               : Vec3(pointVelocity(b, c.pb) + wandering(b, a, c, c.eb, -c.n));
   switch (c.tie) {
     case NormalTie::FaceOfB:
     case NormalTie::Points:
@@ -165,7 +189,13 @@ double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const Cont
   const Vec3 centripetal =
       a.omega.cross(a.omega.cross(c.pa - a.x)) - b.omega.cross(b.omega.cross(c.pb - b.x));
   const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
-  return c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
+  double bias = c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
+  if (c.bend > 0.0) {
+    const Vec3& e = c.tie == NormalTie::FaceOfB ? c.ea : c.eb;
+    const double rolls = e.dot((a.omega - b.omega).cross(c.n));
+    bias -= c.bend * rolls * rolls;
+  }
+  return bias;
 }
 
 Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {

@@ -1,4 +1,4 @@
-// What stays in contact: constant forces that hold it, as long as these are constant.
+// What stays in contact: constant forces that hold it, or a stretch of motion that follows them.
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +11,10 @@ namespace {
 
 /// Forces and accelerations below this part of the largest are rounding.
 constexpr double kRounding = 1e-10;
+/// What parts at less than this part of its weight has just been pushed still.
+constexpr double kSlow = 1e-4;
+/// Stretches before closed forms are tried again: the first time, and at most.
+constexpr int kFirst = 1, kMost = 64;
 /// No pull towards zero: flights in contact have no error that grows. [s]
 constexpr double kNoPull = 1e15;
 
@@ -56,7 +60,7 @@ void Exact::solveForces(std::vector<Contact>& resting) {
     c.a = place(c.a);
     c.b = place(c.b);
   }
-  const SolveReport solved = RestForces(kNoPull).apply(bodies, contacts);
+  const SolveReport solved = RestForces(kNoPull, true).apply(bodies, contacts);
   Certificate& books = report_.certificate;
   books.max_complementarity = std::max(books.max_complementarity, solved.residual);
   ++books.evaluations;
@@ -151,16 +155,21 @@ void Exact::hold(double t, Cluster& cluster) {
   // What is neither pushed nor pressed goes its way.
   double strongest = 0.0;
   for (const Contact& c : resting) strongest = std::max(strongest, c.force.norm());
+  bool parts = false;
   std::erase_if(resting, [&](const Contact& c) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double apart = normalAcceleration(a, b, c.point);
     const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
-    return c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
+    const bool goes = c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
+    parts = parts || (goes && apart < kSlow * weight);
+    return goes;
   });
   if (!resting.empty()) stillNormals(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
-  for (const Contact& c : resting)
-    if (!steady(c)) return goOnInSteps(t, cluster);
+  // What parts as slowly as a push that ends is followed until there is a gap to be seen.
+  if (parts ||
+      !std::all_of(resting.begin(), resting.end(), [&](const Contact& c) { return steady(c); }))
+    return sustain(t, cluster);
   std::vector<int> renewed;
   for (const int i : cluster.bodies) {
     const RigidBody& body = state_.bodies[i];
@@ -193,12 +202,16 @@ void Exact::hold(double t, Cluster& cluster) {
 }
 
 /// What rolls, tips or slides over an edge has no closed form here.
-void Exact::goOnInSteps(double t, const Cluster& cluster) {
-  report_.note("contacts that roll, tip or slide over an edge are followed in steps of the course");
+void Exact::sustain(double t, const Cluster& cluster) {
   for (const int i : cluster.bodies)
     if (!model_.fixed(i)) renew(t, i, state_.bodies[i].invM * state_.outer[i]);
   keepBooks(t);
-  state_.inSteps = true;
+  if (!state_.sustained) {
+    state_.patience = std::clamp(2 * state_.patience, kFirst, kMost);
+    state_.stretchesLeft = state_.patience;
+  }
+  state_.sustained = true;
+  state_.modesKnown = false;
 }
 
 /// Friction that brakes along a line ends a slip at a known instant.

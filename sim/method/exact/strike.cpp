@@ -17,7 +17,7 @@ constexpr double kLowest = 1e-12;
 constexpr double kOff = 1e-11;
 /// Planes wider than this part of the size of the world do not touch.
 constexpr double kWidest = 1e-6;
-/// Events that leave time where it is, in a row, before the run goes on in steps.
+/// Events that leave time where it is, in a row, before some are seen late.
 constexpr int kStalled = 1000;
 
 }  // namespace
@@ -35,8 +35,7 @@ void Exact::strike(double t, int a, int b) {
     return stop("\"" + nameOf(a) + "\" touches \"" + nameOf(b) + "\" at t = " + digits(t) +
                 " s; a body with a pivot has no contacts");
   if (state_.stalled > kStalled) {  // hits without end, as between bodies that close in
-    state_.stalled = 0;
-    return goOnInSteps(t, {});
+    return sustain(t, {});
   }
 
   const std::size_t firstEvent = report_.events.size();

@@ -1,0 +1,169 @@
+#include "sim/contact/modes.h"
+
+#include <Eigen/QR>
+
+#include "sim/contact/rest.h"
+#include "sim/contact/rows.h"
+#include "sim/math/rotation.h"
+
+namespace tumble {
+namespace {
+
+/// [m/s] Slower slips have no direction but the one in which they began.
+constexpr double kStill = 1e-10;
+/// [1] Equations that follow from the others leave no more than this.
+constexpr double kDependent = 1e-11;
+
+bool sticks(const Contact& c) {
+  return c.friction > 0.0 && !c.sliding;
+}
+
+double response(const RigidBody& body, const Vec3& pull, const Vec3& turn, const Vec3& push,
+                const Vec3& spin) {
+  return body.invM * pull.dot(push) + turn.dot(body.Iinv * spin);
+}
+
+}  // namespace
+
+Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& contact) {
+  const Vec3 slip = slipVelocity(a, b, contact.point);
+  const double along = slip.dot(contact.slipDirection), size = slip.norm();
+  if (size <= kStill || std::abs(along) < 0.5 * size) {
+    Vec3 t1, t2;  // the direction of the start, in the tangent plane of now
+    tangents(contact.point.n, contact.slipDirection, t1, t2);
+    return t1;
+  }
+  return along > 0.0 ? Vec3(slip / size) : Vec3(-slip / size);
+}
+
+double ModeForces::product(std::span<const RigidBody> bodies, const Row& row,
+                           const Row& force) const {
+  double sum = 0.0;
+  if (row.a == force.a)
+    sum += response(bodies[row.a], row.linear, row.angularA, force.linear, force.angularA);
+  if (row.b == force.b)
+    sum += response(bodies[row.b], row.linear, row.angularB, force.linear, force.angularB);
+  if (row.a == force.b)
+    sum += response(bodies[row.a], row.linear, row.angularA, -force.linear, force.angularB);
+  if (row.b == force.a)
+    sum += response(bodies[row.b], -row.linear, row.angularB, force.linear, force.angularA);
+  return sum;
+}
+
+void ModeForces::addRows(std::span<const RigidBody> bodies, const Contact& c, bool tangential) {
+  const RigidBody &a = bodies[c.a], &b = bodies[c.b];
+  const ContactPoint& point = c.point;
+  const auto along = [&](const Vec3& d, double bias) {
+    return pointRow(bodies, c.a, c.b, point.p, d, bias);
+  };
+  rows_.push_back(along(point.n, normalAccelerationBias(a, b, point)));
+  const bool slides = c.friction > 0.0 && c.sliding && tangential;
+  forces_.push_back(slides ? along(point.n - c.friction * slipDirectionOf(a, b, c), 0.0)
+                           : rows_.back());
+  if (!tangential || !sticks(c)) return;
+  Vec3 t1, t2;
+  tangents(point.n, Vec3::Zero(), t1, t2);
+  for (const Vec3& t : {t1, t2}) {
+    rows_.push_back(along(t, slipAccelerationBias(a, b, point, t)));
+    forces_.push_back(rows_.back());
+  }
+}
+
+void ModeForces::solve(std::span<const RigidBody> bodies) {
+  const Eigen::Index n = static_cast<Eigen::Index>(rows_.size());
+  matrix_.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) matrix_(i, j) = product(bodies, rows_[i], forces_[j]);
+  Eigen::CompleteOrthogonalDecomposition<MatX> orthogonal;
+  orthogonal.setThreshold(kDependent);
+  orthogonal.compute(matrix_);
+  lambda_ = orthogonal.solve(rhs_);
+}
+
+void ModeForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts) {
+  rows_.clear();
+  forces_.clear();
+  for (const Contact& c : contacts)
+    if (!c.idle) addRows(bodies, c, true);
+  if (rows_.empty()) return;
+  rhs_.resize(static_cast<Eigen::Index>(rows_.size()));
+  const auto acceleration = [&](int body, const Vec3& pull, const Vec3& turn) {
+    const RigidBody& it = bodies[body];
+    if (it.fixed()) return 0.0;
+    return pull.dot(it.invM * it.force) + turn.dot(it.Iinv * (it.torque - it.omega.cross(it.L)));
+  };
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    rhs_[static_cast<Eigen::Index>(i)] = -row.bias - acceleration(row.a, row.linear, row.angularA) -
+                                         acceleration(row.b, -row.linear, row.angularB);
+  }
+  solve(bodies);
+  Eigen::Index k = 0;
+  for (Contact& c : contacts) {
+    c.force.setZero();
+    if (c.idle) continue;
+    for (int r = sticks(c) ? 3 : 1; r > 0; --r, ++k)
+      c.force += lambda_[k] * forces_[static_cast<std::size_t>(k)].linear;
+    applyForce(bodies[c.a], c.point.p, c.force);
+    applyForce(bodies[c.b], c.point.p, -c.force);
+  }
+}
+
+void ModeForces::push(std::span<RigidBody> bodies, bool velocities) {
+  const auto give = [&](RigidBody& body, const Vec3& linear, const Vec3& angular) {
+    if (body.fixed()) return;
+    if (velocities) {
+      body.P += linear;
+      if (!body.particle) body.L += angular;
+    } else {
+      body.x += body.invM * linear;
+      if (!body.particle) body.q = rotated(body.q, body.Iinv * angular);
+    }
+  };
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Row& row = rows_[k];
+    const double size = lambda_[static_cast<Eigen::Index>(k)];
+    give(bodies[row.a], size * row.linear, size * row.angularA);
+    give(bodies[row.b], -size * row.linear, size * row.angularB);
+  }
+  for (RigidBody& body : bodies) updateDerived(body);
+}
+
+void ModeForces::project(std::span<RigidBody> bodies, std::span<Contact> contacts) {
+  for (const bool velocities : {false, true}) {
+    rows_.clear();
+    forces_.clear();
+    std::vector<double> rhs;
+    for (Contact& c : contacts) {
+      follow(bodies[c.a], bodies[c.b], c);
+      if (c.idle) continue;
+      const std::size_t first = rows_.size();
+      addRows(bodies, c, velocities);
+      for (std::size_t i = first; i < rows_.size(); ++i) {
+        forces_[i] = rows_[i];
+        const Vec3 u =
+            pointVelocity(bodies[c.a], c.point.p) - pointVelocity(bodies[c.b], c.point.p);
+        rhs.push_back(velocities ? -rows_[i].linear.dot(u) : -c.point.separation);
+      }
+    }
+    if (rows_.empty()) return;
+    rhs_ = Eigen::Map<const VecX>(rhs.data(), static_cast<Eigen::Index>(rhs.size()));
+    solve(bodies);
+    push(bodies, velocities);
+  }
+}
+
+double pushLeft(const RigidBody& a, const RigidBody& b, const Contact& c) {
+  const auto mobility = [&](const Vec3& d) {
+    double sum = 0.0;
+    for (const RigidBody* body : {&a, &b}) {
+      const Vec3 arm = c.point.p - body->x;
+      sum += response(*body, c.point.n, arm.cross(c.point.n), d, arm.cross(d));
+    }
+    return sum;
+  };
+  const Vec3 d = c.point.n - c.friction * slipDirectionOf(a, b, c);
+  return mobility(d) / mobility(c.point.n);
+}
+
+}  // namespace tumble
