@@ -215,6 +215,14 @@ double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const Contac
   return t.dot(a.omega.cross(place - a.v) - b.omega.cross(place - b.v));
 }
 
+Vec3 slipAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  const Vec3 pull = pointAcceleration(a, c.p) - pointAcceleration(b, c.p);
+  Vec3 t1, t2, rate = Vec3::Zero();
+  tangents(c.n, Vec3::Zero(), t1, t2);
+  for (const Vec3& t : {t1, t2}) rate += (t.dot(pull) + slipAccelerationBias(a, b, c, t)) * t;
+  return rate;
+}
+
 void tangents(const Vec3& n, const Vec3& preferred, Vec3& t1, Vec3& t2) {
   t1 = across(preferred, n);
   const double length = t1.norm();

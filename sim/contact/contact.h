@@ -93,6 +93,9 @@ Vec3 pointAcceleration(const RigidBody& body, const Vec3& p);
 /// SD48).
 double normalAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
+/// d(slip)/dt [m/s²] along the surface under the forces and torques that the bodies carry.
+Vec3 slipAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
 /// The part of d(slip)/dt [m/s²] along t that does not come from accelerations.
 double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c,
                             const Vec3& t);

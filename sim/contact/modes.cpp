@@ -11,6 +11,9 @@ namespace {
 
 /// [m/s] Slower slips have no direction but the one in which they began.
 constexpr double kStill = 1e-10;
+/// [1] A slip across the line of its start, below these parts of the slip and of the speeds, is
+/// left alone: friction against it would be right, but is stiff where the slip is slow.
+constexpr double kStraight = 1e-9, kNoise = 1e-10;
 /// [1] Equations that follow from the others leave no more than this.
 constexpr double kDependent = 1e-11;
 
@@ -27,12 +30,13 @@ double response(const RigidBody& body, const Vec3& pull, const Vec3& turn, const
 
 Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& contact) {
   const Vec3 slip = slipVelocity(a, b, contact.point);
-  const double along = slip.dot(contact.slipDirection), size = slip.norm();
-  if (size <= kStill || std::abs(along) < 0.5 * size) {
-    Vec3 t1, t2;  // the direction of the start, in the tangent plane of now
-    tangents(contact.point.n, contact.slipDirection, t1, t2);
+  Vec3 t1, t2;  // the direction of the start, in the tangent plane of now
+  tangents(contact.point.n, contact.slipDirection, t1, t2);
+  const double along = slip.dot(t1), across = std::abs(slip.dot(t2)), size = slip.norm();
+  const double speed = pointVelocity(a, contact.point.p).norm();
+  if (size <= kStill || across <= kStraight * size || across <= kNoise * (1.0 + speed) ||
+      std::abs(along) < 0.5 * size)
     return t1;
-  }
   return along > 0.0 ? Vec3(slip / size) : Vec3(-slip / size);
 }
 

@@ -11,8 +11,8 @@
 namespace tumble {
 
 /// The unit vector along which a sliding contact slips: where its slip is too slow to tell, the
-/// direction in which its sliding began; and never turned against that, so that forces stay smooth
-/// beyond the instant at which a slip ends.
+/// direction in which its sliding began, or the last stretch of it; and never turned against that,
+/// so that forces stay smooth beyond the instant at which a slip ends.
 Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& contact);
 
 /// Forces of contacts that stick (u = 0), slide (u_n = 0, f_t = −mu f_n slip/|slip|), or are idle

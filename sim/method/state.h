@@ -112,6 +112,7 @@ struct State {
   // What `exact` remembers of contacts that last while their forces change.
   bool sustained = false;   ///< bodies go on through such a stretch
   bool modesKnown = false;  ///< which contact sticks, slides or idles
+  bool jammed = false;      ///< forces grow beyond all bounds
   int stretchesLeft = 0;    ///< until closed forms are tried again,
   int patience = 0;         ///< and how many the next time
   int blindness = 0;        ///< stretches in a row that saw events late

@@ -21,8 +21,8 @@ class Extrapolation {
 
   /// Replaces y = Y(t) by Y(t + h), h > 0 [s], in as many steps as the tolerance asks for, and
   /// normalises it. The result depends on t, h and y alone.
-  /// @return false if the tolerance could not be held
-  bool step(const System& system, double t, double h, std::span<double> y);
+  /// @return h [s], or how far a limited number of attempts led, which is where y then is
+  double step(const System& system, double t, double h, std::span<double> y);
 
  private:
   static constexpr int kColumns = 5;

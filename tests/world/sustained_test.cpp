@@ -183,17 +183,17 @@ TEST_CASE("a box pushed under balls", "[figures]") {
 }
 
 TEST_CASE("a jammed rod", "[figures]") {
-  for (const double mu : {1.33, 1.5}) {
+  for (const double mu : {1.33, 4.0 / 3.0 - 1e-9, 4.0 / 3.0 + 1e-9, 1.5}) {
     WorldDef def = exactWorld(0.2);
     const double angle = std::atan(2.0), l = 1.0;
     BodyDef rod;
     rod.name = "rod";
-    rod.shape = Capsule{1e-3, 2.0 * l};
+    rod.shape = Capsule{1e-12, 2.0 * l};
     rod.mass = 1.0;
     rod.inertia = Vec3(l * l / 3.0, 1e-4, l * l / 3.0);
     rod.friction = mu;
     rod.orientation = fromAxisAngle({0.0, 0.0, 1.0}, -(kPi / 2.0 - angle));
-    rod.position = {0.0, l * std::sin(angle) + 1e-3, 0.0};
+    rod.position = {0.0, l * std::sin(angle) + 1e-12, 0.0};
     rod.velocity = {1.0, 0.0, 0.0};
     def.bodies = {ground(0.0, mu), rod};
     for (const double sign : {-1.0, 1.0}) {
@@ -204,5 +204,55 @@ TEST_CASE("a jammed rod", "[figures]") {
         WARN(mu << " " << sign << ": " << eventName(e.kind) << " at " << e.t << " vrel " << e.vrel
                 << " j " << e.j);
     }
+  }
+}
+
+TEST_CASE("toppling", "[figures]") {
+  for (const double side : {1.0 + 1e-6, 1.0 - 1e-6}) {
+    // Topples down the slope if its width is less than tan(angle) times its height.
+    const double angle = 20.0 * kPi / 180.0, height = 1.0, width = std::tan(angle) * height * side;
+    WorldDef def = exactWorld(10.0);
+    def.bodies = {slope(angle, 0.9), blockOn(angle, {width, height, 0.5}, 0.9)};
+    Report report;
+    const Sample end = endOf(def, &report);
+    const double turn = end.bodies[1].q.angularDistance(def.bodies[1].orientation);
+    WARN("topple " << side << ": turned by " << turn);
+    for (std::size_t k = 0; k < std::min<std::size_t>(8, report.events.size()); ++k)
+      WARN(eventName(report.events[k].kind)
+           << " at " << report.events[k].t << " vrel " << report.events[k].vrel);
+    CHECK((turn < 1e-6) == (side > 1.0));
+  }
+}
+
+TEST_CASE("a leaning plank", "[figures]") {
+  for (const double side : {1.0 + 1e-6, 1.0 - 1e-6}) {
+    const double lean = 60.0 * kPi / 180.0;
+    WorldDef def = exactWorld(10.0);
+    const Vec3 edges(3.0, 0.1, 0.5);
+    BodyDef plank = box("plank", edges, {0.0, 0.0, 0.0});
+    plank.orientation = fromAxisAngle({0.0, 0.0, 1.0}, lean);
+    const Vec3 lowB = plank.orientation * Vec3(-1.5, -0.05, 0.0),
+               highU = plank.orientation * Vec3(1.5, -0.05, 0.0);
+    const Vec3 farU = plank.orientation * Vec3(1.5, -0.05, 0.0);
+    (void)farU;
+    const double mu = -lowB.x() / (highU.y() - lowB.y());
+    plank.position = {-highU.x(), -lowB.y(), 0.0};
+    BodyDef wall = ground(0.0, 0.0), floor = ground(0.0, mu * side);
+    wall.name = "wall";
+    wall.shape = HalfSpace{{-1.0, 0.0, 0.0}, 0.0};
+    plank.friction = mu * side;
+    plank.material = "plank";
+    wall.material = "wall";
+    def.pairs = {{"plank", "wall", {}, 0.0}};
+    def.bodies = {floor, wall, plank};
+    Report report;
+    const Sample end = endOf(def, &report);
+    WARN("plank " << side << " mu " << mu << ": moved by "
+                  << (end.bodies[2].x - plank.position).norm());
+    for (std::size_t k = 0; k < std::min<std::size_t>(20, report.events.size()); ++k)
+      WARN(eventName(report.events[k].kind)
+           << " " << report.events[k].a << report.events[k].b << " at " << report.events[k].t
+           << " vrel " << report.events[k].vrel);
+    CHECK(((end.bodies[2].x - plank.position).norm() < 1e-6) == (side > 1.0));
   }
 }

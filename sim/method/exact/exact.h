@@ -82,13 +82,19 @@ class Exact {
   /// Finds the forces of contacts that last, and gives all bodies of the cluster their flights.
   void hold(double t, Cluster& cluster);
   std::vector<Contact> restingOf(const Cluster& cluster) const;
-  void solveForces(std::vector<Contact>& resting);
+  /// @return the residual of the contact problem
+  double solveForces(std::vector<Contact>& resting);
   void stillNormals(const std::vector<Contact>& resting);
   bool steady(const Contact& contact) const;
   /// @return the contacts of the cluster that lasted before
   std::vector<Contact> changeHolds(double t, const Cluster& cluster,
                                    const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
+  /// Whether a contact slides in a manner that no force goes with.
+  bool jams(const Contact& contact, const std::vector<Contact>& resting, bool solved) const;
+  /// Gives jammed contacts an impulse. @return whether it did
+  bool endJam(double t, const Cluster& cluster, const std::vector<Contact>& resting,
+              double residual);
   void sustain(double t, const Cluster& cluster);
   void lookForStops(double t);
   void renew(double t, int body, const Vec3& acceleration);

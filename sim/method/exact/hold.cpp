@@ -42,7 +42,7 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
   return resting;
 }
 
-void Exact::solveForces(std::vector<Contact>& resting) {
+double Exact::solveForces(std::vector<Contact>& resting) {
   std::vector<RigidBody> bodies;
   std::vector<int> local(state_.bodies.size(), -1), global;
   const auto place = [&](int i) {
@@ -61,14 +61,13 @@ void Exact::solveForces(std::vector<Contact>& resting) {
     c.b = place(c.b);
   }
   const SolveReport solved = RestForces(kNoPull, true).apply(bodies, contacts);
-  Certificate& books = report_.certificate;
-  books.max_complementarity = std::max(books.max_complementarity, solved.residual);
-  ++books.evaluations;
+  ++report_.certificate.evaluations;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     state_.bodies[global[k]].force = bodies[k].force;
     state_.bodies[global[k]].torque = bodies[k].torque;
   }
   for (std::size_t k = 0; k < resting.size(); ++k) resting[k].force = contacts[k].force;
+  return solved.residual;
 }
 
 // A contact lasts with a constant force if its normal and its gap stay: faces that do not turn, and
@@ -147,11 +146,20 @@ void Exact::stillNormals(const std::vector<Contact>& resting) {
 
 void Exact::hold(double t, Cluster& cluster) {
   std::vector<Contact> resting = restingOf(cluster);
-  for (const int i : cluster.bodies) {
-    state_.bodies[i].force = state_.outer[i];
-    state_.bodies[i].torque.setZero();
+  const auto forces = [&] {
+    for (const int i : cluster.bodies) {
+      state_.bodies[i].force = state_.outer[i];
+      state_.bodies[i].torque.setZero();
+    }
+    return resting.empty() ? 0.0 : solveForces(resting);
+  };
+  double residual = forces();
+  if (endJam(t, cluster, resting, residual)) {
+    resting = restingOf(cluster);
+    residual = forces();
   }
-  if (!resting.empty()) solveForces(resting);
+  double& worst = report_.certificate.max_complementarity;
+  worst = std::max(worst, residual);
   // What is neither pushed nor pressed goes its way.
   double strongest = 0.0;
   for (const Contact& c : resting) strongest = std::max(strongest, c.force.norm());

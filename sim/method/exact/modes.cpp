@@ -14,7 +14,7 @@ constexpr double kMargin = 1e-9;
 /// Accelerations below this part of the largest are rounding.
 constexpr double kRounding = 2e-10;
 /// What friction must leave of a push; see `pushLeft`.
-constexpr double kPushLeft = 1e-6;
+constexpr double kPushLeft = 1e-12;
 /// [m/s] of a slip that begins: rounding.
 constexpr double kNoSlip = 1e-12;
 /// [1] A cap that leans by less lies flat.
@@ -24,15 +24,6 @@ constexpr double kNoPull = 1e15;
 
 Vec3 tangential(const Contact& c) {
   return c.force - c.force.dot(c.point.n) * c.point.n;
-}
-
-/// d(slip)/dt [m/s²] under the forces and torques that the bodies carry.
-Vec3 slipRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  const Vec3 pull = pointAcceleration(a, c.p) - pointAcceleration(b, c.p);
-  Vec3 t1, t2, rate = Vec3::Zero();
-  tangents(c.n, Vec3::Zero(), t1, t2);
-  for (const Vec3& t : {t1, t2}) rate += (t.dot(pull) + slipAccelerationBias(a, b, c, t)) * t;
-  return rate;
 }
 
 }  // namespace
@@ -88,8 +79,7 @@ void Sustained::chooseModes() {
   for (Contact& c : lasting) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     follow(a, b, c);
-    const Vec3 slip = slipVelocity(a, b, c.point);
-    if (c.sliding && slip.norm() > tolerance_.stick) c.slipDirection = slip.normalized();
+    if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
   }
   if (!state_.modesKnown) {
     const std::vector<Contact> before = lasting;
@@ -100,7 +90,7 @@ void Sustained::chooseModes() {
     for (Contact& c : lasting) {
       c.idle = c.force.norm() <= kRounding * forceScale(c);
       if (c.idle || c.sliding || c.friction <= 0.0) continue;
-      const Vec3 rate = slipRate(bodies[c.a], bodies[c.b], c.point);
+      const Vec3 rate = slipAcceleration(bodies[c.a], bodies[c.b], c.point);
       if (rate.norm() <= kRounding * acceleration_) continue;
       c.sliding = true;
       c.slipDirection = -tangential(c).normalized();

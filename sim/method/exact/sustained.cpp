@@ -50,7 +50,9 @@ void Sustained::next() {
   chooseModes();
   system_.begin(state_.lasting);
   system_.pack(state_.bodies, y0_);
-  const double most = lookAhead();
+  trial_ = state_.bodies;
+  system_.findForces(trial_);
+  const double most = most_ = lookAhead();
   findNear(most);
   if (report_.stopped) return;
   const bool blind = state_.stalled > kPatience;
@@ -58,7 +60,11 @@ void Sustained::next() {
   const double now = allowance(0.0);
   bool event = false;
   while (!event && !blind) {
-    if (const double end = now > 0.0 ? allowance(h) : now; end < 0.0) {
+    const double end = now > 0.0 ? allowance(h) : now;
+    if (now > 0.0 && reached_ < h) {  // forces change faster and faster
+      h = 0.9 * reached_;
+      state_.jammed = event = h < kInstant;
+    } else if (end < 0.0) {
       event = true;
       if (!(now > 0.0)) {
         h = 0.0;
@@ -95,11 +101,23 @@ void Sustained::leave() {
 double Sustained::lookAhead() const {
   double h = std::min(kLongest, model_.def.duration - state_.t);
   for (const int i : model_.solid) {
-    const RigidBody& body = state_.bodies[i];
+    const RigidBody& body = trial_[i];
+    if (body.fixed()) continue;
     const bool round = std::all_of(state_.parts[i].begin(), state_.parts[i].end(),
                                    [](const Convex& part) { return part.outline.corner == 0.0; });
     const double turn = round ? kTurnRound : kTurn;
-    if (body.omega.norm() * h > turn && !body.fixed()) h = turn / body.omega.norm();
+    const double speed = body.omega.norm(), rate = (body.Iinv * body.torque).norm();
+    if (speed * h > turn) h = turn / speed;
+    if (rate * h * h > 2.0 * turn) h = std::sqrt(2.0 * turn / rate);
+  }
+  // Not far beyond the end of a slip.
+  for (const Contact& c : system_.contacts()) {
+    if (!c.sliding || c.idle) continue;
+    const RigidBody &a = trial_[c.a], &b = trial_[c.b];
+    const Vec3 slip = slipVelocity(a, b, c.point);
+    const double brake = -slipAcceleration(a, b, c.point).dot(slip), square = slip.squaredNorm();
+    if (brake * h > 1.5 * square && square > tolerance_.stick * tolerance_.stick)
+      h = 1.5 * square / brake;
   }
   return h;
 }
@@ -120,8 +138,6 @@ double Sustained::speedBound(int ia, int ib, double h) const {
 }
 
 void Sustained::findNear(double h) {
-  trial_ = state_.bodies;
-  system_.findForces(trial_);
   double fastest = acceleration_;
   for (const RigidBody& body : trial_) fastest = std::max(fastest, body.invM * body.force.norm());
   std::vector<Aabb> boxes;
@@ -154,7 +170,7 @@ void Sustained::findNear(double h) {
 double Sustained::allowance(double h) {
   cause_ = Cause::None;
   y_ = y0_;
-  held_ = h == 0.0 || integrator_.step(system_, state_.t, h, y_);
+  reached_ = h == 0.0 ? 0.0 : integrator_.step(system_, state_.t, h, y_);
   if (!allFinite(y_)) return 1.0;  // commit() reports it
   system_.unpack(y_, trial_);
   double least = kInfinity;
@@ -209,7 +225,7 @@ double Sustained::sooner(double h) const {
     if (slip.dot(c.slipDirection) >= 0.5 * slip.norm()) continue;
     return h > kInstant ? 0.5 * h : h;
   }
-  if (h <= kClosest * lookAhead()) return h;
+  if (h <= kClosest * most_) return h;
   for (const Near& pair : near_) {
     if (pair.lasts) continue;
     const double end = separation(model_.shapes[pair.a], trial_[pair.a].pose(),
@@ -247,7 +263,6 @@ void Sustained::commit(double h) {
     report_.reason = "the motion left the range of numbers at t = " + shortNumber(state_.t) + " s";
     return;
   }
-  if (!held_) report_.note("some stretches of contact could not be held to 1e-13");
   const double t1 = h < model_.def.duration - state_.t ? state_.t + h : model_.def.duration;
   if (t1 > state_.t)
     state_.trail.push_back(

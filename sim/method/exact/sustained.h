@@ -34,7 +34,7 @@ class Sustained {
   };
   enum class Cause { None, Touch, Mode };
 
-  // modes.cpp
+  // modes.cpp: what each contact does.
   void chooseModes();
   void tieRims(std::vector<Contact>& contacts) const;
   /// The contact problem of this instant; contact forces are left on bodies and contacts.
@@ -68,9 +68,10 @@ class Sustained {
   std::vector<Contact> watched_;  ///< points of lasting pairs that do not touch yet
   std::vector<double> slip_;      ///< [m/s] per lasting contact, at the start
   double acceleration_ = 1.0;     ///< [m/s²] what counts as large
+  double most_ = 0.0;             ///< [s] how far could be looked ahead
   long counted_ = 0;              ///< evaluations of system_ that are in the certificate
   Cause cause_ = Cause::None;
-  bool held_ = true;
+  double reached_ = 0.0;  ///< [s] of the h last tried
 };
 
 /// The bodies at time t of the trail, and their lasting contacts with forces.
