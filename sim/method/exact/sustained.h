@@ -34,6 +34,14 @@ class Sustained {
   };
   enum class Cause { None, Touch, Mode };
 
+  /// Shortens h [s] to the first event, if there is one before. @return whether there is
+  bool findEvent(double& h);
+  /// How far the motion may go: ≥ 0 a mode and no overlap, < 0 too far. Leaves y_, trial_, cause_.
+  double allowance(double h);
+  bool featuresChanged() const;
+  void commit(double h);
+  void leave();
+
   // modes.cpp: what each contact does.
   void chooseModes();
   void tieRims(std::vector<Contact>& contacts) const;
@@ -44,17 +52,13 @@ class Sustained {
   double modeAllowance();
   double forceScale(const Contact& contact) const;
 
+  // foresight.cpp: how far to look.
   double lookAhead() const;
   void findNear(double h);
   double speedBound(int a, int b, double h) const;
-  /// How far the motion may go: ≥ 0 a mode and no overlap, < 0 too far. Leaves y_, trial_, cause_.
-  double allowance(double h);
-  bool featuresChanged() const;
   /// A shorter h if something may have happened unseen before the end of this one.
   double sooner(double h) const;
   double dip(const Contact& point, double h) const;
-  void commit(double h);
-  void leave();
 
   const Model& model_;
   State& state_;
