@@ -1,6 +1,8 @@
 #include "sim/contact/modes.h"
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <numeric>
 
 #include "sim/contact/rest.h"
 #include "sim/contact/rows.h"
@@ -73,15 +75,47 @@ void ModeForces::addRows(std::span<const RigidBody> bodies, const Contact& c, bo
   }
 }
 
+std::vector<int> ModeForces::heaps(std::span<const RigidBody> bodies) const {
+  std::vector<int> of(bodies.size());
+  std::iota(of.begin(), of.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Row& row : rows_) {
+      if (bodies[row.a].fixed() || bodies[row.b].fixed() || of[row.a] == of[row.b]) continue;
+      of[row.a] = of[row.b] = std::min(of[row.a], of[row.b]);
+      changed = true;
+    }
+  }
+  std::vector<int> heaps;
+  for (const Row& row : rows_) heaps.push_back(of[bodies[row.a].fixed() ? row.b : row.a]);
+  return heaps;
+}
+
 void ModeForces::solve(std::span<const RigidBody> bodies) {
-  const Eigen::Index n = static_cast<Eigen::Index>(rows_.size());
-  matrix_.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) matrix_(i, j) = product(bodies, rows_[i], forces_[j]);
-  Eigen::CompleteOrthogonalDecomposition<MatX> orthogonal;
-  orthogonal.setThreshold(kDependent);
-  orthogonal.compute(matrix_);
-  lambda_ = orthogonal.solve(rhs_);
+  const std::vector<int> heap = heaps(bodies);
+  lambda_.resize(rhs_.size());
+  std::vector<std::size_t> own;
+  for (std::size_t first = 0; first < rows_.size(); ++first) {
+    if (std::find(heap.begin(), heap.begin() + static_cast<std::ptrdiff_t>(first), heap[first]) !=
+        heap.begin() + static_cast<std::ptrdiff_t>(first))
+      continue;
+    own.clear();
+    for (std::size_t i = first; i < rows_.size(); ++i)
+      if (heap[i] == heap[first]) own.push_back(i);
+    const Eigen::Index n = static_cast<Eigen::Index>(own.size());
+    matrix_.resize(n, n);
+    VecX rhs(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      rhs[i] = rhs_[static_cast<Eigen::Index>(own[i])];
+      for (Eigen::Index j = 0; j < n; ++j)
+        matrix_(i, j) = product(bodies, rows_[own[i]], forces_[own[j]]);
+    }
+    Eigen::CompleteOrthogonalDecomposition<MatX> orthogonal;
+    orthogonal.setThreshold(kDependent);
+    orthogonal.compute(matrix_);
+    const VecX lambda = orthogonal.solve(rhs);
+    for (Eigen::Index i = 0; i < n; ++i) lambda_[static_cast<Eigen::Index>(own[i])] = lambda[i];
+  }
 }
 
 void ModeForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts) {
@@ -147,7 +181,7 @@ void ModeForces::project(std::span<RigidBody> bodies, std::span<Contact> contact
         forces_[i] = rows_[i];
         const Vec3 u =
             pointVelocity(bodies[c.a], c.point.p) - pointVelocity(bodies[c.b], c.point.p);
-        rhs.push_back(velocities ? -rows_[i].linear.dot(u) : -c.point.separation);
+        rhs.push_back(velocities ? -rows_[i].linear.dot(u) : -c.point.separation - c.granted);
       }
     }
     if (rows_.empty()) return;

@@ -27,15 +27,17 @@ class ModeForces {
   void apply(std::span<RigidBody> bodies, std::span<Contact> contacts);
 
   /// Moves the bodies by the least way, weighed by mass, that takes the separations of all that are
-  /// not idle to zero, to first order; then changes the velocities in the same manner until these
-  /// neither approach nor part, nor slip if they stick. Follows the contacts.
+  /// not idle to what is granted them, to first order; then changes the velocities in the same
+  /// manner until these neither approach nor part, nor slip if they stick. Follows the contacts.
   void project(std::span<RigidBody> bodies, std::span<Contact> contacts);
 
  private:
   /// Rows of contact k, and the forces of their multipliers.
   void addRows(std::span<const RigidBody> bodies, const Contact& contact, bool tangential);
-  /// λ of the least norm with  J M⁻¹ F λ = rhs_.
+  /// λ of the least norm with  J M⁻¹ F λ = rhs_, for each heap of bodies on its own.
   void solve(std::span<const RigidBody> bodies);
+  /// Per row: the lowest body that it is connected to through rows, fixed bodies apart.
+  std::vector<int> heaps(std::span<const RigidBody> bodies) const;
   /// Gives the bodies λ: as a way, or as impulses.
   void push(std::span<RigidBody> bodies, bool velocities);
   double product(std::span<const RigidBody> bodies, const Row& row, const Row& force) const;

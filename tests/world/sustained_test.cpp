@@ -58,7 +58,7 @@ BodyDef blockOn(double angle, const Vec3& edges, double mu, double about = 0.0) 
 }  // namespace
 
 // Oracle: t = 2 v0/(7 mu g), v = 5 v0/7, d = 12 v0²/(49 mu g); for v0 = 5, mu = 0.3, g = 9.81 these
-// are 0.48541332945002670 s, 3.5714 m/s and 2.0803428405 m. Measured 7e-16 s, 1e-14, 5e-15, allowed
+// are 0.48541332945002670 s, 3.5714 m/s and 2.0803428405 m. Measured 5e-16 s, 8e-15, 5e-15, allowed
 // 1e-12.
 TEST_CASE("a ball that slides comes to roll when and where it should", "[figures]") {
   const auto [v0, mu, r] =
@@ -81,7 +81,7 @@ TEST_CASE("a ball that slides comes to roll when and where it should", "[figures
 }
 
 // Oracle: the slip keeps its direction s: x = v0 t − ½ mu g s t², until v = (5 v0 + 2 r ω0 × n)/7.
-// Measured 2e-14, allowed 1e-12, whichever way the scene stands.
+// Measured 2e-15, allowed 1e-12, whichever way the scene stands.
 TEST_CASE("a ball with side spin slides along a parabola", "[figures]") {
   const double mu = 0.4, r = 0.2;
   const Quat turn = fromAxisAngle(kUp, GENERATE(0.0, 0.7, 2.3));
@@ -99,7 +99,7 @@ TEST_CASE("a ball with side spin slides along a parabola", "[figures]") {
 }
 
 // Oracle: a = 5/7 g sin θ while mu > 2/7 tan θ, else g (sin θ − mu cos θ); of a cylinder 2/3 g sin
-// θ while mu > 1/3 tan θ. Measured 4e-15 m, allowed 1e-12.
+// θ while mu > 1/3 tan θ. Measured 3e-15 m, allowed 1e-12.
 TEST_CASE("balls and cylinders roll and slide down as they should", "[figures]") {
   const double angle = kPi / 6.0, T = 2.0;
   const Vec3 n(std::sin(angle), std::cos(angle), 0.0), down(std::cos(angle), -std::sin(angle), 0.0);
@@ -123,7 +123,7 @@ TEST_CASE("balls and cylinders roll and slide down as they should", "[figures]")
   CHECK(std::abs(error) < 1e-12);
 }
 
-// Oracle: a rolling ball circles at 2/7 of the turntable's angular velocity. Measured 5e-13 m after
+// Oracle: a rolling ball circles at 2/7 of the turntable's angular velocity. Measured 9e-13 m after
 // three circles, allowed 1e-10.
 TEST_CASE("a ball on a turntable circles at two sevenths of its speed", "[figures]") {
   const double Omega = 2.0, period = 2.0 * kPi / (2.0 / 7.0 * Omega);
@@ -145,7 +145,7 @@ TEST_CASE("a ball on a turntable circles at two sevenths of its speed", "[figure
 
 // Oracle: steady motion about the vertical with the centre at rest, of a disk of radius a and
 // height h:  Ω² sin α = m g (a − ½ h tan α)/(I₁ − ½ (h/a) I₃ tan α),  4 g/a for a thin one.
-// Measured ALPHA rad and CENTRE m, allowed 1e-10.
+// Measured 1e-14 rad and m, allowed 1e-11.
 TEST_CASE("Euler's disk keeps its angle", "[figures]") {
   const auto [degrees, h] = GENERATE(std::pair{10.0, 1e-5}, std::pair{10.0, 0.1},
                                      std::pair{35.0, 0.05}, std::pair{3.0, 0.02});
@@ -168,8 +168,8 @@ TEST_CASE("Euler's disk keeps its angle", "[figures]") {
   const double centre = (end.bodies[1].x - disk.position).norm();
   WARN("Euler's disk at " << degrees << " degrees, " << h << " m high, 10 s: angle drifts " << drift
                           << ", centre " << centre << " m");
-  CHECK(std::abs(drift) < 1e-10);
-  CHECK(centre < 1e-10);
+  CHECK(std::abs(drift) < 1e-11);
+  CHECK(centre < 1e-11);
 }
 
 // Oracle: two methods. A top that is held at its tip by a pivot, by Taylor arcs; measured TOP,
@@ -190,6 +190,7 @@ TEST_CASE("a top that stands on a rough floor moves as one that is held at its t
   top.velocity = top.angularVelocity.cross(top.position);
   BodyDef held = top;
   held.pivot_B = Vec3(0.0, -0.1, 0.0);
+  held.velocity.setZero();
   const BodySample stands = endOf(exactWorld(2.0, {ground(0.0, 2.0), top})).bodies[1];
   const BodySample pivots = endOf(exactWorld(2.0, {held})).bodies[0];
   const double apart = (stands.x - pivots.x).norm(), turned = stands.q.angularDistance(pivots.q);
@@ -200,7 +201,7 @@ TEST_CASE("a top that stands on a rough floor moves as one that is held at its t
 
 // Oracle: conservation. −L·a, a from the centre of mass to the contact, of a body of revolution on
 // a round end is constant whatever the friction does (Jellett): here of a capsule, whose centre of
-// mass is off the centre of its end as that of a tippe top. Measured JELLETT, allowed 1e-10.
+// mass is off the centre of its end as that of a tippe top. Measured 2e-15, allowed 1e-12.
 TEST_CASE("Jellett's integral of a round end is constant while it slides and rolls", "[figures]") {
   const double mu = GENERATE(0.0, 0.1, 0.6), r = 0.1, h = 0.05;
   BodyDef egg;
@@ -231,14 +232,14 @@ TEST_CASE("Jellett's integral of a round end is constant while it slides and rol
                       << report.certificate.energy_balance_error << ", events "
                       << report.events.size());
   CHECK_FALSE(report.stopped);
-  CHECK(worst < 1e-10);
+  CHECK(worst < 1e-12);
   CHECK(report.certificate.energy_balance_error < 1e-10);
   CHECK(report.certificate.max_penetration < 1e-11);
 }
 
 // Oracle: sticks at mu = tan θ (1 + 1e-6), slides ½ g cos θ (tan θ − mu) t² at (1 − 1e-6),
-// whichever way the slope stands. Measured 0 m, and 6e-7 of the way, which is what tan θ is known
-// to; allowed 1e-9 m and 1e-3.
+// whichever way the slope stands. Measured 0 m, and 5e-10 of the way, which is what tan θ is known
+// to; allowed 1e-9 m and 1e-8.
 TEST_CASE("a block on a slope sticks and slides to a millionth of its friction", "[figures]") {
   const double angle = GENERATE(10.0, 30.0, 50.0) * kPi / 180.0, about = GENERATE(0.0, 1.1);
   for (const double side : {1.0 + 1e-6, 1.0 - 1e-6}) {
@@ -252,7 +253,7 @@ TEST_CASE("a block on a slope sticks and slides to a millionth of its friction",
     if (side > 1.0)
       CHECK(way < 1e-9);
     else
-      CHECK(way == Approx(d).epsilon(1e-3));
+      CHECK(way == Approx(d).epsilon(1e-8));
   }
 }
 
@@ -267,11 +268,11 @@ TEST_CASE("a block comes to a stop where it should", "[figures]") {
   const double error = (end.bodies[1].x - block.position).dot(down) - d;
   WARN("stopping distance: off by " << error << " m");
   CHECK(std::abs(error) < 1e-12);
-  CHECK(end.bodies[1].v.norm() == 0.0);
+  CHECK(end.bodies[1].v.norm() < 1e-15);
 }
 
 // Oracle: a_box = (F − f1 − 25 f2)/M, a_ball = f2/m with f1 = mu1 (M + 25 m) g and f2 = ((F −
-// f1)/M) / (3.5/m + 25/M), by SimBenchmark's measure, the mean of |v − exact|². Measured 2e-28,
+// f1)/M) / (3.5/m + 25/M), by SimBenchmark's measure, the mean of |v − exact|². Measured 2e-23,
 // allowed 1e-20.
 TEST_CASE("balls roll on a box that is pushed from under them", "[figures]") {
   const int n = 5;

@@ -66,6 +66,7 @@ void Sustained::findNear(double h) {
   state_.near = nearPairs(model_, state_, boxes);
   near_.clear();
   watched_.clear();
+  touching_.clear();
   if (stopAtUnknownPair(model_, state_.near, report_)) return;
   std::vector<Contact> points;
   for (const auto& [b, a] : state_.near) {
@@ -83,7 +84,7 @@ void Sustained::findNear(double h) {
     findContacts(model_, state_.bodies, {b, a}, std::max(tolerance_.touch, pair.speed * h), points);
     for (Contact& c : points) {
       c.anchor = anchorOf(state_.bodies[a], state_.bodies[b], c.point);
-      if (c.point.separation > tolerance_.touch) watched_.push_back(c);
+      (c.point.separation > tolerance_.touch ? watched_ : touching_).push_back(c);
     }
   }
 }

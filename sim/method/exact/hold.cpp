@@ -11,6 +11,8 @@ namespace {
 
 /// Forces and accelerations below this part of the largest are rounding.
 constexpr double kRounding = 1e-10;
+/// Approach that a law of impact may leave, in speeds of rest.
+constexpr double kLeft = 100.0;
 /// What parts at less than this part of its weight has just been pushed still.
 constexpr double kSlow = 1e-4;
 /// Stretches before closed forms are tried again: the first time, and at most.
@@ -31,9 +33,9 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
   for (Contact c : cluster.contacts) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double vrel = approachVelocity(a, b, c.point);
-    if (classify(vrel, tolerance_.rest) != ContactClass::Resting) continue;
+    if (vrel > tolerance_.rest || vrel < -kLeft * tolerance_.rest) continue;
     c.lasting = true;
-    c.anchor = anchorOf(a, b, c.point);
+    if (c.anchor.rim.r == 0.0) c.anchor = anchorOf(a, b, c.point);
     const Vec3 slip = slipVelocity(a, b, c.point);
     c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
     if (c.sliding) c.slipDirection = slip.normalized();
@@ -98,11 +100,15 @@ bool Exact::steady(const Contact& c) const {
   // A ball about the centre of mass touches where it touches, however it turns.
   const double round = onB ? c.point.ra : c.point.rb;
   const Vec3& middle = onB ? c.point.pa : c.point.pb;
+  // Only a plane has no edge to slide, or roll, over.
+  const bool endless = std::holds_alternative<HalfSpace>(model_.shapes[onB ? c.b : c.a]);
+  const bool rolls =
+      (placeVelocity(a, b, c.point) - pointVelocity(owner, c.point.p)).norm() > tolerance_.stick;
+  if (rolls && !endless) return false;
   const bool ball = round > 0.0 && (middle - other.x).norm() <= tolerance_.touch;
   if (!turnsAlong(owner) || !(ball || turnsAlong(other))) return false;
   if (!slides) return true;
-  // Only a plane has no edge to slide over; a slip that friction brakes keeps its line.
-  const bool endless = std::holds_alternative<HalfSpace>(model_.shapes[onB ? c.b : c.a]);
+  // A slip that friction brakes keeps its line.
   const bool straight =
       c.friction == 0.0 || slip.cross(slipRate).norm() <= kRounding * slip.norm() * weight;
   return endless && straight;

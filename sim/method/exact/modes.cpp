@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/method/exact/rims.h"
 #include "sim/method/exact/sustained.h"
 
 namespace tumble {
@@ -17,8 +18,6 @@ constexpr double kRounding = 2e-10;
 constexpr double kPushLeft = 1e-12;
 /// [m/s] of a slip that begins: rounding.
 constexpr double kNoSlip = 1e-12;
-/// [1] A cap that leans by less lies flat.
-constexpr double kFlat = 1e-6;
 /// No pull towards zero: velocities and gaps are projected. [s]
 constexpr double kNoPull = 1e15;
 
@@ -44,32 +43,6 @@ SolveReport Sustained::solveCones(std::vector<RigidBody>& bodies,
   return RestForces(kNoPull, true).apply(bodies, contacts);
 }
 
-void Sustained::tieRims(std::vector<Contact>& contacts) const {
-  const double close = tolerance_.touch;
-  for (Contact& c : contacts) {
-    const bool onA = c.point.tie == NormalTie::FaceOfB, onB = c.point.tie == NormalTie::FaceOfA;
-    if ((!onA && !onB) || (onA ? c.point.ra : c.point.rb) > 0.0) continue;
-    const int i = onA ? c.a : c.b;
-    const RigidBody& body = state_.bodies[i];
-    const Vec3 p = onA ? c.anchor.pa_B : c.anchor.pb_B, n = body.q.conjugate() * c.point.n;
-    for (const Convex& part : state_.parts[i])
-      for (const Outline::Rim& rim : part.outline.rims) {
-        const Vec3 axis = rim.u.cross(rim.v), arm = p - rim.centre;
-        const bool on = std::abs(arm.dot(axis)) <= close && std::abs(arm.norm() - rim.r) <= close;
-        if (on && n.cross(axis).norm() > kFlat) c.anchor.rim = {rim.centre, axis, rim.r};
-      }
-    follow(state_.bodies[c.a], state_.bodies[c.b], c);
-  }
-  // One point of a rim is the outermost.
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    for (std::size_t l = contacts.size() - 1; l > k; --l) {
-      const Contact &c = contacts[k], &d = contacts[l];
-      const Anchor::Rim &r = c.anchor.rim, &s = d.anchor.rim;
-      if (r.r > 0.0 && c.a == d.a && c.b == d.b && s.r == r.r && s.centre_B == r.centre_B)
-        contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(l));
-    }
-}
-
 void Sustained::chooseModes() {
   acceleration_ = model_.def.gravity.norm();
   for (std::size_t i = 0; i < state_.bodies.size(); ++i)
@@ -83,8 +56,9 @@ void Sustained::chooseModes() {
   }
   if (!state_.modesKnown) {
     const std::vector<Contact> before = lasting;
-    for (Contact& c : lasting) c.anchor = anchorOf(state_.bodies[c.a], state_.bodies[c.b], c.point);
-    tieRims(lasting);
+    tieRims(state_, tolerance_.touch, lasting);
+    // What touches to rounding is not moved: that would be work.
+    for (Contact& c : lasting) c.granted = -c.point.separation;
     std::vector<RigidBody> bodies = state_.bodies;
     solveCones(bodies, lasting);
     for (Contact& c : lasting) {

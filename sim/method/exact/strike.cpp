@@ -6,6 +6,7 @@
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
 #include "sim/method/exact/exact.h"
+#include "sim/method/exact/rims.h"
 
 namespace tumble {
 namespace {
@@ -83,6 +84,13 @@ Cluster Exact::gather(double t, std::span<const int> seeds) {
     for (const int j : w.finite)
       if (j != i && w.swept[i].overlaps(w.swept[j])) meet(j);
   }
+  const auto hasRim = [&](int i) {
+    const std::vector<Convex>& parts = state_.parts[i];
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const Convex& part) { return !part.outline.rims.empty(); });
+  };
+  if (std::any_of(cluster.bodies.begin(), cluster.bodies.end(), hasRim))
+    tieRims(state_, ContactTolerance::forSize(model_.size).touch, cluster.contacts);
   return cluster;
 }
 

@@ -144,7 +144,7 @@ bool Sustained::featuresChanged() const {
     for (const Contact& c : held)
       if (ofPair(c) && !lists(found, c)) return true;
     for (const Contact& c : found)
-      if (c.point.separation < close && !lists(held, c)) return true;
+      if (c.point.separation < close && !lists(held, c) && !lists(touching_, c)) return true;
   }
   return false;
 }

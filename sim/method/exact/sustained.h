@@ -44,7 +44,6 @@ class Sustained {
 
   // modes.cpp: what each contact does.
   void chooseModes();
-  void tieRims(std::vector<Contact>& contacts) const;
   /// The contact problem of this instant; contact forces are left on bodies and contacts.
   SolveReport solveCones(std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) const;
   /// Whether the forces of the modes, which the bodies carry, accelerate as the contact problem.
@@ -69,11 +68,12 @@ class Sustained {
   std::vector<double> y0_, y_;
   std::vector<RigidBody> trial_;
   std::vector<Near> near_;
-  std::vector<Contact> watched_;  ///< points of lasting pairs that do not touch yet
-  std::vector<double> slip_;      ///< [m/s] per lasting contact, at the start
-  double acceleration_ = 1.0;     ///< [m/s²] what counts as large
-  double most_ = 0.0;             ///< [s] how far could be looked ahead
-  long counted_ = 0;              ///< evaluations of system_ that are in the certificate
+  std::vector<Contact> watched_;   ///< points of lasting pairs that do not touch yet
+  std::vector<Contact> touching_;  ///< points of lasting pairs that touched at the start
+  std::vector<double> slip_;       ///< [m/s] per lasting contact, at the start
+  double acceleration_ = 1.0;      ///< [m/s²] what counts as large
+  double most_ = 0.0;              ///< [s] how far could be looked ahead
+  long counted_ = 0;               ///< evaluations of system_ that are in the certificate
   Cause cause_ = Cause::None;
   double reached_ = 0.0;  ///< [s] of the h last tried
 };
