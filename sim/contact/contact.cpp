@@ -55,6 +55,12 @@ Vec3 wandering(const RigidBody& round, const RigidBody& flat, const ContactPoint
   return c.bend * e.dot((round.omega - flat.omega).cross(n)) * e;
 }
 
+/// Whether the point of a face's contact is where two edges cross, and wanders along both: marked
+/// by a bend below 0.
+bool crosses(const ContactPoint& c) {
+  return c.bend < 0.0;
+}
+
 }  // namespace
 
 ContactTolerance ContactTolerance::forSize(double size) {
@@ -103,12 +109,14 @@ void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   switch (c.tie) {
     case NormalTie::FaceOfB:  // the foot of pa moves over the face of b
       c.n = b.q * anchor.n_B;
+      if (crosses(c)) nearestOnEdges(c);
       if (anchor.rim.r > 0.0) outermostOnRim(a, anchor.rim, c.n, c.pa, c.ea, c.bend);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pb = c.pa - reach(c) * c.n;
       break;
     case NormalTie::FaceOfA:
       c.n = a.q * anchor.n_B;
+      if (crosses(c)) nearestOnEdges(c);
       if (anchor.rim.r > 0.0) outermostOnRim(b, anchor.rim, -c.n, c.pb, c.eb, c.bend);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pa = c.pb + reach(c) * c.n;
@@ -167,7 +175,7 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
     return c.tie == NormalTie::FaceOfB
                ? Vec3(pointVelocity(a, c.pa) + wandering(a, b, c, c.ea, c.n))
                : Vec3(pointVelocity(b, c.pb) + wandering(b, a, c, c.eb, -c.n));
-  switch (c.tie) {
+  switch (crosses(c) ? NormalTie::Edges : c.tie) {
     case NormalTie::FaceOfB:
     case NormalTie::Points:
     case NormalTie::EdgeOfB:
@@ -194,6 +202,10 @@ double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const Cont
     const Vec3& e = c.tie == NormalTie::FaceOfB ? c.ea : c.eb;
     const double rolls = e.dot((a.omega - b.omega).cross(c.n));
     bias -= c.bend * rolls * rolls;
+  } else if (crosses(c)) {
+    const Vec3 material =
+        c.tie == NormalTie::FaceOfB ? pointVelocity(a, c.pa) : pointVelocity(b, c.pb);
+    bias += 2.0 * c.n.dot((a.omega - b.omega).cross(placeVelocity(a, b, c) - material));
   }
   return bias;
 }

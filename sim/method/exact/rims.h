@@ -1,5 +1,5 @@
-// Rims of cylinders that touch a face: at the outermost point, wherever a list of points has
-// theirs.
+// Contact points on faces that wander over both bodies: outermost points of rims, and corners where
+// the edges of two faces cross.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 namespace tumble {
 
 /// Ties contacts to the bodies of the state. A rim that leans and meets a face keeps one contact,
-/// which follows its outermost point.
+/// which follows its outermost point. A corner at which edges of two boxes cross follows both; it
+/// is told by a bend below 0.
 /// @param close  [m] of a rim, for a point that is on it
 void tieRims(const State& state, double close, std::vector<Contact>& contacts);
 

@@ -15,6 +15,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-13;
 /// [m] per size of the world: overlap that dates an event of a pair that touches already.
 constexpr double kOff = 1e-12;
+/// [1] Normals that differ by less are one: faces that lie on each other may take turns.
+constexpr double kOneNormal = 1e-8;
 /// [s] A stretch that is shorter stands still; so many in a row are too many.
 constexpr double kInstant = 1e-12;
 constexpr int kPatience = 40;
@@ -26,7 +28,8 @@ bool allFinite(std::span<const double> y) {
 }
 
 bool sameFeature(const Contact& c, const Contact& d) {
-  return c.a == d.a && c.b == d.b && c.point.feature == d.point.feature;
+  return c.a == d.a && c.b == d.b && c.point.feature == d.point.feature &&
+         (c.point.n - d.point.n).squaredNorm() < kOneNormal * kOneNormal;
 }
 
 }  // namespace
