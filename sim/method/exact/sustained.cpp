@@ -17,8 +17,8 @@ constexpr double kTolerance = 1e-13;
 constexpr double kOff = 1e-12;
 /// [1] Normals that differ by less are one: faces that lie on each other may take turns.
 constexpr double kOneNormal = 1e-8;
-/// [s] A stretch that is shorter stands still; so many in a row are too many.
-constexpr double kInstant = 1e-12;
+/// [s] A stretch that is shorter stands still; or hardly moves, and so many in a row are too many.
+constexpr double kInstant = 1e-12, kShort = 1e-7;
 constexpr int kPatience = 40;
 /// [s] The first stretch that is gone blindly after that.
 constexpr double kBlind = 1e-9;
@@ -61,7 +61,7 @@ void Sustained::next() {
     report_.note("more events than time can hold were seen late; max_penetration has the cost");
   else
     event = findEvent(h);
-  if (!blind && h > kInstant)
+  if (!blind && h > kShort)
     state_.stalled = state_.blindness = 0;
   else
     state_.stalled = blind ? kPatience - 4 : state_.stalled + 1;
