@@ -81,7 +81,14 @@ class Exact {
   void settle();
   /// Finds the forces of contacts that last, and gives all bodies of the cluster their flights.
   void hold(double t, Cluster& cluster);
+  /// Lists the contacts that rest and finds their forces, which the bodies then carry, after jams
+  /// have come to an end. @return the residual of the contact problem
+  double findForces(double t, const Cluster& cluster, std::vector<Contact>& resting);
   std::vector<Contact> restingOf(const Cluster& cluster) const;
+  /// Drops what is neither pushed nor pressed. @return whether any of it parts slowly
+  bool letGo(std::vector<Contact>& resting) const;
+  /// Gives the bodies of a cluster flights under the forces that they carry.
+  void flyOn(double t, const Cluster& cluster);
   /// @return the residual of the contact problem
   double solveForces(std::vector<Contact>& resting);
   void stillNormals(const std::vector<Contact>& resting);

@@ -150,40 +150,60 @@ void Exact::stillNormals(const std::vector<Contact>& resting) {
   }
 }
 
-void Exact::hold(double t, Cluster& cluster) {
-  std::vector<Contact> resting = restingOf(cluster);
-  const auto forces = [&] {
+double Exact::findForces(double t, const Cluster& cluster, std::vector<Contact>& resting) {
+  const auto solve = [&] {
     for (const int i : cluster.bodies) {
       state_.bodies[i].force = state_.outer[i];
       state_.bodies[i].torque.setZero();
     }
+    resting = restingOf(cluster);
     return resting.empty() ? 0.0 : solveForces(resting);
   };
-  double residual = forces();
-  if (endJam(t, cluster, resting, residual)) {
-    resting = restingOf(cluster);
-    residual = forces();
-  }
-  double& worst = report_.certificate.max_complementarity;
-  worst = std::max(worst, residual);
-  // What is neither pushed nor pressed goes its way.
+  const double residual = solve();
+  return endJam(t, cluster, resting, residual) ? solve() : residual;
+}
+
+bool Exact::letGo(std::vector<Contact>& resting) const {
   double strongest = 0.0;
   for (const Contact& c : resting) strongest = std::max(strongest, c.force.norm());
-  bool parts = false;
+  bool slowly = false;
   std::erase_if(resting, [&](const Contact& c) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double apart = normalAcceleration(a, b, c.point);
     const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
     const bool goes = c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
-    parts = parts || (goes && apart < kSlow * weight);
+    slowly = slowly || (goes && apart < kSlow * weight);
     return goes;
   });
+  return slowly;
+}
+
+void Exact::hold(double t, Cluster& cluster) {
+  std::vector<Contact> resting;
+  double& worst = report_.certificate.max_complementarity;
+  worst = std::max(worst, findForces(t, cluster, resting));
+  const bool slowly = letGo(resting);
   if (!resting.empty()) stillNormals(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
   // What parts as slowly as a push that ends is followed until there is a gap to be seen.
-  if (parts ||
+  if (slowly ||
       !std::all_of(resting.begin(), resting.end(), [&](const Contact& c) { return steady(c); }))
     return sustain(t, cluster);
+  flyOn(t, cluster);
+  for (const Contact& c : before)
+    if (!lasts(c.a, c.b)) lookFor({c.b, c.a}, t);
+  lookForStops(t);
+  // Many new flights make the rest of the window worthless: begin another.
+  State::Window& w = state_.window;
+  const long most = 64 + 4 * static_cast<long>(w.finite.size());
+  if (w.renewals > most && w.swept.size() > 64 && t > w.t0) {
+    w.length = t - w.t0;
+    w.t1 = t;
+    keepBooks(t);
+  }
+}
+
+void Exact::flyOn(double t, const Cluster& cluster) {
   std::vector<int> renewed;
   for (const int i : cluster.bodies) {
     const RigidBody& body = state_.bodies[i];
@@ -201,18 +221,7 @@ void Exact::hold(double t, Cluster& cluster) {
     renewed.push_back(i);
   }
   for (const int i : renewed) lookAround(i, t);
-  for (const Contact& c : before)
-    if (!lasts(c.a, c.b)) lookFor({c.b, c.a}, t);
-  lookForStops(t);
-  // Many new flights make the rest of the window worthless: begin another.
-  State::Window& w = state_.window;
-  w.renewals += static_cast<long>(renewed.size());
-  const long most = 64 + 4 * static_cast<long>(w.finite.size());
-  if (w.renewals > most && w.swept.size() > 64 && t > w.t0) {
-    w.length = t - w.t0;
-    w.t1 = t;
-    keepBooks(t);
-  }
+  state_.window.renewals += static_cast<long>(renewed.size());
 }
 
 /// What rolls, tips or slides over an edge has no closed form here.
