@@ -58,14 +58,15 @@ bool Exact::jams(const Contact& c, const std::vector<Contact>& resting, bool sol
     bodies[k].torque.setZero();
   }
   if (!(normalAcceleration(bodies[0], bodies[1], c.point) < 0.0)) return false;
-  if (pushLeft(bodies[0], bodies[1], c) <= (state_.jammed ? kPushGone : kPushLeft)) return true;
-  if (solved) return false;
   std::vector<Contact> contacts;
   for (Contact d : resting) {
     if (d.a != c.a || d.b != c.b) continue;
     d.a = 0, d.b = 1;
     contacts.push_back(d);
   }
+  if (contacts.size() == 1)
+    return pushLeft(bodies[0], bodies[1], c) <= (state_.jammed ? kPushGone : kPushLeft);
+  if (solved && !state_.jammed) return false;
   ModeForces().apply(bodies, contacts);
   double push = 0.0;
   for (const Contact& d : contacts) push += d.force.dot(d.point.n);

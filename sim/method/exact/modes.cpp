@@ -110,7 +110,9 @@ double Sustained::modeAllowance() {
     }
     const double along = slipVelocity(a, b, c.point).dot(c.slipDirection);
     least = std::min(least, along + (slip_[k] > tolerance_.stick ? 0.0 : kNoSlip));
-    least = std::min(least, pushLeft(a, b, c) - kPushLeft);
+    const auto ofPair = [&](const Contact& d) { return d.a == c.a && d.b == c.b && !d.idle; };
+    if (std::count_if(contacts.begin(), contacts.end(), ofPair) == 1)
+      least = std::min(least, pushLeft(a, b, c) - kPushLeft);
   }
   // The smallest forces may break a law that others, with the same motion, keep.
   if (doubtful < 0.0 && conesAgree(trial_)) doubtful = kMargin;
