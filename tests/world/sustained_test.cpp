@@ -351,8 +351,8 @@ TEST_CASE("a rod on an edge jams as one on a point") {
 }
 
 // Oracle: two methods. The course in steps of 1/8000 s, which is right to its step; a block slides
-// over the edge of a table, tips there and lands. And a ball rolls over it. The books tell the
-// rest.
+// over the edge of a table, tips there and lands; and a ball rolls over it. Measured 1.4e-6 m, four
+// and a half times as much in steps four times as long, and 3e-14 m; allowed 1e-5 m.
 TEST_CASE("what slides or rolls over an edge tips and falls where it should") {
   BodyDef table = box("table", {2.0, 1.0, 2.0}, {0.0, 0.5, 0.0}, 0.0, 0.3);
   table.fixed = true;
