@@ -31,6 +31,9 @@ struct ContactPoint {
   double ra = 0.0, rb = 0.0;  ///< [m] radius about pa and pb: of a ball, else 0
   Vec3 ea = Vec3::Zero(),
        eb = Vec3::Zero();  ///< [1] unit edge directions where the tie names edges
+  /// [m] Radius of curvature of a followed rim at its outermost point, along the edge direction of
+  /// the body whose point meets the face; 0 if that point is a corner, or a ball.
+  double bend = 0.0;
 };
 
 /// The points of one pair, with one normal.

@@ -37,6 +37,30 @@ void nearestOnEdges(ContactPoint& c) {
   c.pb += ((db - k * da) / det) * c.eb;
 }
 
+/// Moves `p` to the point of a rim that is outermost along −n: the direction across the axis that
+/// leans most, and there the radius of curvature of the solid along the rim's tangent.
+///   d = −(n − (n·u) u)/s,   s = |n − (n·u) u|,   p = centre + r d,   ρ = r/s
+void outermostOnRim(const RigidBody& body, const Anchor::Rim& rim, const Vec3& n, Vec3& p, Vec3& e,
+                    double& bend) {
+  const Vec3 u = body.q * rim.axis_B, lean = across(n, u);
+  const double s = lean.norm();
+  p = toWorld(body.pose(), rim.centre_B) - (rim.r / s) * lean;
+  e = u.cross(lean) / s;
+  bend = rim.r / s;
+}
+
+/// How fast the outermost point of a rim wanders over its solid [m/s].
+Vec3 wandering(const RigidBody& round, const RigidBody& flat, const ContactPoint& c, const Vec3& e,
+               const Vec3& n) {
+  return c.bend * e.dot((round.omega - flat.omega).cross(n)) * e;
+}
+
+/// Whether the point of a face's contact is where two edges cross, and wanders along both: marked
+/// by a bend below 0.
+bool crosses(const ContactPoint& c) {
+  return c.bend < 0.0;
+}
+
 }  // namespace
 
 ContactTolerance ContactTolerance::forSize(double size) {
@@ -85,11 +109,15 @@ void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   switch (c.tie) {
     case NormalTie::FaceOfB:  // the foot of pa moves over the face of b
       c.n = b.q * anchor.n_B;
+      if (crosses(c)) nearestOnEdges(c);
+      if (anchor.rim.r > 0.0) outermostOnRim(a, anchor.rim, c.n, c.pa, c.ea, c.bend);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pb = c.pa - reach(c) * c.n;
       break;
     case NormalTie::FaceOfA:
       c.n = a.q * anchor.n_B;
+      if (crosses(c)) nearestOnEdges(c);
+      if (anchor.rim.r > 0.0) outermostOnRim(b, anchor.rim, -c.n, c.pb, c.eb, c.bend);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pa = c.pb + reach(c) * c.n;
       break;
@@ -143,7 +171,11 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
 }
 
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  switch (c.tie) {
+  if (c.bend > 0.0)
+    return c.tie == NormalTie::FaceOfB
+               ? Vec3(pointVelocity(a, c.pa) + wandering(a, b, c, c.ea, c.n))
+               : Vec3(pointVelocity(b, c.pb) + wandering(b, a, c, c.eb, -c.n));
+  switch (crosses(c) ? NormalTie::Edges : c.tie) {
     case NormalTie::FaceOfB:
     case NormalTie::Points:
     case NormalTie::EdgeOfB:
@@ -165,7 +197,17 @@ double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const Cont
   const Vec3 centripetal =
       a.omega.cross(a.omega.cross(c.pa - a.x)) - b.omega.cross(b.omega.cross(c.pb - b.x));
   const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
-  return c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
+  double bias = c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
+  if (c.bend > 0.0) {
+    const Vec3& e = c.tie == NormalTie::FaceOfB ? c.ea : c.eb;
+    const double rolls = e.dot((a.omega - b.omega).cross(c.n));
+    bias -= c.bend * rolls * rolls;
+  } else if (crosses(c)) {
+    const Vec3 material =
+        c.tie == NormalTie::FaceOfB ? pointVelocity(a, c.pa) : pointVelocity(b, c.pb);
+    bias += 2.0 * c.n.dot((a.omega - b.omega).cross(placeVelocity(a, b, c) - material));
+  }
+  return bias;
 }
 
 Vec3 pointAcceleration(const RigidBody& body, const Vec3& p) {
@@ -183,6 +225,14 @@ double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const Contac
                             const Vec3& t) {
   const Vec3 place = placeVelocity(a, b, c);
   return t.dot(a.omega.cross(place - a.v) - b.omega.cross(place - b.v));
+}
+
+Vec3 slipAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  const Vec3 pull = pointAcceleration(a, c.p) - pointAcceleration(b, c.p);
+  Vec3 t1, t2, rate = Vec3::Zero();
+  tangents(c.n, Vec3::Zero(), t1, t2);
+  for (const Vec3& t : {t1, t2}) rate += (t.dot(pull) + slipAccelerationBias(a, b, c, t)) * t;
+  return rate;
 }
 
 void tangents(const Vec3& n, const Vec3& preferred, Vec3& t1, Vec3& t2) {

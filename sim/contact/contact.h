@@ -31,6 +31,12 @@ struct Anchor {
   Vec3 pa_B = Vec3::Zero(), pb_B = Vec3::Zero();  ///< [m] material points of a and b
   Vec3 n_B = Vec3::Zero();                        ///< normal in the frame of the body it is tied to
   Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< edge directions
+  /// The rim of a cylinder, r > 0, that meets the face: its outermost point is the one that
+  /// touches. In the frame of its body.
+  struct Rim {
+    Vec3 centre_B = Vec3::Zero(), axis_B = Vec3::UnitY();
+    double r = 0.0;  ///< [m]
+  } rim = {};
 };
 
 /// One contact between two bodies of a world.
@@ -45,6 +51,7 @@ struct Contact {
   bool sliding = false;   ///< its friction is kinetic
   bool creeping = false;  ///< slides so slowly that a step could turn its slip round
   bool mayStick = false;  ///< its slip can come to an end along slipDirection
+  bool idle = false;      ///< touches and lasts, but carries nothing
   Vec3 slipDirection = Vec3::Zero();  ///< of the slip at the start of this stretch of motion
   Vec3 force = Vec3::Zero();          ///< [N] on a, friction included
 };
@@ -73,8 +80,9 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
 /// The part of d²(separation)/dt² [m/s²] that does not come from accelerations:
-///   n·(ωa×(ωa×ra) − ωb×(ωb×rb)) + 2 ṅ·(ṗa − ṗb) − |pa − pb| |ṅ|²
-/// Baraff II, §9.3, with the last term added for round bodies. ra, rb reach to pa, pb.
+///   n·(ωa×(ωa×ra) − ωb×(ωb×rb)) + 2 ṅ·(ṗa − ṗb) − |pa − pb| |ṅ|² − ρ (e·((ωa − ωb)×n))²
+/// Baraff II, §9.3, with the last two terms added for round bodies: balls, and rims of curvature
+/// 1/ρ along e, which roll from point to point. ra, rb reach to pa, pb.
 double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
 /// Acceleration [m/s²] of the material point at p [m] under the body's force and torque; 0 of a
@@ -84,6 +92,9 @@ Vec3 pointAcceleration(const RigidBody& body, const Vec3& p);
 /// n·p″ = d²(separation)/dt² [m/s²] under the forces and torques that the bodies carry (slide
 /// SD48).
 double normalAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
+/// d(slip)/dt [m/s²] along the surface under the forces and torques that the bodies carry.
+Vec3 slipAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
 /// The part of d(slip)/dt [m/s²] along t that does not come from accelerations.
 double slipAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c,

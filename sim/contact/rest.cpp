@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact/polish.h"
 #include "sim/contact/rows.h"
 #include "sim/problem/cone.h"
 
@@ -57,11 +58,16 @@ SolveReport RestForces::solve(std::span<const Contact> contacts, bool bonds) {
   // Pivoting is exact where there is no friction; with it, sweeps that start from the last solution
   // (the stage before) are soon there, unless bonds carry pushes far. What they leave is in the
   // certificate.
-  constexpr int kSweeps = 200;
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
-  return solveByIslands(*findSolver(friction && !bonds ? "pgs" : "pivoting"), problem_,
-                        {.maxIterations = kSweeps}, solution_);
+  constexpr int kSweeps = 200, kMoreSweeps = 10000;
+  const Solver& solver = *findSolver(friction && !bonds ? "pgs" : "pivoting");
+  SolveReport report = solveByIslands(solver, problem_, {.maxIterations = kSweeps}, solution_);
+  if (!polished_ || !friction) return report;
+  report = polish(problem_, {}, solution_);
+  if (report.status == SolveStatus::Solved) return report;
+  solveByIslands(solver, problem_, {.maxIterations = kMoreSweeps}, solution_);
+  return polish(problem_, {}, solution_);
 }
 
 Vec3 RestForces::force(std::size_t contact) const {

@@ -22,7 +22,9 @@ namespace tumble {
 class RestForces {
  public:
   /// @param tau  time constant τ [s] > 0 of the pull towards zero; a few steps
-  explicit RestForces(double tau) : tau_(tau) {}
+  /// @param polished  to the last digits where there is friction, at any cost: for the instants at
+  ///   which it is decided what sticks; else sweeps that start from the forces of a moment ago do
+  explicit RestForces(double tau, bool polished = false) : tau_(tau), polished_(polished) {}
 
   /// Reads pose, velocity, force and torque of the bodies, sets `force` of every lasting contact
   /// and adds the contact forces to force and torque. Contacts must have been followed to this
@@ -44,6 +46,7 @@ class RestForces {
   Vec3 force(std::size_t contact) const;
 
   double tau_;
+  bool polished_;
   Problem problem_;
   Solution solution_;
 };

@@ -1,6 +1,6 @@
 // The table of methods.
 #include "sim/method/course/course.h"
-#include "sim/method/flights_and_steps.h"
+#include "sim/method/exact_or_joined.h"
 #include "sim/method/method.h"
 #include "sim/method/stepping/stepping.h"
 
@@ -11,7 +11,7 @@ constexpr Method kMethods[] = {
     {"course", "the notes: ODE black box, back up to the collision, impulses, resting forces",
      checkCourse, advanceCourse, lookCourse, true},
     {"exact", "from event to event in closed form: no step, no overlap, no missed hit",
-     checkFlightsAndSteps, advanceFlightsAndSteps, lookFlightsAndSteps, true},
+     checkExactOrJoined, advanceExactOrJoined, lookExactOrJoined, true},
     {"stepping", "one velocity-level contact problem per step, for stacks and piles", checkStepping,
      advanceStepping, lookStepping, true},
 };

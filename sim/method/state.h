@@ -100,9 +100,13 @@ struct State {
   double booked = 0.0;         ///< [s] up to which the books are kept,
   double bookedHold = 0.0;     ///< [s] and what lasting contacts did
 
-  // What `exact` remembers of stretches that go on in steps.
-  bool inSteps = false;
-  int stepsLeft = 0, patience = 0;  ///< until closed forms are tried again; how many the next time
+  // What `exact` remembers of contacts that last while their forces change.
+  bool sustained = false;   ///< bodies go on through such a stretch
+  bool modesKnown = false;  ///< which contact sticks, slides or idles
+  bool jammed = false;      ///< forces grow beyond all bounds
+  int stretchesLeft = 0;    ///< until closed forms are tried again,
+  int patience = 0;         ///< and how many the next time
+  int blindness = 0;        ///< stretches in a row that saw events late
 };
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 
 #include "sim/collide/collide.h"
 #include "sim/method/exact/approach.h"
+#include "sim/method/exact/sustained.h"
 
 namespace tumble {
 namespace {
@@ -64,8 +65,8 @@ void checkExact(const Model& model, std::span<const RigidBody>) {
 
 void advanceExact(const Model& model, State& state, double t_end, Report& report) {
   Exact exact(model, state, report);
-  if (state.outer.empty() || state.settled) exact.takeOff();
-  state.settled = false;
+  std::optional<Sustained> sustained;
+  if (state.outer.empty()) exact.takeOff();
   for (HeavyTop& top : state.tops) top.forget(state.lookedAt);
   for (std::vector<Flight>& flights : state.flights) {
     auto past = flights.begin();
@@ -74,12 +75,26 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
   }
   while (state.holds.size() > 1 && state.holds[1].t <= state.lookedAt)
     state.holds.erase(state.holds.begin());
-  while (state.t < t_end && !report.stopped && !state.inSteps) exact.next(t_end);
+  while (state.t < t_end && !report.stopped) {
+    if (state.settled) exact.takeOff();
+    state.settled = false;
+    if (!state.sustained) {
+      exact.next(t_end);
+    } else {
+      if (!sustained) sustained.emplace(model, state, report);
+      sustained->next();
+    }
+  }
   state.lookedAt = t_end;
 }
 
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                std::vector<Contact>& contacts) {
+  // At the end of such a stretch the bodies are where it left them: flights begin later.
+  const bool sustained = std::any_of(state.trail.begin(), state.trail.end(),
+                                     [&](const Segment& s) { return s.t0 <= t && t < s.t1; });
+  if (sustained || ((state.sustained || state.settled) && t >= state.t))
+    return lookSustained(model, state, t, bodies, contacts);
   contacts.clear();
   if (bodies.size() != state.bodies.size()) bodies = state.bodies;
   for (std::size_t i = 0; i < state.flights.size(); ++i) {
@@ -134,7 +149,7 @@ void Exact::takeOff() {
     state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, t);
   openWindow();
   if (!report_.stopped) settle();
-  if (state_.inSteps || report_.stopped) return;
+  if (state_.sustained || report_.stopped) return;
   openWindow();  // contacts that lasted need not last any more
   if (!state_.holds.empty() && state_.holds.back().t < t)
     state_.holds.push_back({t, state_.lasting});
@@ -142,7 +157,8 @@ void Exact::takeOff() {
 }
 
 void Exact::settle() {
-  // What comes from steps, or from a scene, touches less closely than what flew here.
+  // What comes from a stretch in contact, or from a scene, touches less closely than what flew
+  // here.
   const double touch = tolerance_.touch;
   tolerance_.touch = ContactTolerance::forSize(model_.size).touch;
   const auto held = [&](int body) {
@@ -152,7 +168,7 @@ void Exact::settle() {
   std::vector<char> settled(state_.bodies.size(), 0);
   const std::size_t firstEvent = report_.events.size();
   for (const int i : model_.solid) {
-    if (settled[i] || model_.fixed(i) || report_.stopped || state_.inSteps) continue;
+    if (settled[i] || model_.fixed(i) || report_.stopped) continue;
     const int seeds[] = {i};
     Cluster cluster = gather(state_.t, seeds);
     for (const int body : cluster.bodies) settled[body] = 1;

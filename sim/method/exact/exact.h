@@ -1,7 +1,7 @@
 // From event to event, without a step: bodies fly in closed form, the first instant at which two of
 // them touch is found and never passed, an impact law gives them new flights, and what stays in
-// contact is held by constant forces. The order is that of the flow chart of slide SD39; there is
-// no illegal state to come back from.
+// contact is held by constant forces, or, where these change, followed by `sustained.h`. The order
+// is that of the flow chart of slide SD39; there is no illegal state to come back from.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,6 @@ namespace tumble {
 /// @throws Refusal for a force under which flight has no closed form, and for a top under more than
 ///   gravity.
 void checkExact(const Model& model, std::span<const RigidBody> bodies);
-/// As far as t_end, or as contacts that last have constant forces: then it sets state.inSteps.
 void advanceExact(const Model& model, State& state, double t_end, Report& report);
 /// Any instant: each body by its own flight. Allocates nothing once `bodies` has its size.
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
@@ -82,15 +81,28 @@ class Exact {
   void settle();
   /// Finds the forces of contacts that last, and gives all bodies of the cluster their flights.
   void hold(double t, Cluster& cluster);
+  /// Lists the contacts that rest and finds their forces, which the bodies then carry, after jams
+  /// have come to an end. @return the residual of the contact problem
+  double findForces(double t, const Cluster& cluster, std::vector<Contact>& resting);
   std::vector<Contact> restingOf(const Cluster& cluster) const;
-  void solveForces(std::vector<Contact>& resting);
+  /// Drops what is neither pushed nor pressed. @return whether any of it parts slowly
+  bool letGo(std::vector<Contact>& resting) const;
+  /// Gives the bodies of a cluster flights under the forces that they carry.
+  void flyOn(double t, const Cluster& cluster);
+  /// @return the residual of the contact problem
+  double solveForces(std::vector<Contact>& resting);
   void stillNormals(const std::vector<Contact>& resting);
   bool steady(const Contact& contact) const;
   /// @return the contacts of the cluster that lasted before
   std::vector<Contact> changeHolds(double t, const Cluster& cluster,
                                    const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
-  void goOnInSteps(double t, const Cluster& cluster);
+  /// Whether a contact slides in a manner that no force goes with.
+  bool jams(const Contact& contact, const std::vector<Contact>& resting, bool solved) const;
+  /// Gives jammed contacts an impulse. @return whether it did
+  bool endJam(double t, const Cluster& cluster, const std::vector<Contact>& resting,
+              double residual);
+  void sustain(double t, const Cluster& cluster);
   void lookForStops(double t);
   void renew(double t, int body, const Vec3& acceleration);
   void closeRests(double t);

@@ -1,4 +1,4 @@
-// What stays in contact: constant forces that hold it, as long as these are constant.
+// What stays in contact: constant forces that hold it, or a stretch of motion that follows them.
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +11,12 @@ namespace {
 
 /// Forces and accelerations below this part of the largest are rounding.
 constexpr double kRounding = 1e-10;
+/// Approach that a law of impact may leave, in speeds of rest.
+constexpr double kLeft = 100.0;
+/// What parts at less than this part of its weight has just been pushed still.
+constexpr double kSlow = 1e-4;
+/// Stretches before closed forms are tried again: the first time, and at most.
+constexpr int kFirst = 1, kMost = 64;
 /// No pull towards zero: flights in contact have no error that grows. [s]
 constexpr double kNoPull = 1e15;
 
@@ -27,9 +33,9 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
   for (Contact c : cluster.contacts) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double vrel = approachVelocity(a, b, c.point);
-    if (classify(vrel, tolerance_.rest) != ContactClass::Resting) continue;
+    if (vrel > tolerance_.rest || vrel < -kLeft * tolerance_.rest) continue;
     c.lasting = true;
-    c.anchor = anchorOf(a, b, c.point);
+    if (c.anchor.rim.r == 0.0) c.anchor = anchorOf(a, b, c.point);
     const Vec3 slip = slipVelocity(a, b, c.point);
     c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
     if (c.sliding) c.slipDirection = slip.normalized();
@@ -38,7 +44,7 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
   return resting;
 }
 
-void Exact::solveForces(std::vector<Contact>& resting) {
+double Exact::solveForces(std::vector<Contact>& resting) {
   std::vector<RigidBody> bodies;
   std::vector<int> local(state_.bodies.size(), -1), global;
   const auto place = [&](int i) {
@@ -56,15 +62,14 @@ void Exact::solveForces(std::vector<Contact>& resting) {
     c.a = place(c.a);
     c.b = place(c.b);
   }
-  const SolveReport solved = RestForces(kNoPull).apply(bodies, contacts);
-  Certificate& books = report_.certificate;
-  books.max_complementarity = std::max(books.max_complementarity, solved.residual);
-  ++books.evaluations;
+  const SolveReport solved = RestForces(kNoPull, true).apply(bodies, contacts);
+  ++report_.certificate.evaluations;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     state_.bodies[global[k]].force = bodies[k].force;
     state_.bodies[global[k]].torque = bodies[k].torque;
   }
   for (std::size_t k = 0; k < resting.size(); ++k) resting[k].force = contacts[k].force;
+  return solved.residual;
 }
 
 // A contact lasts with a constant force if its normal and its gap stay: faces that do not turn, and
@@ -95,11 +100,15 @@ bool Exact::steady(const Contact& c) const {
   // A ball about the centre of mass touches where it touches, however it turns.
   const double round = onB ? c.point.ra : c.point.rb;
   const Vec3& middle = onB ? c.point.pa : c.point.pb;
+  // Only a plane has no edge to slide, or roll, over.
+  const bool endless = std::holds_alternative<HalfSpace>(model_.shapes[onB ? c.b : c.a]);
+  const bool rolls =
+      (placeVelocity(a, b, c.point) - pointVelocity(owner, c.point.p)).norm() > tolerance_.stick;
+  if (rolls && !endless) return false;
   const bool ball = round > 0.0 && (middle - other.x).norm() <= tolerance_.touch;
   if (!turnsAlong(owner) || !(ball || turnsAlong(other))) return false;
   if (!slides) return true;
-  // Only a plane has no edge to slide over; a slip that friction brakes keeps its line.
-  const bool endless = std::holds_alternative<HalfSpace>(model_.shapes[onB ? c.b : c.a]);
+  // A slip that friction brakes keeps its line.
   const bool straight =
       c.friction == 0.0 || slip.cross(slipRate).norm() <= kRounding * slip.norm() * weight;
   return endless && straight;
@@ -141,26 +150,60 @@ void Exact::stillNormals(const std::vector<Contact>& resting) {
   }
 }
 
-void Exact::hold(double t, Cluster& cluster) {
-  std::vector<Contact> resting = restingOf(cluster);
-  for (const int i : cluster.bodies) {
-    state_.bodies[i].force = state_.outer[i];
-    state_.bodies[i].torque.setZero();
-  }
-  if (!resting.empty()) solveForces(resting);
-  // What is neither pushed nor pressed goes its way.
+double Exact::findForces(double t, const Cluster& cluster, std::vector<Contact>& resting) {
+  const auto solve = [&] {
+    for (const int i : cluster.bodies) {
+      state_.bodies[i].force = state_.outer[i];
+      state_.bodies[i].torque.setZero();
+    }
+    resting = restingOf(cluster);
+    return resting.empty() ? 0.0 : solveForces(resting);
+  };
+  const double residual = solve();
+  return endJam(t, cluster, resting, residual) ? solve() : residual;
+}
+
+bool Exact::letGo(std::vector<Contact>& resting) const {
   double strongest = 0.0;
   for (const Contact& c : resting) strongest = std::max(strongest, c.force.norm());
+  bool slowly = false;
   std::erase_if(resting, [&](const Contact& c) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double apart = normalAcceleration(a, b, c.point);
     const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
-    return c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
+    const bool goes = c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
+    slowly = slowly || (goes && apart < kSlow * weight);
+    return goes;
   });
+  return slowly;
+}
+
+void Exact::hold(double t, Cluster& cluster) {
+  std::vector<Contact> resting;
+  double& worst = report_.certificate.max_complementarity;
+  worst = std::max(worst, findForces(t, cluster, resting));
+  const bool slowly = letGo(resting);
   if (!resting.empty()) stillNormals(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
-  for (const Contact& c : resting)
-    if (!steady(c)) return goOnInSteps(t, cluster);
+  // What parts as slowly as a push that ends is followed until there is a gap to be seen.
+  if (slowly ||
+      !std::all_of(resting.begin(), resting.end(), [&](const Contact& c) { return steady(c); }))
+    return sustain(t, cluster);
+  flyOn(t, cluster);
+  for (const Contact& c : before)
+    if (!lasts(c.a, c.b)) lookFor({c.b, c.a}, t);
+  lookForStops(t);
+  // Many new flights make the rest of the window worthless: begin another.
+  State::Window& w = state_.window;
+  const long most = 64 + 4 * static_cast<long>(w.finite.size());
+  if (w.renewals > most && w.swept.size() > 64 && t > w.t0) {
+    w.length = t - w.t0;
+    w.t1 = t;
+    keepBooks(t);
+  }
+}
+
+void Exact::flyOn(double t, const Cluster& cluster) {
   std::vector<int> renewed;
   for (const int i : cluster.bodies) {
     const RigidBody& body = state_.bodies[i];
@@ -178,27 +221,20 @@ void Exact::hold(double t, Cluster& cluster) {
     renewed.push_back(i);
   }
   for (const int i : renewed) lookAround(i, t);
-  for (const Contact& c : before)
-    if (!lasts(c.a, c.b)) lookFor({c.b, c.a}, t);
-  lookForStops(t);
-  // Many new flights make the rest of the window worthless: begin another.
-  State::Window& w = state_.window;
-  w.renewals += static_cast<long>(renewed.size());
-  const long most = 64 + 4 * static_cast<long>(w.finite.size());
-  if (w.renewals > most && w.swept.size() > 64 && t > w.t0) {
-    w.length = t - w.t0;
-    w.t1 = t;
-    keepBooks(t);
-  }
+  state_.window.renewals += static_cast<long>(renewed.size());
 }
 
 /// What rolls, tips or slides over an edge has no closed form here.
-void Exact::goOnInSteps(double t, const Cluster& cluster) {
-  report_.note("contacts that roll, tip or slide over an edge are followed in steps of the course");
+void Exact::sustain(double t, const Cluster& cluster) {
   for (const int i : cluster.bodies)
     if (!model_.fixed(i)) renew(t, i, state_.bodies[i].invM * state_.outer[i]);
   keepBooks(t);
-  state_.inSteps = true;
+  if (!state_.sustained) {
+    state_.patience = std::clamp(2 * state_.patience, kFirst, kMost);
+    state_.stretchesLeft = state_.patience;
+  }
+  state_.sustained = true;
+  state_.modesKnown = false;
 }
 
 /// Friction that brakes along a line ends a slip at a known instant.

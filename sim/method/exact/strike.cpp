@@ -6,6 +6,7 @@
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
 #include "sim/method/exact/exact.h"
+#include "sim/method/exact/rims.h"
 
 namespace tumble {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kLowest = 1e-12;
 constexpr double kOff = 1e-11;
 /// Planes wider than this part of the size of the world do not touch.
 constexpr double kWidest = 1e-6;
-/// Events that leave time where it is, in a row, before the run goes on in steps.
+/// Events that leave time where it is, in a row, before some are seen late.
 constexpr int kStalled = 1000;
 
 }  // namespace
@@ -35,8 +36,7 @@ void Exact::strike(double t, int a, int b) {
     return stop("\"" + nameOf(a) + "\" touches \"" + nameOf(b) + "\" at t = " + digits(t) +
                 " s; a body with a pivot has no contacts");
   if (state_.stalled > kStalled) {  // hits without end, as between bodies that close in
-    state_.stalled = 0;
-    return goOnInSteps(t, {});
+    return sustain(t, {});
   }
 
   const std::size_t firstEvent = report_.events.size();
@@ -84,6 +84,13 @@ Cluster Exact::gather(double t, std::span<const int> seeds) {
     for (const int j : w.finite)
       if (j != i && w.swept[i].overlaps(w.swept[j])) meet(j);
   }
+  const auto hasRim = [&](int i) {
+    const std::vector<Convex>& parts = state_.parts[i];
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const Convex& part) { return !part.outline.rims.empty(); });
+  };
+  if (std::any_of(cluster.bodies.begin(), cluster.bodies.end(), hasRim))
+    tieRims(state_, ContactTolerance::forSize(model_.size).touch, cluster.contacts);
   return cluster;
 }
 

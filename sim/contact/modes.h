@@ -1,0 +1,54 @@
+// Chapter 7, contact: lasting contacts that each keep to one mode, so that their forces are a
+// smooth function of the motion and an integrator of any order can follow them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/contact/contact.h"
+#include "sim/problem/problem.h"
+
+namespace tumble {
+
+/// The unit vector along which a sliding contact slips: where its slip is too slow to tell, the
+/// direction in which its sliding began, or the last stretch of it; and never turned against that,
+/// so that forces stay smooth beyond the instant at which a slip ends.
+Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& contact);
+
+/// Forces of contacts that stick (u = 0), slide (u_n = 0, f_t = −mu f_n slip/|slip|), or are idle
+/// (f = 0), u being relative accelerations:
+///   J (M⁻¹ F λ + v̇*) + bias = 0,   f = F λ   with a column n − mu t of F for each that slides.
+/// Equations and no inequalities: what the mode allows is for the caller to see. Where contacts
+/// are more than needed, of all answers the smallest is taken. World frame, SI.
+class ModeForces {
+ public:
+  /// Reads pose, velocity, force and torque of the bodies; sets `force` of every contact and adds
+  /// it to the forces and torques. Contacts must have been followed to this pose.
+  void apply(std::span<RigidBody> bodies, std::span<Contact> contacts);
+
+  /// Moves the bodies by the least way, weighed by mass, that takes the separations of all that are
+  /// not idle to what is granted them, to first order; then changes the velocities in the same
+  /// manner until these neither approach nor part, nor slip if they stick. Follows the contacts.
+  void project(std::span<RigidBody> bodies, std::span<Contact> contacts);
+
+ private:
+  /// Rows of contact k, and the forces of their multipliers.
+  void addRows(std::span<const RigidBody> bodies, const Contact& contact, bool tangential);
+  /// λ of the least norm with  J M⁻¹ F λ = rhs_, for each heap of bodies on its own.
+  void solve(std::span<const RigidBody> bodies);
+  /// Per row: the lowest body that it is connected to through rows, fixed bodies apart.
+  std::vector<int> heaps(std::span<const RigidBody> bodies) const;
+  /// Gives the bodies λ: as a way, or as impulses.
+  void push(std::span<RigidBody> bodies, bool velocities);
+  double product(std::span<const RigidBody> bodies, const Row& row, const Row& force) const;
+
+  std::vector<Row> rows_, forces_;  ///< J, and the columns of F
+  MatX matrix_;
+  VecX rhs_, lambda_;
+};
+
+/// How much of the push of a sliding contact is left to part its bodies, after its friction turned
+/// them against each other:  n·W (n − mu t) / n·W n.  Not above 0 in the paradox of Painlevé.
+double pushLeft(const RigidBody& a, const RigidBody& b, const Contact& contact);
+
+}  // namespace tumble

@@ -1,0 +1,132 @@
+// How far to look ahead at once, what may be met there, and what may have happened unseen.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collide/collide.h"
+#include "sim/method/exact/sustained.h"
+
+namespace tumble {
+namespace {
+
+/// [s], [rad] What is looked ahead at once; balls look the same from all sides.
+constexpr double kLongest = 0.25, kTurn = 0.5, kTurnRound = 5.0;
+/// [m] per size of the world: overlap that dates an event of a pair that touches already.
+constexpr double kOff = 1e-12;
+/// Part of a stretch below which no closer look is taken at what may have happened unseen.
+constexpr double kClosest = 1.0 / 64.0;
+/// [s] Nor below this.
+constexpr double kInstant = 1e-12;
+
+}  // namespace
+
+double Sustained::lookAhead() const {
+  double h = std::min(kLongest, model_.def.duration - state_.t);
+  for (const int i : model_.solid) {
+    const RigidBody& body = trial_[i];
+    if (body.fixed()) continue;
+    const bool round = std::all_of(state_.parts[i].begin(), state_.parts[i].end(),
+                                   [](const Convex& part) { return part.outline.corner == 0.0; });
+    const double turn = round ? kTurnRound : kTurn;
+    const double speed = body.omega.norm(), rate = (body.Iinv * body.torque).norm();
+    if (speed * h > turn) h = turn / speed;
+    if (rate * h * h > 2.0 * turn) h = std::sqrt(2.0 * turn / rate);
+  }
+  // Not far beyond the end of a slip.
+  for (const Contact& c : system_.contacts()) {
+    if (!c.sliding || c.idle) continue;
+    const RigidBody &a = trial_[c.a], &b = trial_[c.b];
+    const Vec3 slip = slipVelocity(a, b, c.point);
+    const double brake = -slipAcceleration(a, b, c.point).dot(slip), square = slip.squaredNorm();
+    if (brake * h > 1.5 * square && square > tolerance_.stick * tolerance_.stick)
+      h = 1.5 * square / brake;
+  }
+  return h;
+}
+
+double Sustained::speedBound(int ia, int ib, double h) const {
+  const RigidBody &a = trial_[ia], &b = trial_[ib];
+  const auto turning = [&](int i) {
+    double corner = 0.0;
+    for (const Convex& part : state_.parts[i]) corner = std::max(corner, part.outline.corner);
+    return trial_[i].omega.norm() * corner;
+  };
+  const HalfSpace* plane = std::get_if<HalfSpace>(&model_.shapes[ib]);
+  if (!plane) plane = std::get_if<HalfSpace>(&model_.shapes[ia]);
+  const Vec3 relative = a.v - b.v;
+  const double bend = 2.0 * (a.invM * a.force - b.invM * b.force).norm();
+  return (plane ? std::abs(plane->n.dot(relative)) : relative.norm()) + turning(ia) + turning(ib) +
+         bend * h;
+}
+
+void Sustained::findNear(double h) {
+  double fastest = acceleration_;
+  for (const RigidBody& body : trial_) fastest = std::max(fastest, body.invM * body.force.norm());
+  std::vector<Aabb> boxes;
+  sweptBoxes(model_, state_.bodies, h, fastest, tolerance_.touch, boxes);
+  state_.near = nearPairs(model_, state_, boxes);
+  near_.clear();
+  watched_.clear();
+  touching_.clear();
+  if (stopAtUnknownPair(model_, state_.near, report_)) return;
+  std::vector<Contact> points;
+  for (const auto& [b, a] : state_.near) {
+    Near pair{.b = b, .a = a, .speed = speedBound(a, b, h)};
+    pair.lasts = std::any_of(state_.lasting.begin(), state_.lasting.end(),
+                             [&, b = b, a = a](const Contact& c) { return c.a == a && c.b == b; });
+    pair.now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
+                          state_.bodies[b].pose());
+    if (!pair.lasts && pair.now > pair.speed * h) continue;
+    const double slack = kOff * std::max(1.0, model_.size);
+    pair.floor = pair.now < tolerance_.touch ? std::min(-slack, pair.now - 0.1 * slack) : 0.0;
+    near_.push_back(pair);
+    if (!pair.lasts) continue;
+    points.clear();
+    findContacts(model_, state_.bodies, {b, a}, std::max(tolerance_.touch, pair.speed * h), points);
+    for (Contact& c : points) {
+      c.anchor = anchorOf(state_.bodies[a], state_.bodies[b], c.point);
+      (c.point.separation > tolerance_.touch ? watched_ : touching_).push_back(c);
+    }
+  }
+}
+
+double Sustained::sooner(double h) const {
+  // The direction of a slip that turns too far would be taken for its end.
+  for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
+    const Contact& c = system_.contacts()[k];
+    if (!c.sliding || slip_[k] <= tolerance_.stick) continue;
+    const Vec3 slip = slipVelocity(trial_[c.a], trial_[c.b], c.point);
+    if (slip.dot(c.slipDirection) >= 0.5 * slip.norm()) continue;
+    return h > kInstant ? 0.5 * h : h;
+  }
+  if (h <= kClosest * most_) return h;
+  for (const Near& pair : near_) {
+    if (pair.lasts) continue;
+    const double end = separation(model_.shapes[pair.a], trial_[pair.a].pose(),
+                                  model_.shapes[pair.b], trial_[pair.b].pose());
+    if (pair.now + end < pair.speed * h) return 0.5 * h;
+  }
+  double least = h;
+  for (const Contact& point : watched_) least = std::min(least, dip(point, h));
+  return least;
+}
+
+// When the cubic through both ends dips below the surface between them; h if it does not.
+double Sustained::dip(const Contact& point, double h) const {
+  Contact end = point;
+  follow(trial_[point.a], trial_[point.b], end);
+  const double g0 = point.point.separation, g1 = end.point.separation;
+  const double v0 = approachVelocity(state_.bodies[point.a], state_.bodies[point.b], point.point);
+  const double v1 = approachVelocity(trial_[point.a], trial_[point.b], end.point);
+  if (v0 >= 0.0 || v1 <= 0.0) return h;
+  constexpr int kLooks = 16;
+  double lowest = 0.0, when = h;
+  for (int k = 1; k < kLooks; ++k) {
+    const double s = static_cast<double>(k) / kLooks, r = 1.0 - s;
+    const double gap =
+        r * r * (1.0 + 2.0 * s) * g0 + s * s * (1.0 + 2.0 * r) * g1 + h * s * r * (r * v0 - s * v1);
+    if (gap < lowest) lowest = gap, when = s * h;
+  }
+  return when;
+}
+
+}  // namespace tumble

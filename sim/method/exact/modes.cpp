@@ -1,0 +1,122 @@
+// Which contact sticks, slides or idles, and until when.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/method/exact/rims.h"
+#include "sim/method/exact/sustained.h"
+
+namespace tumble {
+namespace {
+
+/// Part of the acceleration of the bodies by which a mode may be off: contact problems are solved
+/// much better, and what is wrong grows too fast for the delay to matter.
+constexpr double kMargin = 1e-9;
+/// Accelerations below this part of the largest are rounding.
+constexpr double kRounding = 2e-10;
+/// What friction must leave of a push; see `pushLeft`.
+constexpr double kPushLeft = 1e-12;
+/// [m/s] of a slip that begins: rounding.
+constexpr double kNoSlip = 1e-12;
+/// No pull towards zero: velocities and gaps are projected. [s]
+constexpr double kNoPull = 1e15;
+
+Vec3 tangential(const Contact& c) {
+  return c.force - c.force.dot(c.point.n) * c.point.n;
+}
+
+}  // namespace
+
+double Sustained::forceScale(const Contact& c) const {
+  double mobility = 0.0;
+  for (const int i : {c.a, c.b}) {
+    const RigidBody& body = state_.bodies[i];
+    const Vec3 turn = (c.point.p - body.x).cross(c.point.n);
+    mobility += body.invM + turn.dot(body.Iinv * turn);
+  }
+  return acceleration_ / mobility;
+}
+
+SolveReport Sustained::solveCones(std::vector<RigidBody>& bodies,
+                                  std::vector<Contact>& contacts) const {
+  system_.outerForces(bodies);
+  return RestForces(kNoPull, true).apply(bodies, contacts);
+}
+
+void Sustained::chooseModes() {
+  acceleration_ = model_.def.gravity.norm();
+  for (std::size_t i = 0; i < state_.bodies.size(); ++i)
+    acceleration_ = std::max(acceleration_, state_.bodies[i].invM * state_.outer[i].norm());
+  if (acceleration_ == 0.0) acceleration_ = 1.0;
+  std::vector<Contact>& lasting = state_.lasting;
+  for (Contact& c : lasting) {
+    const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+    follow(a, b, c);
+    if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
+  }
+  if (!state_.modesKnown) {
+    const std::vector<Contact> before = lasting;
+    tieRims(state_, tolerance_.touch, lasting);
+    // What touches to rounding is not moved: that would be work.
+    for (Contact& c : lasting) c.granted = -c.point.separation;
+    std::vector<RigidBody> bodies = state_.bodies;
+    solveCones(bodies, lasting);
+    for (Contact& c : lasting) {
+      c.idle = c.force.norm() <= kRounding * forceScale(c);
+      if (c.idle || c.sliding || c.friction <= 0.0) continue;
+      const Vec3 rate = slipAcceleration(bodies[c.a], bodies[c.b], c.point);
+      if (rate.norm() <= kRounding * acceleration_) continue;
+      c.sliding = true;
+      c.slipDirection = -tangential(c).normalized();
+    }
+    recordChanges(before, lasting, state_.t, report_);
+    state_.modesKnown = true;
+  }
+  slip_.clear();
+  for (const Contact& c : lasting)
+    slip_.push_back(slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm());
+}
+
+bool Sustained::conesAgree(std::span<const RigidBody> moded) const {
+  std::vector<RigidBody> bodies(moded.begin(), moded.end());
+  std::vector<Contact> contacts = system_.contacts();
+  solveCones(bodies, contacts);
+  const double off = kMargin * acceleration_;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const RigidBody &p = moded[i], &q = bodies[i];
+    if (p.fixed()) continue;
+    const double radius = boundingRadius(model_.shapes[i]);
+    if (p.invM * (p.force - q.force).norm() > off) return false;
+    if (!p.particle && radius * (p.Iinv * (p.torque - q.torque)).norm() > off) return false;
+  }
+  return true;
+}
+
+double Sustained::modeAllowance() {
+  system_.findForces(trial_);
+  const std::vector<Contact>& contacts = system_.contacts();
+  double least = std::numeric_limits<double>::infinity(), doubtful = least;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    if (c.idle) continue;
+    const RigidBody &a = trial_[c.a], &b = trial_[c.b];
+    const double scale = forceScale(state_.lasting[k]), push = c.force.dot(c.point.n);
+    doubtful = std::min(doubtful, push / scale + kMargin);
+    if (c.friction <= 0.0) continue;
+    if (!c.sliding) {
+      const double left = c.friction * push - tangential(c).norm();
+      doubtful = std::min(doubtful, left / scale + kMargin);
+      continue;
+    }
+    const double along = slipVelocity(a, b, c.point).dot(c.slipDirection);
+    least = std::min(least, along + (slip_[k] > tolerance_.stick ? 0.0 : kNoSlip));
+    const auto ofPair = [&](const Contact& d) { return d.a == c.a && d.b == c.b && !d.idle; };
+    if (std::count_if(contacts.begin(), contacts.end(), ofPair) == 1)
+      least = std::min(least, pushLeft(a, b, c) - kPushLeft);
+  }
+  // The smallest forces may break a law that others, with the same motion, keep.
+  if (doubtful < 0.0 && conesAgree(trial_)) doubtful = kMargin;
+  return std::min(least, doubtful);
+}
+
+}  // namespace tumble

@@ -1,0 +1,202 @@
+#include "sim/method/exact/sustained.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/collide/collide.h"
+#include "sim/math/root.h"
+
+namespace tumble {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Error of a step in each number of Y, relative to 1 + |y|.
+constexpr double kTolerance = 1e-13;
+/// [m] per size of the world: overlap that dates an event of a pair that touches already.
+constexpr double kOff = 1e-12;
+/// [1] Normals that differ by less are one: faces that lie on each other may take turns.
+constexpr double kOneNormal = 1e-8;
+/// [s] A stretch that is shorter stands still; or hardly moves, and so many in a row are too many.
+constexpr double kInstant = 1e-12, kShort = 1e-7;
+constexpr int kPatience = 40;
+/// [s] The first stretch that is gone blindly after that.
+constexpr double kBlind = 1e-9;
+
+bool allFinite(std::span<const double> y) {
+  return std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool sameFeature(const Contact& c, const Contact& d) {
+  return c.a == d.a && c.b == d.b && c.point.feature == d.point.feature &&
+         (c.point.n - d.point.n).squaredNorm() < kOneNormal * kOneNormal;
+}
+
+}  // namespace
+
+Sustained::Sustained(const Model& model, State& state, Report& report)
+    : model_(model),
+      state_(state),
+      report_(report),
+      tolerance_(ContactTolerance::forSize(model.size)),
+      system_(model, state.bodies),
+      integrator_(system_.size(), kTolerance),
+      y0_(static_cast<std::size_t>(system_.size())),
+      y_(y0_),
+      trial_(state.bodies) {}
+
+void Sustained::next() {
+  chooseModes();
+  system_.begin(state_.lasting);
+  system_.pack(state_.bodies, y0_);
+  trial_ = state_.bodies;
+  system_.findForces(trial_);
+  most_ = lookAhead();
+  findNear(most_);
+  if (report_.stopped) return;
+  const bool blind = state_.stalled > kPatience;
+  bool event = blind;
+  double h = blind ? std::min(most_, std::ldexp(kBlind, std::min(state_.blindness++, 16))) : most_;
+  if (blind)
+    report_.note("more events than time can hold were seen late; max_penetration has the cost");
+  else
+    event = findEvent(h);
+  if (!blind && h > kShort)
+    state_.stalled = state_.blindness = 0;
+  else
+    state_.stalled = blind ? kPatience - 4 : state_.stalled + 1;
+  allowance(h);
+  commit(h);
+  if (event || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
+}
+
+bool Sustained::findEvent(double& h) {
+  const double now = allowance(0.0);
+  if (!(now > 0.0)) {
+    h = 0.0;
+    return true;
+  }
+  for (;;) {
+    const double end = allowance(h);
+    if (reached_ < h) {  // forces change faster and faster
+      h = 0.9 * reached_;
+      state_.jammed = h < kInstant;
+      if (state_.jammed) return true;
+    } else if (end < 0.0) {
+      const double instant =
+          std::max(1e-15, std::numeric_limits<double>::epsilon() * (state_.t + h));
+      const Bracket bracket =
+          findRoot([&](double s) { return allowance(s); }, 0.0, h, now, end, instant);
+      h = bracket.hi;
+      if (allowance(h) < 0.0 && cause_ == Cause::Touch) h = bracket.lo;
+      return true;
+    } else if (const double earlier = sooner(h); earlier < h) {
+      h = earlier;
+    } else {
+      return false;
+    }
+  }
+}
+
+void Sustained::leave() {
+  state_.sustained = false;
+  state_.settled = true;
+}
+
+double Sustained::allowance(double h) {
+  cause_ = Cause::None;
+  y_ = y0_;
+  reached_ = h == 0.0 ? 0.0 : integrator_.step(system_, state_.t, h, y_);
+  if (!allFinite(y_)) return 1.0;  // commit() reports it
+  system_.unpack(y_, trial_);
+  double least = kInfinity;
+  for (const Near& pair : near_)
+    least = std::min(least, separation(model_.shapes[pair.a], trial_[pair.a].pose(),
+                                       model_.shapes[pair.b], trial_[pair.b].pose()) -
+                                pair.floor);
+  if (least < 0.0) cause_ = Cause::Touch;
+  const double mode = modeAllowance();
+  if (mode < least) {
+    least = mode;
+    cause_ = Cause::Mode;
+  }
+  if (h > 0.0 && least > 0.0 && featuresChanged()) {
+    least = -1.0;
+    cause_ = Cause::Mode;
+  }
+  return least;
+}
+
+// Whether a pair that touches would be found to touch in another way. Rims are followed.
+bool Sustained::featuresChanged() const {
+  std::vector<Contact> found;
+  const double close = kOff * std::max(1.0, model_.size);
+  for (const Near& pair : near_) {
+    if (!pair.lasts) continue;
+    const auto ofPair = [&](const Contact& c) { return c.a == pair.a && c.b == pair.b; };
+    const std::vector<Contact>& held = system_.contacts();
+    if (std::any_of(held.begin(), held.end(),
+                    [&](const Contact& c) { return ofPair(c) && c.anchor.rim.r > 0.0; }))
+      continue;
+    found.clear();
+    findContacts(model_, trial_, {pair.b, pair.a}, tolerance_.touch, found);
+    const auto lists = [](const std::vector<Contact>& list, const Contact& c) {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const Contact& d) { return sameFeature(c, d); });
+    };
+    for (const Contact& c : held)
+      if (ofPair(c) && !lists(found, c)) return true;
+    for (const Contact& c : found)
+      if (c.point.separation < close && !lists(held, c) && !lists(touching_, c)) return true;
+  }
+  return false;
+}
+
+void Sustained::commit(double h) {
+  Certificate& books = report_.certificate;
+  if (!allFinite(y_)) {
+    report_.stopped = true;
+    report_.reason = "the motion left the range of numbers at t = " + shortNumber(state_.t) + " s";
+    return;
+  }
+  const double t1 = h < model_.def.duration - state_.t ? state_.t + h : model_.def.duration;
+  if (t1 > state_.t)
+    state_.trail.push_back(
+        {.t0 = state_.t, .t1 = t1, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
+  state_.bodies = trial_;
+  state_.lasting = system_.contacts();
+  for (const Near& pair : near_)
+    books.max_penetration =
+        std::max(books.max_penetration, -separation(model_.shapes[pair.a], trial_[pair.a].pose(),
+                                                    model_.shapes[pair.b], trial_[pair.b].pose()));
+  const SustainedSystem::Books done = system_.books(y_);
+  books.work_of_forces += done.work;
+  books.energy_lost_friction += done.rubbed;
+  state_.externalImpulse += done.impulse;
+  books.evaluations += system_.evaluations() - counted_;
+  counted_ = system_.evaluations();
+  state_.t = t1;
+  ++books.steps;
+  account(model_, state_, report_);
+}
+
+void lookSustained(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
+                   std::vector<Contact>& contacts) {
+  const Segment* segment = nullptr;
+  for (const Segment& s : state.trail)
+    if (s.t0 <= t) segment = &s;
+  const bool now = !segment || t >= state.t;
+  bodies = now ? state.bodies : segment->start;
+  SustainedSystem system(model, bodies);
+  system.begin(now ? state.lasting : segment->contacts);
+  if (!now && t > segment->t0) {
+    std::vector<double> y(static_cast<std::size_t>(system.size()));
+    system.pack(bodies, y);
+    Extrapolation(system.size(), kTolerance).step(system, segment->t0, t - segment->t0, y);
+    system.unpack(y, bodies);
+  }
+  system.findForces(bodies);
+  contacts = system.contacts();
+}
+
+}  // namespace tumble

@@ -1,0 +1,85 @@
+// Contacts that last while their forces change: a differential-algebraic equation as long as every
+// contact keeps to its mode (sticks, slides, idle), and events where one of them cannot.
+#pragma once
+
+#include <vector>
+
+#include "sim/contact/rest.h"
+#include "sim/method/exact/sustained_system.h"
+#include "sim/method/method.h"
+#include "sim/ode/extrapolation.h"
+
+namespace tumble {
+
+/// All bodies of a world on their way through one stretch without an event. Positions and
+/// velocities are held to the contacts after every step. What ends a stretch:
+///   a normal force that would pull · friction that would have to be more than mu f_n · the end of
+///   a slip · a touch · a feature that slides off · friction that jams (Painlevé).
+/// Instants are found to the accuracy of time itself; of forces, a part kMargin late, so that the
+/// contact problem sees what is to change.
+class Sustained {
+ public:
+  Sustained(const Model& model, State& state, Report& report);
+
+  /// Goes on to the next event, or as far as can be looked ahead; then closed forms may be tried.
+  void next();
+
+ private:
+  struct Near {
+    int b = 0, a = 0;
+    bool lasts = false;
+    double now = 0.0;    ///< [m] gap at the start
+    double floor = 0.0;  ///< [m] gap that must not be passed
+    double speed = 0.0;  ///< [m/s] that the gap cannot change faster than
+  };
+  enum class Cause { None, Touch, Mode };
+
+  /// Shortens h [s] to the first event, if there is one before. @return whether there is
+  bool findEvent(double& h);
+  /// How far the motion may go: ≥ 0 a mode and no overlap, < 0 too far. Leaves y_, trial_, cause_.
+  double allowance(double h);
+  bool featuresChanged() const;
+  void commit(double h);
+  void leave();
+
+  // modes.cpp: what each contact does.
+  void chooseModes();
+  /// The contact problem of this instant; contact forces are left on bodies and contacts.
+  SolveReport solveCones(std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) const;
+  /// Whether the forces of the modes, which the bodies carry, accelerate as the contact problem.
+  bool conesAgree(std::span<const RigidBody> bodies) const;
+  double modeAllowance();
+  double forceScale(const Contact& contact) const;
+
+  // foresight.cpp: how far to look.
+  double lookAhead() const;
+  void findNear(double h);
+  double speedBound(int a, int b, double h) const;
+  /// A shorter h if something may have happened unseen before the end of this one.
+  double sooner(double h) const;
+  double dip(const Contact& point, double h) const;
+
+  const Model& model_;
+  State& state_;
+  Report& report_;
+  ContactTolerance tolerance_;
+  SustainedSystem system_;
+  Extrapolation integrator_;
+  std::vector<double> y0_, y_;
+  std::vector<RigidBody> trial_;
+  std::vector<Near> near_;
+  std::vector<Contact> watched_;   ///< points of lasting pairs that do not touch yet
+  std::vector<Contact> touching_;  ///< points of lasting pairs that touched at the start
+  std::vector<double> slip_;       ///< [m/s] per lasting contact, at the start
+  double acceleration_ = 1.0;      ///< [m/s²] what counts as large
+  double most_ = 0.0;              ///< [s] how far could be looked ahead
+  long counted_ = 0;               ///< evaluations of system_ that are in the certificate
+  Cause cause_ = Cause::None;
+  double reached_ = 0.0;  ///< [s] of the h last tried
+};
+
+/// The bodies at time t of the trail, and their lasting contacts with forces.
+void lookSustained(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
+                   std::vector<Contact>& contacts);
+
+}  // namespace tumble

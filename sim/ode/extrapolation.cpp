@@ -1,0 +1,91 @@
+#include "sim/ode/extrapolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+/// Attempts in one step.
+constexpr int kMostAttempts = 400;
+
+/// Factor for the next attempt: about the ninth root of 1/error, from square roots alone, so that
+/// every machine gives the same bits.
+double factor(double error) {
+  if (!(error < 1e12)) return 0.1;
+  const double root = std::sqrt(std::sqrt(std::sqrt(std::max(error, 1e-5))));
+  return std::clamp(0.8 / root, 0.1, 3.0);
+}
+
+}  // namespace
+
+Extrapolation::Extrapolation(int size, double tolerance)
+    : size_(static_cast<std::size_t>(size)), tolerance_(tolerance) {
+  for (Numbers* numbers : {&now_, &rate_, &first_, &last_, &stage_, &slope_})
+    numbers->resize(size_);
+  for (Numbers& column : table_) column.resize(size_);
+}
+
+double Extrapolation::step(const System& system, double t, double h, std::span<double> y) {
+  double done = 0.0;
+  std::copy(y.begin(), y.end(), now_.begin());
+  system.derivative(t, now_, rate_);
+  double size = h;
+  for (int attempts = 0; done < h && attempts < kMostAttempts; ++attempts) {
+    const bool last = 1.01 * size >= h - done;
+    const double stride = last ? h - done : size;
+    const double error = attempt(system, t + done, stride);
+    if (!(error <= 1.0)) {
+      size = stride * std::min(0.7, factor(error));
+      continue;
+    }
+    for (std::size_t i = 0; i < size_; ++i) now_[i] += table_[kColumns - 1][i];
+    done = last ? h : done + stride;
+    size = std::max(size, stride) * factor(error);
+    if (done < h) system.derivative(t + done, now_, rate_);
+  }
+  std::copy(now_.begin(), now_.end(), y.begin());
+  system.normalise(y);
+  return done;
+}
+
+void Extrapolation::midpoint(const System& system, double t, double h, int n, Numbers& increment) {
+  const double part = h / n;
+  std::fill(first_.begin(), first_.end(), 0.0);
+  for (std::size_t i = 0; i < size_; ++i) last_[i] = part * rate_[i];
+  for (int m = 1; m < n; ++m) {
+    for (std::size_t i = 0; i < size_; ++i) stage_[i] = now_[i] + last_[i];
+    system.derivative(t + m * part, stage_, slope_);
+    for (std::size_t i = 0; i < size_; ++i) first_[i] += 2.0 * part * slope_[i];
+    std::swap(first_, last_);
+  }
+  increment = last_;
+}
+
+double Extrapolation::attempt(const System& system, double t, double h) {
+  double worst = 0.0;
+  for (int j = 0; j < kColumns; ++j) {
+    // The new row of the tableau takes the place of the one before, from its end to its start.
+    midpoint(system, t, h, 2 * (j + 1), stage_);
+    for (std::size_t i = 0; i < size_; ++i) {
+      double value = stage_[i], before = 0.0;
+      for (int k = 0; k < j; ++k) {
+        const double ratio = static_cast<double>(j + 1) / (j - k);
+        before = value;
+        const double next = value + (value - table_[k][i]) / (ratio * ratio - 1.0);
+        table_[k][i] = value;
+        value = next;
+      }
+      table_[j][i] = value;
+      if (j + 1 < kColumns) continue;
+      const double allowed = tolerance_ * (1.0 + std::abs(now_[i]) + std::abs(value));
+      const double relative = std::abs(value - before) / allowed;
+      if (!std::isfinite(relative)) return std::numeric_limits<double>::infinity();
+      worst = std::max(worst, relative);
+    }
+  }
+  return worst;
+}
+
+}  // namespace tumble
