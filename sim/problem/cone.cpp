@@ -7,7 +7,7 @@ namespace tumble {
 
 Vec3 projectOnFrictionCone(const Vec3& p, double mu) {
   const double tangential = std::sqrt(p[1] * p[1] + p[2] * p[2]);
-  if (tangential <= mu * p[0]) return p;
+  if (p[0] >= 0.0 && tangential <= mu * p[0]) return p;
   const double along = (p[0] + mu * tangential) / (1.0 + mu * mu);
   if (along <= 0.0) return Vec3::Zero();
   const double shrink = tangential > 0.0 ? mu * along / tangential : 0.0;
@@ -16,7 +16,7 @@ Vec3 projectOnFrictionCone(const Vec3& p, double mu) {
 
 double coneResidual(const Cone& cone, const double* lambda, const double* u, double rho) {
   const auto push = [&] {
-    return std::abs(lambda[0] - std::max(lambda[0] - rho * u[0], 0.0)) / rho;
+    return std::abs(std::min(lambda[0] / rho, u[0]));  // no difference in which a large λ hides u
   };
   switch (cone.kind) {
     case ConeKind::Push:

@@ -10,6 +10,8 @@ namespace tumble {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kOpen = 1e-12;   ///< balance of momentum above which v is taken from λ
+constexpr double kCalmTau = 1e3;  ///< ρ of the calm stages, by the weight of the system
 
 class Newton {
  public:
@@ -22,6 +24,8 @@ class Newton {
   double solveSlips(double tau);
   double solveHard(int most);
   void closeBalance(SolveReport& report);
+
+  void takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const;
 
   NewtonSystem system_;
   double tolerance_ = 1e-12;
@@ -36,9 +40,8 @@ double Newton::accuracy(double residual) const {
 
 /// Stages of constant slip terms with one large ρ: where little has changed, one factor will do.
 double Newton::solveCalm() {
-  constexpr double kTau = 1e3;
   constexpr int kStages = 8, kInner = 4, kMost = 12;
-  system_.rho = kTau * system_.weight;
+  system_.rho = kCalmTau * system_.weight;
   double before = kInfinity;
   for (int stage = 0; stage < kStages && system_.factorizations < kMost; ++stage) {
     if (!system_.minimise(accuracy(before), kInner)) break;
@@ -176,15 +179,35 @@ SolveReport Newton::solve(const Problem& problem, const SolveSettings& settings,
   system_.restart(solution);
   SolveReport report;
   report.residual = solveCalm();
-  if (!(report.residual <= tolerance_)) {
+  const bool calm = report.residual <= tolerance_;
+  if (!calm) {
     if (!std::isfinite(report.residual)) system_.restart(solution);
     report.residual = solveHard(settings.maxIterations);
   }
   closeBalance(report);
   report.iterations = system_.factorizations;
-  if (!(report.residual <= tolerance_)) report.status = SolveStatus::NotConverged;
   system_.write(problem, solution);
+  if (!calm || report.balance > kOpen) takeLambda(problem, solution, report);
+  if (!(report.residual <= tolerance_)) report.status = SolveStatus::NotConverged;
   return report;
+}
+
+/// Where v is not what λ gives, momentum would be lost: λ decides, unless that leaves more than the
+/// tolerance where v does not, as under loads that outweigh a body a million times.
+void Newton::takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const {
+  if (report.balance == 0.0) return;
+  const bool open = report.balance > kOpen;
+  const std::vector<Vec6> own = solution.v;
+  for (double& lambda : solution.lambda)
+    if (!std::isfinite(lambda)) lambda = 0.0;
+  velocitiesFromLambda(problem, solution.lambda, solution.v);
+  const double residual = naturalResidual(problem, solution);
+  if (!open && residual > tolerance_) {
+    solution.v = own;
+    return;
+  }
+  report.residual = residual;
+  report.balance = 0.0;
 }
 
 /// Sweeps from the forces that Newton's method ended with, in place of its answer if they are

@@ -62,7 +62,9 @@ double naturalResidual(const Problem& problem, const Solution& solution) {
       mobility = std::max(mobility, rowMobility(problem, row));
     }
     const double rho = mobility > 0.0 ? 1.0 / mobility : 1.0;
-    worst = std::max(worst, coneResidual(cone, &solution.lambda[cone.row], u, rho));
+    const double residual = coneResidual(cone, &solution.lambda[cone.row], u, rho);
+    if (std::isnan(residual)) return residual;  // max would drop it
+    worst = std::max(worst, residual);
   }
   return worst / velocityScale(problem);
 }

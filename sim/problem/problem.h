@@ -2,6 +2,7 @@
 // Knows rows and cones only: no shapes, contacts or joints.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -99,7 +100,7 @@ double roundingFloor(const Problem& problem, const Solution& solution);
 
 /// Whether a residual of this solution is as small as rounding lets it be.
 inline bool atRounding(const Problem& problem, const Solution& solution, double residual) {
-  return residual <= 2.0 * roundingFloor(problem, solution);
+  return residual <= std::min(2.0 * roundingFloor(problem, solution), 1e-6);
 }
 
 /// Connected components of bodies through rows; immovable bodies do not connect.

@@ -155,7 +155,7 @@ TEST_CASE("a wedge between two walls stays, whatever its angle") {
     const bool solved = solve(solver, problem, solution);
     if (solver.name == "newton" && mu > 0.0 && !solved) continue;  // a shortfall that it admits
     CHECK(solved);
-    CHECK(fastest(solution) < 1e-10);
+    CHECK(fastest(solution) < 1e-10 / std::sin(angle));  // n·v is held to the tolerance
     double lift = 0.0, push = 0.0;
     for (std::size_t i = 0; i < problem.rows.size(); ++i)
       lift += solution.lambda[i] * problem.rows[i].linear.y();

@@ -28,7 +28,7 @@ void Stepping::findNear(double h) {
   near_.clear();
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];
-    if (!(model_.fixed(a) && model_.fixed(b))) near_.emplace_back(b, a);
+    if (model_.mayTouch(a, b)) near_.emplace_back(b, a);
   }
   if (near_ == state_.near && memory_.pairs.size() == near_.size()) return;
 
