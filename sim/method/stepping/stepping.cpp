@@ -130,14 +130,18 @@ void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {
   };
   const bool sprung = std::any_of(model_.def.forces.begin(), model_.def.forces.end(), pulls);
   body.x += sprung ? Vec3(h * body.v) : Vec3(0.5 * h * (before + body.v));
+  turn(body, body.L - 0.5 * h * body.torque, h);
+}
 
-  // The rotor by the midpoint rule, in turns small enough for it.
+// The rotor by the midpoint rule, in turns small enough for it: its energy stays, however fast it
+// spins.
+void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
   constexpr double kTurn = 0.05;  // [rad]
   constexpr int kMostTurns = 1000;
   const double turns = std::min(std::ceil(h * body.omega.norm() / kTurn), double{kMostTurns});
   const double part = h / std::max(1.0, turns);
   RigidBody middle = body;
-  middle.L -= 0.5 * h * body.torque;
+  middle.L = L;
   for (int k = 0; k < std::max(1.0, turns); ++k) {
     middle.q = body.q;
     updateDerived(middle);
@@ -151,9 +155,12 @@ void Stepping::moveBodies(double h) {
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
     if (body.fixed() && body.v.isZero(0.0) && body.omega.isZero(0.0)) continue;
-    if (touched_[i] || body.fixed()) {  // as the contact problem foresaw it
+    if (body.fixed()) {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
+    } else if (touched_[i]) {  // with the velocity that the contact problem found
+      body.x += h * body.v;
+      turn(body, body.L, h);
     } else {
       coast(body, before_[i].head<3>(), h);
     }

@@ -67,6 +67,8 @@ class Stepping {
   void moveBodies(double h);
   /// Free flight of one body through a step; `before` is its velocity [m/s] at the start.
   void coast(RigidBody& body, const Vec3& before, double h) const;
+  /// Turns a body for h seconds with the angular momentum L [kg m²/s].
+  void turn(RigidBody& body, const Vec3& L, double h) const;
 
   // project.cpp
   void project();
