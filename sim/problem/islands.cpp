@@ -10,15 +10,6 @@ bool movable(const Problem& problem, int body) {
   return problem.invM[body] > 0.0 || !problem.Iinv[body].isZero(0.0);
 }
 
-/// Root of a body in the union–find forest; halves the path on its way.
-int find(std::vector<int>& parent, int i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
 /// A part of a problem that stands alone, and where its bodies come from.
 struct Island {
   Problem problem;
@@ -73,13 +64,21 @@ void scatter(const Problem& whole, const std::vector<int>& cones, const Island& 
 
 }  // namespace
 
+int islandRoot(std::vector<int>& parent, int body) {
+  while (parent[body] != body) {
+    parent[body] = parent[parent[body]];
+    body = parent[body];
+  }
+  return body;
+}
+
 std::vector<std::vector<int>> islands(const Problem& problem) {
   // Join what a row joins.
   std::vector<int> parent(problem.invM.size());
   std::iota(parent.begin(), parent.end(), 0);
   for (const Row& row : problem.rows) {
     if (!movable(problem, row.a) || !movable(problem, row.b)) continue;
-    const int a = find(parent, row.a), b = find(parent, row.b);
+    const int a = islandRoot(parent, row.a), b = islandRoot(parent, row.b);
     parent[std::max(a, b)] = std::min(a, b);
   }
 
@@ -89,7 +88,7 @@ std::vector<std::vector<int>> islands(const Problem& problem) {
   for (std::size_t c = 0; c < problem.cones.size(); ++c) {
     const Row& row = problem.rows[problem.cones[c].row];
     const bool moves = movable(problem, row.a) || movable(problem, row.b);
-    const int root = find(parent, movable(problem, row.a) ? row.a : row.b);
+    const int root = islandRoot(parent, movable(problem, row.a) ? row.a : row.b);
     if (!moves || islandOf[root] < 0) {
       if (moves) islandOf[root] = static_cast<int>(result.size());
       result.push_back({static_cast<int>(c)});

@@ -192,14 +192,20 @@ Mat3 edgeSlope(const Point& point, const Vec3& z) {
 
 }  // namespace
 
+/// A factor begins with M.
+template <class Factor>
+void NewtonSystem::beginMasses(Factor& factor) {
+  factor.begin(*structure_);
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    Mat6& block = factor.diagonal(static_cast<int>(i));
+    block.diagonal().template head<3>().setConstant(movers[i].mass);
+    block.template bottomRightCorner<3, 3>() = movers[i].inertia;
+  }
+}
+
 /// H = M + ρ Jᵀ ∂Π J.
 void NewtonSystem::assemble() {
-  H_.begin(*structure_);
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    Mat6& block = H_.diagonal(static_cast<int>(i));
-    block.diagonal().head<3>().setConstant(movers[i].mass);
-    block.bottomRightCorner<3, 3>() = movers[i].inertia;
-  }
+  beginMasses(H_);
   for (Point& point : points) {
     Piece piece = point.piece;
     if (guess_ && piece == Piece::Zero) {
@@ -316,12 +322,7 @@ bool NewtonSystem::minimise(double accuracy, int most) {
 /// The Jacobian of the gradient where s = mu |u_t| follows v: M + ρ Jᵀ ∂Π (1 + n mu ûtᵀ) J, with ût
 /// the direction of the slip. Not symmetric.
 void NewtonSystem::assembleLive() {
-  live_.begin(*structure_);
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    Mat6& block = live_.diagonal(static_cast<int>(i));
-    block.diagonal().head<3>().setConstant(movers[i].mass);
-    block.bottomRightCorner<3, 3>() = movers[i].inertia;
-  }
+  beginMasses(live_);
   for (const Point& point : points) {
     if (point.piece == Piece::Zero) continue;
     Mat3 slope = Mat3::Zero();

@@ -86,6 +86,8 @@ class NewtonSystem {
 
   void project(Point& point, const Vec3& z) const;
   void evaluate();
+  template <class Factor>
+  void beginMasses(Factor& factor);
   void assemble();
   void assembleLive();
   template <class Factor>

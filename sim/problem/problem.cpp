@@ -10,8 +10,7 @@ namespace tumble {
 namespace {
 
 double rowVelocity(const Row& row, std::span<const Vec6> v) {
-  return row.linear.dot(v[row.a].head<3>() - v[row.b].head<3>()) +
-         row.angularA.dot(v[row.a].tail<3>()) + row.angularB.dot(v[row.b].tail<3>()) + row.bias;
+  return rowSpeed(row, v[row.a], v[row.b]) + row.bias;
 }
 
 /// Diagonal entry of J M⁻¹ Jᵀ: how much u of the row changes per unit of its λ.

@@ -80,6 +80,12 @@ struct Solver {
 std::span<const Solver> solvers();
 const Solver* findSolver(std::string_view name);
 
+/// J v of one row, without bias, at the twists of its two bodies.
+inline double rowSpeed(const Row& row, const Vec6& va, const Vec6& vb) {
+  return row.linear.dot(va.head<3>() - vb.head<3>()) + row.angularA.dot(va.tail<3>()) +
+         row.angularB.dot(vb.tail<3>());
+}
+
 /// u = J v + bias for every row, at the given v.
 void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<double> u);
 
@@ -102,6 +108,9 @@ double roundingFloor(const Problem& problem, const Solution& solution);
 inline bool atRounding(const Problem& problem, const Solution& solution, double residual) {
   return residual <= std::min(2.0 * roundingFloor(problem, solution), 1e-6);
 }
+
+/// Root of a body in a forest that joins bodies to islands; halves the path on its way.
+int islandRoot(std::vector<int>& parent, int body);
 
 /// Connected components of bodies through rows; immovable bodies do not connect.
 /// Each island is a list of cone indices in ascending order; islands in order of their first cone.

@@ -10,23 +10,6 @@
 #include "sim/problem/cone.h"
 
 namespace tumble {
-namespace {
-
-/// Root of a body in the forest of islands; halves the path on its way.
-int find(std::vector<int>& parent, int i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-double rowSpeed(const Row& row, const Vec6& a, const Vec6& b) {
-  return row.linear.dot(a.head<3>() - b.head<3>()) + row.angularA.dot(a.tail<3>()) +
-         row.angularB.dot(b.tail<3>());
-}
-
-}  // namespace
 
 std::pair<int, int> Stepping::ends(Link link) const {
   if (isPair(link)) return state_.near[link];
@@ -67,7 +50,7 @@ void Stepping::groupLinks() {
   for (Link link = 0; link < count; ++link) {
     const auto [b, a] = ends(link);
     if (!joins(link) || fixed(a) || fixed(b)) continue;
-    const int p = find(root_, a), q = find(root_, b);
+    const int p = islandRoot(root_, a), q = islandRoot(root_, b);
     root_[std::max(p, q)] = std::min(p, q);
   }
   // Count, then place: `local_` numbers the islands for a moment.
@@ -75,7 +58,7 @@ void Stepping::groupLinks() {
   begin_.assign(1, 0);
   const auto islandOf = [&](Link link) -> int& {
     const auto [b, a] = ends(link);
-    return local_[find(root_, fixed(a) ? b : a)];
+    return local_[islandRoot(root_, fixed(a) ? b : a)];
   };
   for (Link link = 0; link < count; ++link) {
     if (!joins(link)) continue;

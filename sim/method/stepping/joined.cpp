@@ -13,9 +13,7 @@ void Stepping::bookJoints(double h) {
     // A limit takes λ times the mean of the rates before and after.
     double rate = 0.0;
     for (const std::vector<Vec6>* v : {&before_, &after_})
-      rate +=
-          0.5 * (row.linear.dot((*v)[row.a].head<3>() - (*v)[row.b].head<3>()) +
-                 row.angularA.dot((*v)[row.a].tail<3>()) + row.angularB.dot((*v)[row.b].tail<3>()));
+      rate += 0.5 * rowSpeed(row, (*v)[row.a], (*v)[row.b]);
     report_.certificate.energy_lost_impact -= bonds_.lambda[i] * rate;
   }
   state_.trail.back().joints = jointForces(state_.trail.back().start, model_.joints, bonds_, h);
