@@ -49,7 +49,7 @@ double Newton::solveCalm() {
     if (now > tolerance_ && now > 0.5 * before) return now;
     system_.nextStage(false);
     if (now <= tolerance_) {  // one stage more costs no factor and leaves rounding alone
-      system_.minimise(0.0, kInner);
+      system_.minimise(0.0, kInner, false);
       return system_.residual();
     }
     before = now;
@@ -149,7 +149,7 @@ double Newton::solveHard(int most) {
 /// a small one closes the balance of momentum.
 void Newton::closeBalance(SolveReport& report) {
   constexpr double kRounding = 1e-14;
-  constexpr int kStages = 8, kSteps = 3;
+  constexpr int kStages = 8, kSteps = 2;
   report.balance = system_.balance();
   if (report.balance <= kRounding) return;
   points_ = system_.points;

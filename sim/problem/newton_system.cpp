@@ -203,18 +203,23 @@ void NewtonSystem::beginMasses(Factor& factor) {
   }
 }
 
+/// Where the unhindered motion approaches, or stays to rounding, a contact is expected to hold;
+/// there rounding alone would choose a piece.
+Piece NewtonSystem::guess(const Point& point) const {
+  const double nearly = 1e-6 * scale;
+  double u = point.bias[0];
+  if (point.a >= 0) u += point.Ja.col(0).dot(movers[point.a].star);
+  if (point.b >= 0) u += point.Jb.col(0).dot(movers[point.b].star);
+  const bool holds = std::min(u, point.u[0]) < nearly;
+  const bool slips = point.piece == Piece::Edge && std::hypot(point.u[1], point.u[2]) >= nearly;
+  return holds && !slips ? Piece::Whole : point.piece;
+}
+
 /// H = M + ρ Jᵀ ∂Π J.
 void NewtonSystem::assemble() {
   beginMasses(H_);
   for (Point& point : points) {
-    Piece piece = point.piece;
-    if (guess_ && piece == Piece::Zero) {
-      // Where the unhindered motion approaches, a contact is expected to hold.
-      double u = point.bias[0];
-      if (point.a >= 0) u += point.Ja.col(0).dot(movers[point.a].star);
-      if (point.b >= 0) u += point.Jb.col(0).dot(movers[point.b].star);
-      if (u < 0.0) piece = Piece::Whole;
-    }
+    const Piece piece = guess_ ? guess(point) : point.piece;
     point.factored = piece;
     if (piece == Piece::Zero) continue;
     if (point.kind != ConeKind::Friction) {
@@ -297,23 +302,34 @@ double NewtonSystem::searchLine() {
   return alpha;
 }
 
+/// Whether the last factor is that of the pieces and ρ as they are.
+bool NewtonSystem::factorFits() const {
+  return factoredRho_ == rho && std::all_of(points.begin(), points.end(),
+                                            [](const Point& p) { return p.piece == p.factored; });
+}
+
 /// Minimises Φ until a step changes no row by more than `accuracy` [m/s].
-bool NewtonSystem::minimise(double accuracy, int most) {
+bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
+  constexpr double kChord = 0.1;   // a factor whose edges have turned serves while steps shrink so
+  constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
   look();
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
-    const bool same =
-        factoredRho_ == rho && std::all_of(points.begin(), points.end(), [](const Point& p) {
-          return p.piece == p.factored && p.piece != Piece::Edge;
-        });
-    if (!same) assemble();
-    const double change = direction(H_);
+    const bool edges = std::any_of(points.begin(), points.end(),
+                                   [](const Point& p) { return p.piece == Piece::Edge; });
+    const bool fits = factorFits();
+    double change = fits ? direction(H_) : 0.0;
+    if (!fits || (edges && !(change <= std::max(accuracy, kChord * before)))) {
+      if (!mayFactor) return false;
+      assemble();
+      change = direction(H_);
+    }
     if (!std::isfinite(change)) return false;
     const double alpha = change <= accuracy ? 1.0 : searchLine();
     for (Mover& mover : movers) mover.v += alpha * mover.step;
     look();
     if (change <= accuracy) return true;
-    if (same && change > 0.5 * before) return true;  // rounding
+    if (fits && change > 0.5 * before && (!edges || change < kSmall * scale)) return true;
     before = change;
   }
   return false;

@@ -57,8 +57,8 @@ class NewtonSystem {
   /// u, forces and gradient at v; with `slipFollows` s follows u.
   void look(bool slipFollows = false);
   /// Minimises Φ by at most that many steps, until one changes no row by more than `accuracy`
-  /// [m/s].
-  bool minimise(double accuracy, int most);
+  /// [m/s]; with the factor at hand alone, if it may not take another.
+  bool minimise(double accuracy, int most, bool mayFactor = true);
   /// The same where s = mu |u_t| follows v, so that there is no Φ, only its gradient to bring to 0.
   bool followSlip(double accuracy, int most);
   /// λ becomes the forces; and s = mu |u_t|, if asked for.
@@ -88,6 +88,8 @@ class NewtonSystem {
   void evaluate();
   template <class Factor>
   void beginMasses(Factor& factor);
+  Piece guess(const Point& point) const;
+  bool factorFits() const;
   void assemble();
   void assembleLive();
   template <class Factor>
@@ -105,7 +107,7 @@ class NewtonSystem {
   BlockLU live_;
   std::vector<Vec6> work_;
   double factoredRho_ = 0.0;
-  bool guess_ = false;  ///< the first step of all takes every contact that would close as closed
+  bool guess_ = false;  ///< the first step of all goes by what contacts are expected to do
 };
 
 }  // namespace tumble

@@ -187,7 +187,9 @@ void Stepping::addTouch(Touch& touch, double h) {
   const bool arrived = c.separation <= tolerance_.touch;
   const bool hits = c.separation + h * rowSpeed(normal, star_[contact.a], star_[contact.b]) < 0.0;
   const bool rebounds = arrived && hits && touch.approach > 0.0 && contact.restitution > 0.0;
-  normal.bias = rebounds ? -contact.restitution * touch.approach : std::max(0.0, c.separation) / h;
+  // A gap of the size of rounding is none: it would choose among the corners of a face.
+  const double gap = c.separation > tolerance_.root ? c.separation : 0.0;
+  normal.bias = rebounds ? -contact.restitution * touch.approach : gap / h;
   touch.rebounds = rebounds && normal.bias < landingSpeed();
 
   Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())};
