@@ -101,6 +101,23 @@ bool invertFactor(Mat6& A) {
   return true;
 }
 
+/// A Lᵀ for a lower triangle L: each column of it ends where its row of L does.
+Mat6 timesUpper(const Mat6& A, const Mat6& L) {
+  Mat6 product;
+  product.leftCols<2>().noalias() =
+      A.leftCols<2>().lazyProduct(L.topLeftCorner<2, 2>().transpose());
+  product.middleCols<2>(2).noalias() = A.leftCols<4>().lazyProduct(L.block<2, 4>(2, 0).transpose());
+  product.rightCols<2>().noalias() = A.lazyProduct(L.bottomRows<2>().transpose());
+  return product;
+}
+
+/// The lower triangle of A − B Bᵀ, in pairs of columns.
+void takeSquare(Mat6& A, const Mat6& B) {
+  A.leftCols<2>().noalias() -= B.lazyProduct(B.topRows<2>().transpose());
+  A.block<4, 2>(2, 2).noalias() -= B.bottomRows<4>().lazyProduct(B.middleRows<2>(2).transpose());
+  A.block<2, 2>(4, 4).noalias() -= B.bottomRows<2>().lazyProduct(B.bottomRows<2>().transpose());
+}
+
 }  // namespace
 
 /// Divides a column by its diagonal, and takes its products off the columns to the right.
@@ -109,12 +126,11 @@ void BlockCholesky::eliminate(int column) {
   const Mat6& inverse = diagonal_[column];
   const int first = begin[column], end = begin[column + 1];
   for (int s = first; s < end; ++s) {
-    const Mat6 block = blocks_[s];
-    blocks_[s].noalias() = block.lazyProduct(inverse.transpose());
+    blocks_[s] = timesUpper(blocks_[s], inverse);
   }
   for (int s = first; s < end; ++s) {
     const int j = below[s];
-    diagonal_[j].noalias() -= blocks_[s].lazyProduct(blocks_[s].transpose());
+    takeSquare(diagonal_[j], blocks_[s]);
     int target = begin[j];
     for (int r = s + 1; r < end; ++r, ++target) {
       while (below[target] != below[r]) ++target;

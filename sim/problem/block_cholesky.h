@@ -37,7 +37,8 @@ class BlockStructure {
   std::vector<int> slot_;   ///< per edge: its block
 };
 
-/// H = L Lᵀ for a positive definite H, and solutions of H x = b.
+/// H = L Lᵀ for a positive definite H, and solutions of H x = b. Of a diagonal block only the lower
+/// triangle is read.
 /// Set H block by block: `begin`, then add to `diagonal` and `edge`, then `factor`.
 class BlockCholesky {
  public:

@@ -41,7 +41,7 @@ struct Mover {
   bool moves = true, turns = true;
   double mass = 1.0;                                               ///< [kg]
   Mat3 inertia = Mat3::Identity(), inertiaInv = Mat3::Identity();  ///< [kg m²] and its inverse
-  Vec6 star, v, gradient, step, gross;
+  Vec6 star, v, gradient, step;
 };
 
 /// Φ of solvers.h (solveNewton) at the velocities that its movers carry, for the λ, s and ρ of a
@@ -69,7 +69,7 @@ class NewtonSystem {
   void goBack(const std::vector<Point>& points, const std::vector<Mover>& movers);
 
   double residual() const;  ///< as naturalResidual
-  double balance() const;   ///< as SolveReport::balance
+  double balance();         ///< as SolveReport::balance
 
   double weight = 1.0;  ///< [kg] what ρ is measured by: a quarter of all masses
   double rho = 1.0;     ///< [kg]
