@@ -10,8 +10,9 @@ namespace tumble {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOpen = 1e-12;   ///< balance of momentum above which v is taken from λ
-constexpr double kCalmTau = 1e3;  ///< ρ of the calm stages, by the weight of the system
+constexpr double kOpen = 1e-12;    ///< balance of momentum above which v is taken from λ
+constexpr double kClosed = 1e-14;  ///< balance that is rounding
+constexpr double kCalmTau = 1e3;   ///< ρ of the calm stages, by the weight of the system
 
 class Newton {
  public:
@@ -23,6 +24,7 @@ class Newton {
   double solveCold(int most);
   double solveSlips(double tau);
   double solveHard(int most);
+  void settle();
   void closeBalance(SolveReport& report);
 
   void takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const;
@@ -40,18 +42,15 @@ double Newton::accuracy(double residual) const {
 
 /// Stages of constant slip terms with one large ρ: where little has changed, one factor will do.
 double Newton::solveCalm() {
-  constexpr int kStages = 8, kInner = 4, kMost = 12;
+  constexpr int kStages = 8, kInner = 8, kMost = 40;
   system_.rho = kCalmTau * system_.weight;
   double before = kInfinity;
   for (int stage = 0; stage < kStages && system_.factorizations < kMost; ++stage) {
     if (!system_.minimise(accuracy(before), kInner)) break;
     const double now = system_.residual();
     if (now > tolerance_ && now > 0.5 * before) return now;
+    if (now <= tolerance_) return now;
     system_.nextStage(false);
-    if (now <= tolerance_) {  // one stage more costs no factor and leaves rounding alone
-      system_.minimise(0.0, kInner, false);
-      return system_.residual();
-    }
     before = now;
   }
   return kInfinity;
@@ -145,30 +144,41 @@ double Newton::solveHard(int most) {
   return residual;
 }
 
-/// A large ρ magnifies the rounding of fast slips. At a solution every ρ gives the same forces, so
-/// a small one closes the balance of momentum.
-void Newton::closeBalance(SolveReport& report) {
-  constexpr double kRounding = 1e-14;
-  constexpr int kStages = 8, kSteps = 2;
-  report.balance = system_.balance();
-  if (report.balance <= kRounding) return;
-  points_ = system_.points;
-  movers_ = system_.movers;
-  system_.rho = system_.weight;
-  double left = report.residual;
-  for (int stage = 0; stage < kStages; ++stage) {
-    system_.nextStage(true);
-    for (int k = 0; k < kSteps && (k == 0 || system_.balance() > kRounding); ++k)
-      system_.minimise(0.0, 1);
-    left = system_.residual();
-    if (left <= tolerance_) break;
+/// Minimises to rounding, as far as that closes the balance of momentum.
+void Newton::settle() {
+  constexpr int kSteps = 4;
+  double before = kInfinity;
+  for (int k = 0; k < kSteps; ++k) {
+    system_.minimise(0.0, 1);
+    const double now = system_.balance();
+    if (now <= kClosed || now > 0.5 * before) return;
+    before = now;
   }
-  const double closed = system_.balance();
-  if (closed < report.balance && left <= std::max(tolerance_, report.residual)) {
-    report.balance = closed;
-    report.residual = left;
-  } else {
-    system_.goBack(points_, movers_);
+}
+
+/// At a solution every ρ gives the same forces; but a large one magnifies the rounding of fast
+/// slips, where a small one closes the balance of momentum.
+void Newton::closeBalance(SolveReport& report) {
+  constexpr int kStages = 8;
+  report.balance = system_.balance();
+  for (const double rho : {system_.rho, system_.weight}) {
+    if (report.balance <= kClosed) return;
+    points_ = system_.points;
+    movers_ = system_.movers;
+    system_.rho = rho;
+    double left = kInfinity;
+    for (int stage = 0; stage < kStages && !(left <= tolerance_); ++stage) {
+      system_.nextStage(true);
+      settle();
+      left = system_.residual();
+    }
+    const double closed = system_.balance();
+    if (closed < report.balance && left <= std::max(tolerance_, report.residual)) {
+      report.balance = closed;
+      report.residual = left;
+    } else {
+      system_.goBack(points_, movers_);
+    }
   }
 }
 
