@@ -12,6 +12,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kOpen = 1e-12;    ///< balance of momentum above which v is taken from λ
 constexpr double kClosed = 1e-14;  ///< balance that is rounding
+constexpr double kNear = 1e-9;     ///< residual below which stages that bring nothing are counted
 constexpr double kCalmTau = 1e3;   ///< ρ of the calm stages, by the weight of the system
 
 class Newton {
@@ -43,11 +44,17 @@ double Newton::accuracy(double residual) const {
 /// Stages of constant slip terms with one large ρ: where little has changed, one factor will do.
 double Newton::solveCalm() {
   constexpr int kStages = 8, kInner = 8, kMost = 40;
+  constexpr double kRough = 1e-8;  // balance of a stage that was ended early
   system_.rho = kCalmTau * system_.weight;
   double before = kInfinity;
   for (int stage = 0; stage < kStages && system_.factorizations < kMost; ++stage) {
     if (!system_.minimise(accuracy(before), kInner)) break;
-    const double now = system_.residual();
+    double now = system_.residual();
+    // Forces that do not yet balance may look right where nothing moves.
+    if (now <= tolerance_ && system_.balance() > kRough) {
+      system_.minimise(0.0, kInner);
+      now = system_.residual();
+    }
     if (now > tolerance_ && now > 0.5 * before) return now;
     if (now <= tolerance_) return now;
     system_.nextStage(false);
@@ -60,7 +67,6 @@ double Newton::solveCalm() {
 double Newton::solveCold(int most) {
   constexpr double kGrowth = 10.0, kLastTau = 1e5;
   constexpr int kStages = 60, kInner = 60, kEasy = 6, kPatience = 4, kShrinks = 4;
-  constexpr double kNear = 1e-9;  // below this, stages that bring nothing are counted
   double before = kInfinity, best = kInfinity;
   int stalled = 0, shrunk = 0;
   most += system_.factorizations;
@@ -92,10 +98,10 @@ double Newton::solveCold(int most) {
 
 /// Stages in which the slip terms follow the velocities.
 double Newton::solveSlips(double tau) {
-  constexpr int kStages = 10, kInner = 15, kFailures = 4;
+  constexpr int kStages = 10, kInner = 15, kFailures = 4, kPatience = 2;
   system_.rho = tau * system_.weight;
   double before = system_.residual();
-  int failed = 0;
+  int failed = 0, stalled = 0;
   for (int stage = 0; stage < kStages && failed < kFailures; ++stage) {
     system_.nextStage(false);
     pointsBefore_ = system_.points;
@@ -109,6 +115,8 @@ double Newton::solveSlips(double tau) {
       ++failed;
       continue;
     }
+    stalled = now > 0.9 * before && now < kNear ? stalled + 1 : 0;
+    if (stalled == kPatience) return now;
     if (found && now > 0.1 * before) system_.rho *= 3.0;
     before = now;
   }
@@ -123,7 +131,7 @@ double Newton::solveHard(int most) {
   };
   constexpr Round kRounds[] = {{30, 10.0}, {30, 100.0}, {60, 1.0}, {100, 1000.0}, {150, 10.0}};
   system_.rho = system_.weight;
-  double residual = kInfinity;
+  double residual = kInfinity, before = kInfinity;
   for (const Round& round : kRounds) {
     residual = solveCold(std::min(round.cold, most));
     if (residual <= tolerance_ || system_.factorizations >= most) return residual;
@@ -137,7 +145,10 @@ double Newton::solveHard(int most) {
     } else {
       system_.goBack(points_, movers_);
     }
-    if (system_.factorizations >= most) return residual;
+    // Where contacts hold one another to a hair, their forces grow without an end.
+    if (system_.factorizations >= most || (residual < kNear && residual > 0.1 * before))
+      return residual;
+    before = residual;
     system_.rho = rho;
     system_.nextStage(true);
   }

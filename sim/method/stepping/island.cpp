@@ -159,7 +159,11 @@ void Stepping::build(std::span<const Link> links, double h) {
   bodies_.clear();
   for (const Link link : links) {
     if (isPair(link)) {
-      for (Touch& touch : memory_.pairs[link].touches) addTouch(touch, h);
+      std::vector<Touch>& touches = memory_.pairs[link].touches;
+      const bool closed = std::all_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+        return touch.contact.point.separation <= tolerance_.touch;
+      });
+      for (Touch& touch : touches) addTouch(touch, closed, h);
       continue;
     }
     problem_.cones.push_back({.kind = bonds_.kinds[link - state_.near.size()],
@@ -174,7 +178,8 @@ void Stepping::addRow(Row row) {
   problem_.rows.push_back(row);
 }
 
-void Stepping::addTouch(Touch& touch, double h) {
+/// Adds a point of a pair, of which all points touch or not.
+void Stepping::addTouch(Touch& touch, bool closed, double h) {
   const Contact& contact = touch.contact;
   const ContactPoint& c = contact.point;
   Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
@@ -187,8 +192,8 @@ void Stepping::addTouch(Touch& touch, double h) {
   const bool arrived = c.separation <= tolerance_.touch;
   const bool hits = c.separation + h * rowSpeed(normal, star_[contact.a], star_[contact.b]) < 0.0;
   const bool rebounds = arrived && hits && touch.approach > 0.0 && contact.restitution > 0.0;
-  // A gap of the size of rounding is none: it would choose among the corners of a face.
-  const double gap = c.separation > tolerance_.root ? c.separation : 0.0;
+  // Gaps of one face go together: all are as found, or, where all touch, none is left of them.
+  const double gap = closed ? 0.0 : std::max(c.separation, -tolerance_.root);
   normal.bias = rebounds ? -contact.restitution * touch.approach : gap / h;
   touch.rebounds = rebounds && normal.bias < landingSpeed();
 

@@ -53,7 +53,7 @@ class Stepping {
   void collectBodies(std::span<const Link> links);
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   void build(std::span<const Link> links, double h);
-  void addTouch(Touch& touch, double h);
+  void addTouch(Touch& touch, bool closed, double h);
   void addRow(Row row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
