@@ -44,6 +44,8 @@ constexpr Check kChecks[] = {
     {"apart",
      "planes part the corners of bodies that pass, remembered or not; hulls of compounds hit",
      apartRows, nullptr},
+    {"slope", "on a plane a block stays or slides by tan θ = μ, and a ball slides until it rolls",
+     slopeRows, nullptr},
 };
 
 }  // namespace

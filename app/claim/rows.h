@@ -25,5 +25,6 @@ std::vector<ClaimRow> rowOfBallsRows(const Scene&, const Recording&);
 std::vector<ClaimRow> leverRows(const Scene&, const Recording&);
 std::vector<ClaimRow> grooveRows(const Scene&, const Recording&);
 std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
+std::vector<ClaimRow> slopeRows(const Scene&, const Recording&);
 
 }  // namespace tumble
