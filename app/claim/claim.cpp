@@ -46,6 +46,11 @@ constexpr Check kChecks[] = {
      apartRows, nullptr},
     {"slope", "on a plane a block stays or slides by tan θ = μ, and a ball slides until it rolls",
      slopeRows, nullptr},
+    {"equilibrium",
+     "what rests at the start stays where forces in the cones can hold it, else falls",
+     equilibriumRows, nullptr},
+    {"settled", "at the end all lie still, and the ground carries their weight", settledRows,
+     nullptr},
 };
 
 }  // namespace

@@ -26,5 +26,7 @@ std::vector<ClaimRow> leverRows(const Scene&, const Recording&);
 std::vector<ClaimRow> grooveRows(const Scene&, const Recording&);
 std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
 std::vector<ClaimRow> slopeRows(const Scene&, const Recording&);
+std::vector<ClaimRow> equilibriumRows(const Scene&, const Recording&);
+std::vector<ClaimRow> settledRows(const Scene&, const Recording&);
 
 }  // namespace tumble

@@ -1,0 +1,106 @@
+// The claims of what stands, falls and comes to rest: the cone that decides, true runs, untrue
+// ones.
+#include <algorithm>
+#include <cmath>
+
+#include "app/claim/equilibrium.h"
+#include "app/file/data.h"
+#include "tests/app/claims.h"
+
+using namespace tumble;
+
+namespace {
+
+Scene demo(const char* name, const std::vector<std::string>& overrides = {}) {
+  return readScene(dataFolder("demos") + "/" + std::string(name) + ".toml", overrides);
+}
+
+// A block of 1 kg, 0.2 m wide and 0.4 m high, on a slope of these degrees.
+Scene blockOn(double degrees, double mu) {
+  const double a = degrees * EIGEN_PI / 180.0;
+  char text[900];
+  std::snprintf(text, sizeof text, R"(
+[world]
+method = "stepping"
+duration = 1.0
+[[body]]
+name = "slope"
+shape = { plane = [%.17g, %.17g, 0.0, 0.0] }
+friction = %.17g
+[[body]]
+name = "block"
+shape = { box = [0.2, 0.4, 0.3] }
+mass = 1.0
+friction = %.17g
+position = [%.17g, %.17g, 0.0]
+orientation = { axis = [0, 0, 1], degrees = %.17g }
+)",
+                std::sin(a), std::cos(a), mu, mu, 0.2 * std::sin(a), 0.2 * std::cos(a), -degrees);
+  return parseScene(text, "block.toml");
+}
+
+bool says(const Scene& scene, const char* words) {
+  const std::vector<ClaimRow> rows =
+      findCheck("equilibrium")->rows(scene, record(scene, scene.image.rate));
+  return std::any_of(rows.begin(), rows.end(), [&](const ClaimRow& row) {
+    return row.holds() && row.label.find(words) != std::string::npos;
+  });
+}
+
+}  // namespace
+
+// Oracle: closed forms in the plane. Measured 1e-16, allowed 1e-14.
+TEST_CASE("the distance of a load from a cone is that of plane geometry") {
+  MatX cone(2, 2);
+  cone << 1.0, 0.0, 0.0, 1.0;
+  const auto distance = [&](double x, double y) {
+    return coneDistance(cone, VecX(Vec3(x, y, 0).head<2>()));
+  };
+  CHECK(distance(3.0, 4.0) < 1e-14);
+  CHECK(std::abs(distance(3.0, -4.0) - 0.8) < 1e-14);
+  CHECK(std::abs(distance(-3.0, -4.0) - 1.0) < 1e-14);
+  cone << 1.0, 1.0, 1.0, 1.0;  // twice the same
+  CHECK(std::abs(distance(0.0, 1.0) - std::sqrt(0.5)) < 1e-14);
+}
+
+// Oracles: tan θ = μ, and tan θ = 0.2/0.4, above which a block topples.
+TEST_CASE("a block on a slope is held below the angle of friction and below that of toppling") {
+  CHECK(says(blockOn(20.0, 0.37), "can be held"));
+  CHECK(says(blockOn(20.0, 0.36), "cannot be held"));
+  CHECK(says(blockOn(26.5, 2.0), "can be held"));
+  CHECK(says(blockOn(26.6, 2.0), "cannot be held"));
+}
+
+// Oracle: the least thickness of a half-circle of eleven stones.
+TEST_CASE("an arch falls by what statics says, not by what it is named") {
+  const Scene scene = demo("arch");
+  const Recording right = record(scene, 20.0);
+  CHECK(says(scene, "thick.0: can be held"));
+  CHECK(says(scene, "thin.0: cannot be held"));
+  CHECK(holds("settled", scene, right));
+  const auto bodyNamed = [&](const char* name) {
+    int body = 0;
+    while (scene.world.bodies[body].name != name) ++body;
+    return body;
+  };
+  CHECK_FALSE(holdsBroken("equilibrium", scene, right, [&](Recording& r) {
+    r.samples[40].bodies[bodyNamed("thick.4")].x.y() -= 1e-8;
+  }));
+  CHECK_FALSE(holdsBroken("equilibrium", scene, right,
+                          [](Recording& r) { r.samples.resize(5); }));  // has not fallen yet
+  CHECK_FALSE(holdsBroken("settled", scene, right, [](Recording& r) {
+    for (ContactSample& c : r.samples.back().contacts) c.force *= 1.0 + 1e-8;
+  }));
+  CHECK_FALSE(holdsBroken("settled", scene, right, [&](Recording& r) {
+    r.samples.back().bodies[bodyNamed("thin.3")].omega.z() += 1e-5;
+  }));
+  CHECK_FALSE(holdsBroken("settled", scene, right,
+                          [](Recording& r) { r.samples.back().contacts[0].separation = -1e-8; }));
+}
+
+TEST_CASE("where nothing rests or weighs anything, the claims say so") {
+  const Scene scene = demo("cradle");
+  const Recording recording = record(scene, 10.0);
+  CHECK_FALSE(holds("equilibrium", scene, recording));
+  CHECK_FALSE(holds("settled", scene, recording));
+}
