@@ -51,6 +51,8 @@ constexpr Check kChecks[] = {
      equilibriumRows, nullptr},
     {"settled", "at the end all lie still, and the ground carries their weight", settledRows,
      nullptr},
+    {"dominoes", "the first falls as a pendulum does; each is hit where geometry says, in order",
+     dominoRows, nullptr},
 };
 
 }  // namespace
