@@ -53,6 +53,8 @@ constexpr Check kChecks[] = {
      nullptr},
     {"dominoes", "the first falls as a pendulum does; each is hit where geometry says, in order",
      dominoRows, nullptr},
+    {"spins", "on a floor energy goes by slip alone; Jellett's integral, a steady disk, a held tip",
+     spinRows, nullptr},
 };
 
 }  // namespace

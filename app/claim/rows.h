@@ -29,5 +29,6 @@ std::vector<ClaimRow> slopeRows(const Scene&, const Recording&);
 std::vector<ClaimRow> equilibriumRows(const Scene&, const Recording&);
 std::vector<ClaimRow> settledRows(const Scene&, const Recording&);
 std::vector<ClaimRow> dominoRows(const Scene&, const Recording&);
+std::vector<ClaimRow> spinRows(const Scene&, const Recording&);
 
 }  // namespace tumble
