@@ -25,10 +25,10 @@ std::vector<ClaimRow> rowOfBallsRows(const Scene&, const Recording&);
 std::vector<ClaimRow> leverRows(const Scene&, const Recording&);
 std::vector<ClaimRow> grooveRows(const Scene&, const Recording&);
 std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
-std::vector<ClaimRow> slopeRows(const Scene&, const Recording&);
+std::vector<ClaimRow> slidingRows(const Scene&, const Recording&);
 std::vector<ClaimRow> equilibriumRows(const Scene&, const Recording&);
 std::vector<ClaimRow> settledRows(const Scene&, const Recording&);
-std::vector<ClaimRow> dominoRows(const Scene&, const Recording&);
+std::vector<ClaimRow> topplingRows(const Scene&, const Recording&);
 std::vector<ClaimRow> spinRows(const Scene&, const Recording&);
 
 }  // namespace tumble

@@ -20,7 +20,7 @@ bool hasRow(const std::vector<ClaimRow>& rows, const std::string& text) {
 
 }  // namespace
 
-// Oracle: the closed forms of app/claim/slope.cpp.
+// Oracle: the closed forms of app/claim/sliding.cpp.
 TEST_CASE("blocks and a ball on slopes keep their claim by each method, whatever the scene") {
   for (const char* method : {"exact", "course", "stepping"}) {
     const std::string set = std::string("world.method=") + method;
@@ -30,7 +30,7 @@ TEST_CASE("blocks and a ball on slopes keep their claim by each method, whatever
       for (const char* material : {"ramp", "stayer", "slider", "rubber"})
         overrides.push_back(std::string("materials.") + material + ".friction=" + mu);
       const Scene scene = demo(overrides);
-      CHECK(holds("slope", scene, record(scene, 60.0)));
+      CHECK(holds("sliding", scene, record(scene, 60.0)));
     }
   }
 }
@@ -38,7 +38,7 @@ TEST_CASE("blocks and a ball on slopes keep their claim by each method, whatever
 // Oracle: tan 25° < 0.5 < tan 28°.
 TEST_CASE("the claim tells what stays from what slides by the tangent of the slope") {
   const Scene scene = demo();
-  const std::vector<ClaimRow> rows = findCheck("slope")->rows(scene, record(scene, 60.0));
+  const std::vector<ClaimRow> rows = findCheck("sliding")->rows(scene, record(scene, 60.0));
   CHECK(hasRow(rows, "block25 stays at 25°"));
   CHECK(hasRow(rows, "block28 slides at 28°"));
   CHECK(hasRow(rows, "ball slides"));
@@ -50,7 +50,7 @@ TEST_CASE("the claim tells what stays from what slides by the tangent of the slo
 TEST_CASE("a wrong acceleration, a creep, and a ball that rolls late break the claim of slopes") {
   const Scene scene = demo();
   const Recording right = record(scene, 60.0);
-  CHECK(holds("slope", scene, right));
+  CHECK(holds("sliding", scene, right));
   const auto bodyNamed = [&](const char* name) {
     int body = 0;
     while (scene.world.bodies[body].name != name) ++body;
@@ -58,11 +58,11 @@ TEST_CASE("a wrong acceleration, a creep, and a ball that rolls late break the c
   };
   for (const char* name : {"block5", "block45", "ball"}) {
     CAPTURE(name);
-    CHECK_FALSE(holdsBroken("slope", scene, right, [&](Recording& r) {
+    CHECK_FALSE(holdsBroken("sliding", scene, right, [&](Recording& r) {
       r.samples[10].bodies[bodyNamed(name)].v.x() += 1e-9;
     }));
   }
-  CHECK_FALSE(holdsBroken("slope", scene, right, [](Recording& r) {
+  CHECK_FALSE(holdsBroken("sliding", scene, right, [](Recording& r) {
     for (Event& event : r.report.events)
       if (event.kind == EventKind::Stick) event.t += 1e-8;
   }));
@@ -71,5 +71,5 @@ TEST_CASE("a wrong acceleration, a creep, and a ball that rolls late break the c
 TEST_CASE("without a plane that stands still the claim of slopes says so") {
   const Scene scene = demo({"world.gravity=[0.0, 9.81, 0.0]", "world.duration=0.1"});
   const Recording recording = record(scene, 60.0);
-  CHECK_FALSE(holds("slope", scene, recording));
+  CHECK_FALSE(holds("sliding", scene, recording));
 }

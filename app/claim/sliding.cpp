@@ -163,7 +163,7 @@ void addStops(const Scene& scene, const Recording& recording, int body, const Ve
 
 }  // namespace
 
-std::vector<ClaimRow> slopeRows(const Scene& scene, const Recording& recording) {
+std::vector<ClaimRow> slidingRows(const Scene& scene, const Recording& recording) {
   std::vector<ClaimRow> rows;
   for (int body = 0; body < static_cast<int>(scene.world.bodies.size()); ++body) {
     if (!moves(scene.world.bodies[body])) continue;

@@ -172,7 +172,7 @@ void addEnergy(const Scene& scene, const Recording& recording, const Row& row,
 
 }  // namespace
 
-std::vector<ClaimRow> dominoRows(const Scene& scene, const Recording& recording) {
+std::vector<ClaimRow> topplingRows(const Scene& scene, const Recording& recording) {
   if (recording.samples.empty()) return {emptyClaim("the run has no samples")};
   const Row row = rowOf(scene, recording);
   if (row.bodies.empty()) return {emptyClaim("no box leans towards others on a level plane")};
