@@ -160,10 +160,9 @@ void Stepping::build(std::span<const Link> links, double h) {
   for (const Link link : links) {
     if (isPair(link)) {
       std::vector<Touch>& touches = memory_.pairs[link].touches;
-      const bool closed = std::all_of(touches.begin(), touches.end(), [&](const Touch& touch) {
-        return touch.contact.point.separation <= tolerance_.touch;
-      });
-      for (Touch& touch : touches) addTouch(touch, closed, h);
+      const bool allClosed = std::all_of(touches.begin(), touches.end(),
+                                         [&](const Touch& touch) { return closed(touch); });
+      for (Touch& touch : touches) addTouch(touch, allClosed, h);
       continue;
     }
     problem_.cones.push_back({.kind = bonds_.kinds[link - state_.near.size()],
@@ -179,7 +178,7 @@ void Stepping::addRow(Row row) {
 }
 
 /// Adds a point of a pair, of which all points touch or not.
-void Stepping::addTouch(Touch& touch, bool closed, double h) {
+void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const Contact& contact = touch.contact;
   const ContactPoint& c = contact.point;
   Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
@@ -189,11 +188,11 @@ void Stepping::addTouch(Touch& touch, bool closed, double h) {
   // height.
   const double vrel = rowSpeed(normal, before_[contact.a], before_[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
-  const bool arrived = c.separation <= tolerance_.touch;
+  const bool arrived = closed(touch);
   const bool hits = c.separation + h * rowSpeed(normal, star_[contact.a], star_[contact.b]) < 0.0;
   const bool rebounds = arrived && hits && touch.approach > 0.0 && contact.restitution > 0.0;
   // Gaps of one face go together: all are as found, or, where all touch, none is left of them.
-  const double gap = closed ? 0.0 : std::max(c.separation, -tolerance_.root);
+  const double gap = allClosed ? 0.0 : std::max(c.separation, -tolerance_.root);
   normal.bias = rebounds ? -contact.restitution * touch.approach : gap / h;
   touch.rebounds = rebounds && normal.bias < landingSpeed();
 

@@ -50,6 +50,7 @@ struct SteppingMemory {
   std::vector<IslandMemory> islands;  ///< by the first of their bodies
   std::vector<Contact> lasting;       ///< the first lasting contact of each pair that has one
   long looks = 0;
+  long asked = 0;  ///< looks up to which pairs were asked whether they meet at a seam
 };
 
 }  // namespace tumble

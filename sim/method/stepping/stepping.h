@@ -43,6 +43,11 @@ class Stepping {
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
 
+  // seams.cpp: what a third body keeps apart.
+  bool closed(const Touch& touch) const;
+  void leaveSeams();
+  bool keptApart(int pair, int body) const;
+
   // island.cpp: the contact problem of each island.
   void solveIslands(double h);
   void groupLinks();
@@ -53,7 +58,7 @@ class Stepping {
   void collectBodies(std::span<const Link> links);
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   void build(std::span<const Link> links, double h);
-  void addTouch(Touch& touch, bool closed, double h);
+  void addTouch(Touch& touch, bool allClosed, double h);
   void addRow(Row row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
@@ -96,6 +101,8 @@ class Stepping {
   std::vector<std::pair<int, int>> near_;
   std::vector<PairMemory> passed_;
   std::vector<Contact> found_;
+  std::vector<int> crossing_;              ///< pairs that may meet at a seam
+  std::vector<std::vector<int>> holders_;  ///< per body: the pairs that touch and may hold it
   Bonds bonds_;                            ///< rows of joints
   std::vector<int> root_, order_, begin_;  ///< of islands: forest of bodies; links by island
   std::vector<int> local_, bodies_;        ///< of one island: numbers in its problem, and back

@@ -20,6 +20,7 @@ void Stepping::findTouching(double h) {
   findNear(h);
   if (stopAtUnknownPair(model_, state_.near, report_)) return;
   for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, marginOf(k, h));
+  leaveSeams();
 }
 
 void Stepping::findNear(double h) {

@@ -1,0 +1,62 @@
+// Seams: a body that slides from one body onto another whose face is flush with the first meets no
+// obstacle, though the nearest features, two edges, have a normal that would stop it.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collide/witness.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+
+bool Stepping::closed(const Touch& touch) const {
+  return touch.contact.point.separation <= tolerance_.touch;
+}
+
+/// Takes away the points of pairs that a contact with a third body keeps apart already. Pairs are
+/// asked once after each look; those with a face on another are not.
+void Stepping::leaveSeams() {
+  constexpr int kFace = 3;  // closed points
+  const auto isClosed = [&](const Touch& touch) { return closed(touch); };
+  crossing_.clear();
+  for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
+    const std::vector<Touch>& touches = memory_.pairs[k].touches;
+    if (memory_.pairs[k].look <= memory_.asked || touches.empty()) continue;
+    if (std::count_if(touches.begin(), touches.end(), isClosed) < kFace) crossing_.push_back(k);
+  }
+  memory_.asked = memory_.looks;
+  if (crossing_.empty()) return;
+
+  holders_.assign(state_.bodies.size(), {});
+  for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
+    const std::vector<Touch>& touches = memory_.pairs[k].touches;
+    if (std::none_of(touches.begin(), touches.end(), isClosed)) continue;
+    for (const int i : {state_.near[k].first, state_.near[k].second})
+      if (!model_.fixed(i)) holders_[i].push_back(k);
+  }
+  for (const int k : crossing_)
+    if (keptApart(k, state_.near[k].first) || keptApart(k, state_.near[k].second))
+      memory_.pairs[k].touches.clear();
+}
+
+/// Whether one of the contacts that hold `body` has a plane that parts the two bodies of a pair.
+bool Stepping::keptApart(int pair, int body) const {
+  constexpr double kAlike = 1.0 - 1e-12;  // cosine of normals of faces that are flush
+  const auto [b, a] = state_.near[pair];
+  const int other = a == body ? b : a;
+  if (std::holds_alternative<HalfSpace>(model_.shapes[other])) return false;  // it has no edge
+  const Vec3& n = memory_.pairs[pair].touches.front().contact.point.n;
+  return std::any_of(holders_[body].begin(), holders_[body].end(), [&](int k) {
+    const std::vector<Touch>& touches = memory_.pairs[k].touches;
+    if (k == pair || touches.empty()) return false;
+    const Vec3 m = state_.near[k].second == body ? touches.front().contact.point.n
+                                                 : Vec3(-touches.front().contact.point.n);
+    if (std::abs(m.dot(n)) > kAlike) return false;
+    const Pose pose = state_.bodies[body].pose(), poseOther = state_.bodies[other].pose();
+    const Witness plane{
+        .known = true, .tie = NormalTie::FaceOfB, .n_B = poseOther.q.conjugate() * m};
+    return gapAlong(plane, model_.shapes[body], pose, model_.shapes[other], poseOther) >=
+           -tolerance_.touch;
+  });
+}
+
+}  // namespace tumble
