@@ -56,8 +56,11 @@ double Newton::solveCalm() {
       now = system_.residual();
     }
     if (now > tolerance_ && now > 0.5 * before) return now;
-    if (now <= tolerance_) return now;
     system_.nextStage(false);
+    if (now <= tolerance_) {  // one stage more costs no factor and leaves rounding alone
+      system_.minimise(0.0, kInner, false);
+      return system_.residual();
+    }
     before = now;
   }
   return kInfinity;
