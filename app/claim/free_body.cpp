@@ -12,6 +12,8 @@ bool moves(const BodyDef& body) {
 
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body) {
   const double mass = bodyMass(world.bodies[body]);
+  const auto holds = [&](const JointDef& joint) { return joint.a == body || joint.b == body; };
+  if (std::any_of(world.joints.begin(), world.joints.end(), holds)) return {};
   Vec3 acceleration = world.gravity;
   for (const Force& force : world.forces) {
     if (const UniformWind* wind = std::get_if<UniformWind>(&force)) {
@@ -77,6 +79,7 @@ double untouchedUntil(const Scene& scene, const Recording& recording, int body) 
 WorldDef aloneOf(const Scene& scene, int body) {
   WorldDef def = scene.world;
   def.forces.clear();
+  def.joints.clear();
   def.pairs.clear();
   def.bodies = {scene.world.bodies[body]};
   return def;

@@ -12,7 +12,7 @@ namespace tumble {
 bool moves(const BodyDef& body);
 
 /// Acceleration [m/s²] of the centre of mass in free flight: gravity + Σ uniform forces / mass.
-/// Empty if a drag, a spring or a force off the centre acts, whose motion has no parabola.
+/// Empty if a drag, a spring, a joint or a force off the centre acts, whose motion has no parabola.
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body);
 
 /// max n·R(q) p over the points p of the shape [m]: how far it reaches from its centre along unit
@@ -29,7 +29,7 @@ double spinRounding(const Mat3& inertia);
 /// The first event [s] that the body takes part in, or the end of the run.
 double untouchedUntil(const Scene& scene, const Recording& recording, int body);
 
-/// The body without all others, their forces and their rules.
+/// The body without all others, their forces, joints and rules.
 WorldDef aloneOf(const Scene& scene, int body);
 
 /// Restitution and friction that the scene's rules give a pair of bodies.

@@ -99,3 +99,33 @@ TEST_CASE("pendulums on thin strings, far levers and far places keep the claim o
   scene.world.bodies[0].position = {1e6, -3e5, 7.0};
   CHECK(holds(scene, record(scene, 60.0)));
 }
+
+// Joints of other bodies stay behind when a top is cut out of its scene; a top that a joint holds
+// is none. Without either the cut world names a body that is not there, and is refused.
+TEST_CASE("the claim of tops holds beside bodies with joints, and is none of a top with one") {
+  Scene scene = topScene("course");
+  for (const char* name : {"left", "right"}) {
+    BodyDef other;
+    other.name = name;
+    other.shape = Sphere{0.1};
+    other.density = 1000.0;
+    other.position = {name[0] == 'l' ? 3.0 : 3.5, 0.0, 0.0};
+    scene.world.bodies.push_back(other);
+  }
+  JointDef glue;
+  glue.name = "glue";
+  glue.kind = JointKind::Fixed;
+  glue.a = 1;
+  glue.b = 2;
+  glue.anchorA = glue.anchorB = Vec3(3.2, 0.0, 0.0);
+  scene.world.joints = {glue};
+  scene.world.course.integrator = "rk4";
+  scene.world.course.step = 1.0 / 960.0;
+  CHECK(holds(scene, record(scene, 60.0)));
+
+  glue.a = 0;
+  scene.world.joints = {glue};
+  const std::vector<ClaimRow> rows = findCheck("heavy-top")->rows(scene, Recording{});
+  REQUIRE(rows.size() == 1);
+  CHECK_FALSE(rows[0].holds());
+}
