@@ -78,6 +78,10 @@ void account(const Model& model, State& state, Report& report) {
   state.kineticMax = std::max(state.kineticMax, kinetic);
   state.momentumScale = std::max(state.momentumScale, size);
 
+  for (Contact c : state.lasting) {
+    follow(state.bodies[c.a], state.bodies[c.b], c);
+    books.max_penetration = std::max(books.max_penetration, -c.point.separation);
+  }
   books.max_joint_gap = std::max(books.max_joint_gap, largestJointGap(state.bodies, model.joints));
   books.events = static_cast<long>(report.events.size());
   books.energy_end = kinetic + potentialEnergy(model.def.gravity, model.def.forces, state.bodies) +
