@@ -9,6 +9,8 @@ namespace {
 
 /// Attempts in one step.
 constexpr int kMostAttempts = 400;
+/// Part of the tolerance that is rounding alone: more substeps would bring nothing.
+constexpr double kEnough = 1e-2;
 
 /// Factor for the next attempt: about the ninth root of 1/error, from square roots alone, so that
 /// every machine gives the same bits.
@@ -40,7 +42,7 @@ double Extrapolation::step(const System& system, double t, double h, std::span<d
       size = stride * std::min(0.7, factor(error));
       continue;
     }
-    for (std::size_t i = 0; i < size_; ++i) now_[i] += table_[kColumns - 1][i];
+    for (std::size_t i = 0; i < size_; ++i) now_[i] += table_[column_][i];
     done = last ? h : done + stride;
     size = std::max(size, stride) * factor(error);
     if (done < h) system.derivative(t + done, now_, rate_);
@@ -64,26 +66,32 @@ void Extrapolation::midpoint(const System& system, double t, double h, int n, Nu
 }
 
 double Extrapolation::attempt(const System& system, double t, double h) {
+  double error = 0.0;
+  for (column_ = 0;; ++column_) {
+    midpoint(system, t, h, 2 * (column_ + 1), stage_);
+    error = extend();
+    const bool last = column_ + 1 == kColumns;
+    if (last || (column_ > 0 && error <= kEnough)) return error;
+  }
+}
+
+double Extrapolation::extend() {
+  // The new row of the tableau takes the place of the one before, from its end to its start.
   double worst = 0.0;
-  for (int j = 0; j < kColumns; ++j) {
-    // The new row of the tableau takes the place of the one before, from its end to its start.
-    midpoint(system, t, h, 2 * (j + 1), stage_);
-    for (std::size_t i = 0; i < size_; ++i) {
-      double value = stage_[i], before = 0.0;
-      for (int k = 0; k < j; ++k) {
-        const double ratio = static_cast<double>(j + 1) / (j - k);
-        before = value;
-        const double next = value + (value - table_[k][i]) / (ratio * ratio - 1.0);
-        table_[k][i] = value;
-        value = next;
-      }
-      table_[j][i] = value;
-      if (j + 1 < kColumns) continue;
-      const double allowed = tolerance_ * (1.0 + std::abs(now_[i]) + std::abs(value));
-      const double relative = std::abs(value - before) / allowed;
-      if (!std::isfinite(relative)) return std::numeric_limits<double>::infinity();
-      worst = std::max(worst, relative);
+  for (std::size_t i = 0; i < size_; ++i) {
+    double value = stage_[i], before = 0.0;
+    for (int k = 0; k < column_; ++k) {
+      const double ratio = static_cast<double>(column_ + 1) / (column_ - k);
+      before = value;
+      const double next = value + (value - table_[k][i]) / (ratio * ratio - 1.0);
+      table_[k][i] = value;
+      value = next;
     }
+    table_[column_][i] = value;
+    const double allowed = tolerance_ * (1.0 + std::abs(now_[i]) + std::abs(value));
+    const double relative = std::abs(value - before) / allowed;
+    if (!std::isfinite(relative)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, relative);
   }
   return worst;
 }

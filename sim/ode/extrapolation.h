@@ -11,7 +11,8 @@ namespace tumble {
 
 /// Gragg's midpoint rule with 2, 4, 6, 8 and 10 substeps, extrapolated in h² to none:
 ///   T(j,k) = T(j,k−1) + (T(j,k−1) − T(j−1,k−1)) / ((n_j/n_(j−k+1))² − 1)
-/// Order 10; the last difference, of order 8, is the estimate of the error. Hairer, Nørsett and
+/// Order 10; the last difference, of order 8, is the estimate of the error. A short step that fewer
+/// substeps already bring to rounding ends with them. Hairer, Nørsett and
 /// Wanner, Solving Ordinary Differential Equations I, §II.9. Departure: no smoothing step; what is
 /// extrapolated is Y − Y(t), so that rounding stays that of the increment.
 class Extrapolation {
@@ -28,8 +29,11 @@ class Extrapolation {
   static constexpr int kColumns = 5;
   using Numbers = std::vector<double>;
 
-  /// Y(t + h) − Y(t) into table_[kColumns − 1]. @return the error relative to what is allowed.
+  /// Y(t + h) − Y(t) into table_[column_], by as many columns as bring anything.
+  /// @return the error relative to what is allowed
   double attempt(const System& system, double t, double h);
+  /// The row of the tableau that begins with stage_. @return its last difference, as above
+  double extend();
   /// The midpoint rule with n substeps into `increment`.
   void midpoint(const System& system, double t, double h, int n, Numbers& increment);
 
@@ -37,6 +41,7 @@ class Extrapolation {
   double tolerance_;
   Numbers now_, rate_, first_, last_, stage_, slope_;
   std::array<Numbers, kColumns> table_;  ///< one diagonal
+  int column_ = 0;
 };
 
 }  // namespace tumble
