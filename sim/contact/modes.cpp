@@ -36,8 +36,8 @@ Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& cont
   tangents(contact.point.n, contact.slipDirection, t1, t2);
   const double along = slip.dot(t1), across = std::abs(slip.dot(t2)), size = slip.norm();
   const double speed = pointVelocity(a, contact.point.p).norm();
-  if (size <= kStill || across <= kStraight * size || across <= kNoise * (1.0 + speed) ||
-      std::abs(along) < 0.5 * size)
+  if (contact.creeping || size <= kStill || across <= kStraight * size ||
+      across <= kNoise * (1.0 + speed) || std::abs(along) < 0.5 * size)
     return t1;
   return along > 0.0 ? Vec3(slip / size) : Vec3(-slip / size);
 }

@@ -13,6 +13,7 @@
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
 #include "sim/joint/joint_bonds.h"
+#include "sim/method/exact/pace.h"
 #include "sim/method/report.h"
 #include "sim/method/stepping/memory.h"
 #include "sim/shape/outline.h"
@@ -106,7 +107,7 @@ struct State {
   bool jammed = false;      ///< forces grow beyond all bounds
   int stretchesLeft = 0;    ///< until closed forms are tried again,
   int patience = 0;         ///< and how many the next time
-  int blindness = 0;        ///< stretches in a row that saw events late
+  Pace pace;                ///< of its events
 };
 
 }  // namespace tumble

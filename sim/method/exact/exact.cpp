@@ -47,6 +47,11 @@ std::string digits(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+std::string crowdedAt(double t) {
+  return "more events than can be followed crowd at t = " + digits(t) +
+         " s; try method \"stepping\", or a little less restitution or friction";
+}
+
 void checkExact(const Model& model, std::span<const RigidBody>) {
   const std::vector<Force>& forces = model.def.forces;
   for (std::size_t k = 0; k < forces.size(); ++k)
@@ -149,8 +154,9 @@ void Exact::takeOff() {
     state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, t);
   openWindow();
   if (!report_.stopped) settle();
-  if (state_.sustained || report_.stopped) return;
-  openWindow();  // contacts that lasted need not last any more
+  if (report_.stopped) return;
+  if (state_.sustained) return keepBooks(t);  // those that fly have been looked at elsewhere
+  openWindow();                               // contacts that lasted need not last any more
   if (!state_.holds.empty() && state_.holds.back().t < t)
     state_.holds.push_back({t, state_.lasting});
   keepBooks(t);
@@ -167,6 +173,7 @@ void Exact::settle() {
   };
   std::vector<char> settled(state_.bodies.size(), 0);
   const std::size_t firstEvent = report_.events.size();
+  ends_.clear();
   for (const int i : model_.solid) {
     if (settled[i] || model_.fixed(i) || report_.stopped) continue;
     const int seeds[] = {i};

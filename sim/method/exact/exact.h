@@ -70,6 +70,9 @@ class Exact {
   struct Bounces {
     double height, end;
   };
+  /// [m] a bounce that would rise less is the last of its row.
+  double lowest() const;
+  void loadWithout(const Contact& pair, int body);
   std::optional<Bounces> bouncesOf(double t, const Contact& contact);
   /// Restitution of every contact at this instant: 0 for pairs whose row of bounces is over.
   std::vector<double> restitutions(double t, const std::vector<Contact>& contacts);
@@ -85,6 +88,7 @@ class Exact {
   /// have come to an end. @return the residual of the contact problem
   double findForces(double t, const Cluster& cluster, std::vector<Contact>& resting);
   std::vector<Contact> restingOf(const Cluster& cluster) const;
+  bool endsBounces(const Contact& contact, double vrel) const;
   /// Drops what is neither pushed nor pressed. @return whether any of it parts slowly
   bool letGo(std::vector<Contact>& resting) const;
   /// Gives the bodies of a cluster flights under the forces that they carry.
@@ -124,5 +128,7 @@ class Exact {
 
 /// The shortest digits that give the same number again, the same in every locale.
 std::string digits(double value);
+/// Why a run ends where there are too many events, and what to try.
+std::string crowdedAt(double t);
 
 }  // namespace tumble

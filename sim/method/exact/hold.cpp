@@ -33,7 +33,8 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
   for (Contact c : cluster.contacts) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double vrel = approachVelocity(a, b, c.point);
-    if (vrel > tolerance_.rest || vrel < -kLeft * tolerance_.rest) continue;
+    const bool rests = vrel <= tolerance_.rest && vrel >= -kLeft * tolerance_.rest;
+    if (!rests && !endsBounces(c, vrel)) continue;
     c.lasting = true;
     if (c.anchor.rim.r == 0.0) c.anchor = anchorOf(a, b, c.point);
     const Vec3 slip = slipVelocity(a, b, c.point);
@@ -42,6 +43,16 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
     resting.push_back(c);
   }
   return resting;
+}
+
+// The last hit of a row of bounces may lift other points of the pair, as little as the bounces that
+// are left out would have.
+bool Exact::endsBounces(const Contact& c, double vrel) const {
+  const double weight = state_.bodies[c.a].invM * state_.outer[c.a].norm() +
+                        state_.bodies[c.b].invM * state_.outer[c.b].norm();
+  return std::any_of(ends_.begin(), ends_.end(),
+                     [&](const auto& end) { return end.first == Pair(c.b, c.a); }) &&
+         0.5 * vrel * vrel < lowest() * weight;
 }
 
 double Exact::solveForces(std::vector<Contact>& resting) {

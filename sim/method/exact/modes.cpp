@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/contact/carry.h"
 #include "sim/method/exact/rims.h"
 #include "sim/method/exact/sustained.h"
 
@@ -16,8 +17,6 @@ constexpr double kMargin = 1e-9;
 constexpr double kRounding = 2e-10;
 /// What friction must leave of a push; see `pushLeft`.
 constexpr double kPushLeft = 1e-12;
-/// [m/s] of a slip that begins: rounding.
-constexpr double kNoSlip = 1e-12;
 /// No pull towards zero: velocities and gaps are projected. [s]
 constexpr double kNoPull = 1e15;
 
@@ -52,7 +51,9 @@ void Sustained::chooseModes() {
   for (Contact& c : lasting) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     follow(a, b, c);
+    c.creeping = false;
     if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
+    c.creeping = state_.pace.level > 0;
   }
   if (!state_.modesKnown) {
     const std::vector<Contact> before = lasting;
@@ -69,12 +70,50 @@ void Sustained::chooseModes() {
       c.sliding = true;
       c.slipDirection = -tangential(c).normalized();
     }
+    unload();
     recordChanges(before, lasting, state_.t, report_);
     state_.modesKnown = true;
   }
   slip_.clear();
   for (const Contact& c : lasting)
     slip_.push_back(slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm());
+}
+
+// Contacts that slide in unlike directions share a load in more than one way, and not all ways move
+// the bodies alike. Those that would have to pull idle, one after the other, unless they approach
+// then.
+void Sustained::unload() {
+  const std::vector<Contact> found = state_.lasting;
+  for (std::size_t round = 0; round < found.size(); ++round) {
+    system_.begin(state_.lasting);
+    trial_ = state_.bodies;
+    system_.findForces(trial_);
+    const std::vector<Contact>& contacts = system_.contacts();
+    std::size_t worst = contacts.size();
+    double most = -kMargin;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const Contact& c = contacts[k];
+      const double push = c.idle ? 0.0 : c.force.dot(c.point.n) / forceScale(c);
+      if (push < most && !pairCarries(k)) most = push, worst = k;
+    }
+    if (worst == contacts.size()) break;
+    state_.lasting[worst].idle = true;
+  }
+  for (const Contact& c : system_.contacts()) {
+    if (!c.idle) continue;
+    if (normalAcceleration(trial_[c.a], trial_[c.b], c.point) > -kMargin * acceleration_) continue;
+    state_.lasting = found;
+    return;
+  }
+}
+
+// Whether the contacts of the pair at k can share their load in another way, each within its law.
+bool Sustained::pairCarries(std::size_t k) const {
+  const std::vector<Contact>& contacts = system_.contacts();
+  std::vector<Contact> own;
+  for (const Contact& c : contacts)
+    if (c.a == contacts[k].a && c.b == contacts[k].b) own.push_back(c);
+  return canCarry(trial_[own[0].a], trial_[own[0].b], own, kMargin * acceleration_);
 }
 
 bool Sustained::conesAgree(std::span<const RigidBody> moded) const {
@@ -92,29 +131,44 @@ bool Sustained::conesAgree(std::span<const RigidBody> moded) const {
   return true;
 }
 
+// How far the contact at k is from a law of forces, ≥ 0 kept.
+double Sustained::forceAllowance(std::size_t k) const {
+  const Contact& c = system_.contacts()[k];
+  const double scale = forceScale(state_.lasting[k]), push = c.force.dot(c.point.n);
+  double left = push;
+  if (c.friction > 0.0 && !c.sliding)
+    left = std::min(push, c.friction * push - tangential(c).norm());
+  return left / scale + kMargin;
+}
+
+// How far the contact at k is from the end of its slip, or from jamming.
+double Sustained::slipAllowance(std::size_t k) const {
+  const std::vector<Contact>& contacts = system_.contacts();
+  const Contact& c = contacts[k];
+  const RigidBody &a = trial_[c.a], &b = trial_[c.b];
+  const double along = slipVelocity(a, b, c.point).dot(c.slipDirection);
+  const double least = along + (slip_[k] > tolerance_.stick ? 0.0 : tolerance_.stick);
+  const auto ofPair = [&](const Contact& d) { return d.a == c.a && d.b == c.b && !d.idle; };
+  if (std::count_if(contacts.begin(), contacts.end(), ofPair) > 1) return least;
+  return std::min(least, pushLeft(a, b, c) - kPushLeft);
+}
+
 double Sustained::modeAllowance() {
   system_.findForces(trial_);
   const std::vector<Contact>& contacts = system_.contacts();
   double least = std::numeric_limits<double>::infinity(), doubtful = least;
+  const Contact* asked = nullptr;
+  bool carries = false;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (c.idle) continue;
-    const RigidBody &a = trial_[c.a], &b = trial_[c.b];
-    const double scale = forceScale(state_.lasting[k]), push = c.force.dot(c.point.n);
-    doubtful = std::min(doubtful, push / scale + kMargin);
-    if (c.friction <= 0.0) continue;
-    if (!c.sliding) {
-      const double left = c.friction * push - tangential(c).norm();
-      doubtful = std::min(doubtful, left / scale + kMargin);
-      continue;
-    }
-    const double along = slipVelocity(a, b, c.point).dot(c.slipDirection);
-    least = std::min(least, along + (slip_[k] > tolerance_.stick ? 0.0 : kNoSlip));
-    const auto ofPair = [&](const Contact& d) { return d.a == c.a && d.b == c.b && !d.idle; };
-    if (std::count_if(contacts.begin(), contacts.end(), ofPair) == 1)
-      least = std::min(least, pushLeft(a, b, c) - kPushLeft);
+    if (c.friction > 0.0 && c.sliding) least = std::min(least, slipAllowance(k));
+    // The smallest forces may break a law that others, with the same motion, keep.
+    const double kept = forceAllowance(k);
+    if (kept < 0.0 && !(asked && asked->a == c.a && asked->b == c.b))
+      asked = &c, carries = pairCarries(k);
+    doubtful = std::min(doubtful, kept < 0.0 && carries ? kMargin : kept);
   }
-  // The smallest forces may break a law that others, with the same motion, keep.
   if (doubtful < 0.0 && conesAgree(trial_)) doubtful = kMargin;
   return std::min(least, doubtful);
 }

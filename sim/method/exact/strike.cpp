@@ -26,6 +26,8 @@ constexpr int kStalled = 1000;
 void Exact::strike(double t, int a, int b) {
   state_.stalled = t > state_.t ? 0 : state_.stalled + 1;
   state_.t = t;
+  state_.pace.see(t, 1);
+  if (state_.pace.lost()) return stop(crowdedAt(t));
   const long flightA = state_.flightCount[a], flightB = state_.flightCount[b];
   const auto held = [&](int i) { return model_.def.bodies[i].pivot_B.has_value(); };
   if (!canCollide(model_.shapes[a], model_.shapes[b]))
@@ -51,6 +53,7 @@ void Exact::strike(double t, int a, int b) {
   // Whom nothing changed may still meet later.
   if (flightA == state_.flightCount[a] && flightB == state_.flightCount[b] && !report_.stopped)
     state_.flightCount[model_.fixed(a) ? b : a]++, lookAround(model_.fixed(a) ? b : a, t);
+  if (state_.sustained) keepBooks(t);
 }
 
 Cluster Exact::gather(double t, std::span<const int> seeds) {
@@ -141,29 +144,42 @@ bool Exact::collides(const Cluster& cluster) const {
   });
 }
 
-/// How high [m] a contact would rise again under constant forces, and when [s] the row of bounces
+double Exact::lowest() const {
+  return kLowest * state_.pace.coarseness() * std::max(1.0, model_.size);
+}
+
+// Forces that a body would carry without the contacts of this pair.
+void Exact::loadWithout(const Contact& pair, int i) {
+  RigidBody& body = state_.bodies[i];
+  body.force = state_.outer[i];
+  body.torque.setZero();
+  for (const Contact& c : state_.lasting) {
+    if ((c.a == pair.a && c.b == pair.b) || (c.a != i && c.b != i)) continue;
+    applyForce(body, c.point.p, c.a == i ? c.force : Vec3(-c.force));
+  }
+}
+
+/// How high [m] a contact would rise again under the forces of now, and when [s] the row of bounces
 /// that this begins would be over; nothing if it is no row.
 std::optional<Exact::Bounces> Exact::bouncesOf(double t, const Contact& c) {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
-  for (const int i : {c.a, c.b}) {
-    state_.bodies[i].force = state_.outer[i];
-    state_.bodies[i].torque.setZero();
-  }
+  for (const int i : {c.a, c.b}) loadWithout(c, i);
   const double press = -normalAcceleration(a, b, c.point);
-  if (!(press > 0.0) || c.restitution == 1.0) return std::nullopt;
-  return Bounces{0.5 * rebound * rebound / press,
-                 t + 2.0 * rebound / (press * (1.0 - c.restitution))};
+  if (!(press > 0.0)) return std::nullopt;
+  const double rest = c.restitution < 1.0 ? 2.0 * rebound / (press * (1.0 - c.restitution)) : 0.0;
+  return Bounces{0.5 * rebound * rebound / press, t + rest};
 }
 
 std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& contacts) {
   std::vector<double> e;
+  bool any = false, all = true;
   for (std::size_t i = 0; i < contacts.size();) {
     // The contacts of a pair bounce together, or come to rest together.
     const Contact& first = contacts[i];
     const bool lasting = lasts(first.a, first.b);
     double highest = 0.0, end = t;
-    bool closes = true;
+    bool hits = false, closes = true;
     const std::size_t begin = i;
     for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b; ++i) {
       const Contact& c = contacts[i];
@@ -171,18 +187,28 @@ std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& co
       const double vrel = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
       if (vrel >= -tolerance_.rest) continue;
       const std::optional<Bounces> bounces = bouncesOf(t, c);
+      hits = true;
       const bool leans = lasting && -c.restitution * vrel < tolerance_.keep;
-      closes =
-          closes && (leans || (bounces && bounces->height < kLowest * std::max(1.0, model_.size)));
+      closes = closes && (leans || (bounces && bounces->height < lowest()));
       if (!bounces) continue;
       highest = std::max(highest, bounces->height);
       end = std::max(end, bounces->end);
     }
-    if (!closes || end == t) continue;
+    all = all && closes;
+    any = any || hits;
+    if (!closes || !hits) continue;
     std::fill(e.begin() + static_cast<std::ptrdiff_t>(begin), e.end(), 0.0);
     ends_.push_back({{first.b, first.a}, end});
     report_.certificate.max_closed_height =
         std::max(report_.certificate.max_closed_height, highest);
+  }
+  // What they hand on to others ends with them.
+  if (!any || !all) return e;
+  std::fill(e.begin(), e.end(), 0.0);
+  for (const Contact& c : contacts) {
+    const Pair pair(c.b, c.a);
+    const auto same = [&](const auto& end) { return end.first == pair; };
+    if (std::none_of(ends_.begin(), ends_.end(), same)) ends_.push_back({pair, t});
   }
   return e;
 }

@@ -6,6 +6,7 @@
 
 #include "sim/collide/collide.h"
 #include "sim/math/root.h"
+#include "sim/method/exact/exact.h"
 
 namespace tumble {
 namespace {
@@ -17,11 +18,10 @@ constexpr double kTolerance = 1e-13;
 constexpr double kOff = 1e-12;
 /// [1] Normals that differ by less are one: faces that lie on each other may take turns.
 constexpr double kOneNormal = 1e-8;
-/// [s] A stretch that is shorter stands still; or hardly moves, and so many in a row are too many.
-constexpr double kInstant = 1e-12, kShort = 1e-7;
-constexpr int kPatience = 40;
-/// [s] The first stretch that is gone blindly after that.
-constexpr double kBlind = 1e-9;
+/// [s] A stretch that is shorter stands still; or counts as an event, however it ended.
+constexpr double kInstant = 1e-12, kShort = 1e-4;
+/// What it costs, in hits.
+constexpr int kWeight = 25;
 
 bool allFinite(std::span<const double> y) {
   return std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
@@ -30,6 +30,12 @@ bool allFinite(std::span<const double> y) {
 bool sameFeature(const Contact& c, const Contact& d) {
   return c.a == d.a && c.b == d.b && c.point.feature == d.point.feature &&
          (c.point.n - d.point.n).squaredNorm() < kOneNormal * kOneNormal;
+}
+
+/// Two contacts of a pair at one point, whose normals differ by no more than that [1].
+bool samePlace(const Contact& c, const Contact& d, double close, double apart) {
+  return c.a == d.a && c.b == d.b && (c.point.p - d.point.p).norm() < close &&
+         (c.point.n - d.point.n).squaredNorm() <= apart * apart;
 }
 
 }  // namespace
@@ -52,22 +58,26 @@ void Sustained::next() {
   trial_ = state_.bodies;
   system_.findForces(trial_);
   most_ = lookAhead();
+  blind_ = state_.pace.level > 0;
+  if (blind_) {
+    most_ = std::min(model_.def.duration - state_.t, state_.pace.stretch());
+    report_.note("more events than time can hold were seen late; max_penetration has the cost");
+  }
   findNear(most_);
   if (report_.stopped) return;
-  const bool blind = state_.stalled > kPatience;
-  bool event = blind;
-  double h = blind ? std::min(most_, std::ldexp(kBlind, std::min(state_.blindness++, 16))) : most_;
-  if (blind)
-    report_.note("more events than time can hold were seen late; max_penetration has the cost");
-  else
-    event = findEvent(h);
-  if (!blind && h > kShort)
-    state_.stalled = state_.blindness = 0;
-  else
-    state_.stalled = blind ? kPatience - 4 : state_.stalled + 1;
+  double h = most_;
+  const bool event = findEvent(h);
   allowance(h);
   commit(h);
-  if (event || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
+  if (event || h < kShort) keepPace();
+  if (event || blind_ || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
+}
+
+void Sustained::keepPace() {
+  state_.pace.see(state_.t, kWeight);
+  if (!state_.pace.lost() || report_.stopped) return;
+  report_.stopped = true;
+  report_.reason = crowdedAt(state_.t);
 }
 
 bool Sustained::findEvent(double& h) {
@@ -115,6 +125,7 @@ double Sustained::allowance(double h) {
                                        model_.shapes[pair.b], trial_[pair.b].pose()) -
                                 pair.floor);
   if (least < 0.0) cause_ = Cause::Touch;
+  if (blind_) return least;
   const double mode = modeAllowance();
   if (mode < least) {
     least = mode;
@@ -125,6 +136,15 @@ double Sustained::allowance(double h) {
     cause_ = Cause::Mode;
   }
   return least;
+}
+
+// How far [1] the normal of a contact was at the start from one that is found at the same point.
+double Sustained::ambiguity(const Contact& c) const {
+  double least = kInfinity;
+  for (const Contact& d : touching_)
+    if (samePlace(c, d, tolerance_.touch, 1.0))
+      least = std::min(least, (c.point.n - d.point.n).norm());
+  return least < kInfinity ? least : 0.0;
 }
 
 // Whether a pair that touches would be found to touch in another way. Rims are followed.
@@ -140,14 +160,26 @@ bool Sustained::featuresChanged() const {
       continue;
     found.clear();
     findContacts(model_, trial_, {pair.b, pair.a}, tolerance_.touch, found);
-    const auto lists = [](const std::vector<Contact>& list, const Contact& c) {
+    const auto lists = [&](const std::vector<Contact>& list, const Contact& c) {
       return std::any_of(list.begin(), list.end(),
                          [&](const Contact& d) { return sameFeature(c, d); });
     };
+    // A corner on an edge touches under two normals, that of either face: they may part from each
+    // other as far again.
+    const auto remains = [&](const Contact& c) {
+      const double apart = 2.0 * ambiguity(state_.lasting[static_cast<std::size_t>(&c - &held[0])]);
+      return std::any_of(found.begin(), found.end(), [&](const Contact& d) {
+        return sameFeature(c, d) || samePlace(c, d, tolerance_.touch, apart);
+      });
+    };
+    const auto approaches = [&](const Contact& c) {
+      return approachVelocity(trial_[c.a], trial_[c.b], c.point) < -tolerance_.rest;
+    };
     for (const Contact& c : held)
-      if (ofPair(c) && !lists(found, c)) return true;
+      if (ofPair(c) && !remains(c)) return true;
     for (const Contact& c : found)
-      if (c.point.separation < close && !lists(held, c) && !lists(touching_, c)) return true;
+      if (c.point.separation < close && approaches(c) && !lists(held, c) && !lists(touching_, c))
+        return true;
   }
   return false;
 }

@@ -39,8 +39,10 @@ class Sustained {
   /// How far the motion may go: ≥ 0 a mode and no overlap, < 0 too far. Leaves y_, trial_, cause_.
   double allowance(double h);
   bool featuresChanged() const;
+  double ambiguity(const Contact& contact) const;
   void commit(double h);
   void leave();
+  void keepPace();
 
   // modes.cpp: what each contact does.
   void chooseModes();
@@ -48,7 +50,11 @@ class Sustained {
   SolveReport solveCones(std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) const;
   /// Whether the forces of the modes, which the bodies carry, accelerate as the contact problem.
   bool conesAgree(std::span<const RigidBody> bodies) const;
+  void unload();
+  bool pairCarries(std::size_t contact) const;
   double modeAllowance();
+  double forceAllowance(std::size_t contact) const;
+  double slipAllowance(std::size_t contact) const;
   double forceScale(const Contact& contact) const;
 
   // foresight.cpp: how far to look.
@@ -73,6 +79,7 @@ class Sustained {
   std::vector<double> slip_;       ///< [m/s] per lasting contact, at the start
   double acceleration_ = 1.0;      ///< [m/s²] what counts as large
   double most_ = 0.0;              ///< [s] how far could be looked ahead
+  bool blind_ = false;             ///< contacts keep to their modes whatever their forces say
   long counted_ = 0;               ///< evaluations of system_ that are in the certificate
   Cause cause_ = Cause::None;
   double reached_ = 0.0;  ///< [s] of the h last tried
