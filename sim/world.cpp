@@ -239,6 +239,13 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   State& state = parts_->state;
   checkNeighbours(model, state.bodies);
 
+  std::vector<RigidBody> loaded = state.bodies;
+  sumForces(model.def.gravity, model.def.forces, loaded);
+  for (const RigidBody& body : loaded) {
+    if (body.fixed()) continue;
+    state.load += body.force.norm();
+    state.loadPower += body.invM * body.force.squaredNorm();
+  }
   for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
   Certificate& books = parts_->report.certificate;
   books.energy_start =

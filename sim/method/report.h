@@ -41,8 +41,10 @@ struct Certificate {
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
   double energy_added_repair = 0.0;  ///< [J] by moving bodies out of each other
   double work_of_forces = 0.0;  ///< [J] by forces without a potential and by moving fixed bodies
-  double energy_balance_error = 0.0;  ///< |E_end − E_start + lost − added − work| / max kinetic
-  double momentum_error = 0.0;        ///< worst |P − P₀ − ∫F − Σ impulses| / max Σ|P|
+  /// |E_end − E_start + lost − added − work| / max kinetic, and worst |P − P₀ − ∫F − Σ impulses| /
+  /// max Σ|P|. Of a scene at rest, with less than a millionth of that: by the ½ Σ (F t)²/m and the
+  /// Σ |F| t that its loads F would give it if nothing held it.
+  double energy_balance_error = 0.0, momentum_error = 0.0;
 };
 
 /// A number of the certificate and its key in summary.json and in tables.
