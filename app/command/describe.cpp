@@ -43,6 +43,8 @@ std::string methodLine(const WorldDef& world) {
   if (world.method == "course")
     steps = fmt::format(", {} at {:g} s{}", world.course.integrator, world.course.step,
                         strategyOf(world.course));
+  if (world.method == "exact" && !world.joints.empty())
+    steps = ", all bodies in steps of dopri5: those with joints fly in no closed form";
   if (world.method == "stepping")
     steps = fmt::format(", {} at {:g} s", world.stepping.solver, world.stepping.step);
   return fmt::format("{}{}, {:g} s", world.method, steps, world.duration);
