@@ -29,6 +29,7 @@ struct Segment {
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
   std::vector<Limit> limits = {};       ///< of joints, that hold
   std::vector<JointForce> joints = {};  ///< of `stepping`: the forces of the step
+  double tolerance = 0.0;               ///< of `exact`: of the integrator
 };
 
 /// Time, bodies, and what a method remembers from step to step.
@@ -44,8 +45,11 @@ struct State {
   // Running totals behind the certificate.
   Vec3 externalImpulse = Vec3::Zero();  ///< [N·s] of all forces and impulses from outside
   Vec3 momentumStart = Vec3::Zero();    ///< [kg m/s]
+  double momentumDrift = 0.0;           ///< [kg m/s] worst |P − P₀ − ∫F − Σ impulses|
   double momentumScale = 0.0;           ///< [kg m/s] max of Σ|P|
   double kineticMax = 0.0;              ///< [J]
+  double load = 0.0;                    ///< [N] Σ|F| of gravity and the forces, at the start
+  double loadPower = 0.0;               ///< [W/s] Σ F²/m of the same
 
   SteppingMemory stepping;          ///< what only `stepping` remembers
   std::vector<Segment> spareTrail;  ///< stretches gone by, whose memory is used again

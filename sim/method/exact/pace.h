@@ -1,39 +1,33 @@
 // Where events crowd: how closely the exact method still looks at them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 namespace tumble {
 
 /// Hits of unlike bodies, and contacts that stick and slip in turns, may come faster than any run
 /// could follow: without end in finite time, or as fast as rounding lets them. After kMany events
 /// within kSpan, lengths that count as nothing grow by kCoarser, and contacts keep to their modes
-/// for a while whatever their forces say; when events are fewer again, one level is taken back in
-/// every span. So a unit of time holds a bounded number of events.
+/// for a while whatever their forces say; one level is taken back after every kCalm without
+/// another. So a unit of time holds a bounded number of events.
 struct Pace {
-  static constexpr double kSpan = 1.0 / 64.0;  ///< [s]
+  static constexpr double kSpan = 1.0 / 64.0, kCalm = 1.0 / 8.0;  ///< [s]
   static constexpr int kMany = 1000, kCoarsest = 4;
   static constexpr double kCoarser = 30.0;
   /// [s] a stretch without changes of mode at the first level, and its growth.
-  static constexpr double kStretch = 2e-5, kLonger = 4.0;
+  static constexpr double kStretch = 3e-4, kLonger = 2.0;
 
-  double t0 = 0.0;  ///< [s]
-  int events = 0;   ///< since t0
+  double t0 = 0.0;    ///< [s]
+  double calm = 0.0;  ///< [s] since when the level has not risen
+  long events = 0;    ///< since t0
   int level = 0;
 
   /// Counts an event at t [s] that is worth `weight` of the cheapest.
-  void see(double t, int weight) {
-    const double spans = std::floor((t - t0) / kSpan);
-    if (spans >= 1.0) {
-      level = spans < kCoarsest ? std::max(0, level - static_cast<int>(spans)) : 0;
-      t0 = t;
-      events = 0;
-    }
+  void see(double t, long weight) {
+    for (; level > 0 && t - calm >= kCalm; calm += kCalm) --level;
+    if (t - t0 >= kSpan) t0 = t, events = 0;
     events += weight;
     if (events <= kMany) return;
     ++level;
-    t0 = t;
+    t0 = calm = t;
     events = 0;
   }
   /// Whether there are too many events even for the coarsest level.

@@ -20,8 +20,9 @@ constexpr double kOff = 1e-12;
 constexpr double kOneNormal = 1e-8;
 /// [s] A stretch that is shorter stands still; or counts as an event, however it ended.
 constexpr double kInstant = 1e-12, kShort = 1e-4;
-/// What it costs, in hits.
-constexpr int kWeight = 25;
+/// What it costs, in hits; evaluations that any stretch may have, how many more of them cost as
+/// much as a hit, and the most that they cost.
+constexpr long kWeight = 25, kEasy = 3000, kToil = 100, kHardest = 100;
 
 bool allFinite(std::span<const double> y) {
   return std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
@@ -59,6 +60,7 @@ void Sustained::next() {
   system_.findForces(trial_);
   most_ = lookAhead();
   blind_ = state_.pace.level > 0;
+  integrator_.setTolerance(kTolerance * state_.pace.coarseness());
   if (blind_) {
     most_ = std::min(model_.def.duration - state_.t, state_.pace.stretch());
     report_.note("more events than time can hold were seen late; max_penetration has the cost");
@@ -69,12 +71,14 @@ void Sustained::next() {
   const bool event = findEvent(h);
   allowance(h);
   commit(h);
-  if (event || h < kShort) keepPace();
+  keepPace(event || h < kShort);
   if (event || blind_ || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
 }
 
-void Sustained::keepPace() {
-  state_.pace.see(state_.t, kWeight);
+void Sustained::keepPace(bool event) {
+  const long toil = (system_.evaluations() - before_ - kEasy) / kToil;
+  before_ = system_.evaluations();
+  state_.pace.see(state_.t, (event ? kWeight : 0) + std::clamp(toil, 0L, kHardest));
   if (!state_.pace.lost() || report_.stopped) return;
   report_.stopped = true;
   report_.reason = crowdedAt(state_.t);
@@ -195,6 +199,7 @@ void Sustained::commit(double h) {
   if (t1 > state_.t)
     state_.trail.push_back(
         {.t0 = state_.t, .t1 = t1, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
+  if (t1 > state_.t) state_.trail.back().tolerance = kTolerance * state_.pace.coarseness();
   state_.bodies = trial_;
   state_.lasting = system_.contacts();
   for (const Near& pair : near_)
@@ -224,7 +229,7 @@ void lookSustained(const Model& model, const State& state, double t, std::vector
   if (!now && t > segment->t0) {
     std::vector<double> y(static_cast<std::size_t>(system.size()));
     system.pack(bodies, y);
-    Extrapolation(system.size(), kTolerance).step(system, segment->t0, t - segment->t0, y);
+    Extrapolation(system.size(), segment->tolerance).step(system, segment->t0, t - segment->t0, y);
     system.unpack(y, bodies);
   }
   system.findForces(bodies);

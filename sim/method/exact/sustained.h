@@ -42,7 +42,7 @@ class Sustained {
   double ambiguity(const Contact& contact) const;
   void commit(double h);
   void leave();
-  void keepPace();
+  void keepPace(bool event);
 
   // modes.cpp: what each contact does.
   void chooseModes();
@@ -80,7 +80,8 @@ class Sustained {
   double acceleration_ = 1.0;      ///< [m/s²] what counts as large
   double most_ = 0.0;              ///< [s] how far could be looked ahead
   bool blind_ = false;             ///< contacts keep to their modes whatever their forces say
-  long counted_ = 0;               ///< evaluations of system_ that are in the certificate
+  long counted_ = 0;               ///< evaluations of system_ that are in the certificate,
+  long before_ = 0;                ///< and those before this stretch
   Cause cause_ = Cause::None;
   double reached_ = 0.0;  ///< [s] of the h last tried
 };
