@@ -121,7 +121,7 @@ std::vector<StateFault> sinking(const Model& model, std::span<const RigidBody> b
 void addContactForces(const Model& model, std::span<RigidBody> bodies,
                       std::vector<Contact>& contacts) {
   const ContactModel* springs = findContactModel(model.def.course.contact);
-  if (model.def.method != "course" || springs->impulses)
+  if (model.runs != "course" || springs->impulses)
     return addConstraintForces(model, bodies, contacts);
   const std::unique_ptr<ContactForces> forces = springs->make(model);
   forces->apply(bodies);

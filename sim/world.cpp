@@ -7,6 +7,7 @@
 #include "sim/collide/overlap.h"
 #include "sim/contact/impact.h"
 #include "sim/joined.h"
+#include "sim/method/auto.h"
 #include "sim/method/method.h"
 #include "sim/neighbours.h"
 
@@ -226,7 +227,12 @@ void World::Parts::build(const WorldDef& def) {
   addPivots(model, state.bodies);
   model.size = worldSize(model);
   joinBodies(model, state.bodies);
-  if (def.method == "exact" && !model.joints.empty()) {
+  model.runs = method->name;
+  if (def.method == "auto") {
+    model.runs = chooseMethod(model, state.bodies);
+    model.mostStretches = mostStretches(model);
+  }
+  if (model.runs == "exact" && !model.joints.empty()) {
     // Where the closed forms end, the most accurate steps that there are.
     model.def.course = {.integrator = "dopri5", .tolerance = kJointTolerance};
   }
@@ -266,12 +272,13 @@ void World::advance(double t) {
 
 namespace {
 
-Sample sampleOf(const WorldDef& def, double t, std::span<const RigidBody> bodies,
+Sample sampleOf(const Model& model, double t, std::span<const RigidBody> bodies,
                 std::span<const Contact> contacts, std::span<const JointForce> joints = {}) {
   Sample sample;
   sample.t = t;
   sample.bodies.reserve(bodies.size());
-  const bool matrix = def.method == "course" && def.course.attitude == "matrix";
+  const WorldDef& def = model.def;
+  const bool matrix = model.runs == "course" && def.course.attitude == "matrix";
   for (const RigidBody& body : bodies)
     sample.bodies.push_back({.x = body.x,
                              .q = body.q,
@@ -293,7 +300,7 @@ Sample World::sample(double t) const {
   std::vector<Contact>& contacts = parts_->seenContacts;
   std::vector<JointForce>& joints = parts_->seenJoints;
   parts_->method->look(parts_->model, parts_->state, t, bodies, contacts, joints);
-  return sampleOf(parts_->model.def, t, bodies, contacts, joints);
+  return sampleOf(parts_->model, t, bodies, contacts, joints);
 }
 
 StartCheck World::checkStart(const WorldDef& def) {
@@ -314,12 +321,22 @@ StartCheck World::checkStart(const WorldDef& def) {
   for (const StateFault& fault : sinking(parts.model, bodies, contacts))
     check.faults.push_back(fault);
   for (const Contact& c : contacts) check.resting += c.force.isZero(0.0) ? 0 : 1;
-  check.sample = sampleOf(def, 0.0, bodies, contacts);
+  check.sample = sampleOf(parts.model, 0.0, bodies, contacts);
   return check;
 }
 
 const Model& World::model() const {
   return parts_->model;
+}
+
+std::string World::method() const {
+  const Model& model = parts_->model;
+  if (model.def.method != "auto") return model.def.method;
+  return "auto: " + std::string(model.runs) + (parts_->state.before ? ", then stepping" : "");
+}
+
+std::string_view World::runs() const {
+  return parts_->state.before ? "stepping" : parts_->model.runs;
 }
 
 const Report& World::report() const {
@@ -338,7 +355,7 @@ std::vector<std::string> World::features(bool used) const {
   add(!model.def.gravity.isZero(0.0), "gravity");
   const bool contact = model.solid.size() > 1 && parts_->method->contact;
   add(contact, "contact");
-  const bool springs = model.def.method == "course" && model.def.course.contact == "penalty";
+  const bool springs = model.runs == "course" && model.def.course.contact == "penalty";
   add(contact && springs, "penalty springs");
   add(contact && !springs && anyBody([](const BodyDef& b) { return b.restitution > 0.0; }),
       "restitution");

@@ -75,6 +75,10 @@ class World {
   Sample sample(double t) const;
 
   const Model& model() const;
+  /// The scene's method; of "auto", what it chose: "auto: exact", "auto: exact, then stepping".
+  std::string method() const;
+  /// The row of the table of methods that is at work: "exact", "stepping" ….
+  std::string_view runs() const;
   /// Certificate and events so far; complete once advance(duration) has returned.
   const Report& report() const;
   /// What this scene uses of the machinery, or, for false, leaves out: "friction", "wind" ….

@@ -8,9 +8,10 @@ namespace tumble {
 
 Verdict judge(const Scene& scene, const Recording& recording) {
   Verdict verdict;
+  const Scene ran = asRun(scene, recording);
   for (const std::string& name : scene.checks)
     if (const Check* check = findCheck(name))
-      for (ClaimRow& row : check->rows(scene, recording)) verdict.rows.push_back(std::move(row));
+      for (ClaimRow& row : check->rows(ran, recording)) verdict.rows.push_back(std::move(row));
   for (const ClaimRow& row : verdict.rows) {
     if (!row.holds()) ++verdict.failed;
     double share = row.error / row.allowed;

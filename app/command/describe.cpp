@@ -38,16 +38,16 @@ std::string strategyOf(const CourseSettings& course) {
   return course.plan == "backstep" ? "" : ", plan " + course.plan;
 }
 
-std::string methodLine(const WorldDef& world) {
+std::string methodLine(const WorldDef& world, const World& running) {
   std::string steps;
-  if (world.method == "course")
+  if (running.runs() == "course")
     steps = fmt::format(", {} at {:g} s{}", world.course.integrator, world.course.step,
                         strategyOf(world.course));
-  if (world.method == "exact" && !world.joints.empty())
+  if (running.runs() == "exact" && !world.joints.empty())
     steps = ", all bodies in steps of dopri5: those with joints fly in no closed form";
-  if (world.method == "stepping")
+  if (running.runs() == "stepping")
     steps = fmt::format(", {} at {:g} s", world.stepping.solver, world.stepping.step);
-  return fmt::format("{}{}, {:g} s", world.method, steps, world.duration);
+  return fmt::format("{}{}, {:g} s", running.method(), steps, world.duration);
 }
 
 // Three numbers; beside `scale` rounding is nothing.
@@ -126,8 +126,8 @@ int describe(int argc, char** argv) {
   printJoints(world);
   fmt::print("gravity   {:g} {:g} {:g} m/s²\n", world.gravity.x(), world.gravity.y(),
              world.gravity.z());
-  fmt::print("method    {}\n", methodLine(world));
   const World running = makeWorld(scene);
+  fmt::print("method    {}\n", methodLine(world, running));
   fmt::print("uses      {}\n", join(running.features()));
   fmt::print("without   {}\n", join(running.features(false)));
   printMasses(scene);

@@ -57,7 +57,7 @@ std::string costTitle(const ChartDef& chart) {
 
 double largestError(const std::string& check, const Scene& scene, const Recording& recording) {
   double largest = 0.0;
-  for (const ClaimRow& row : findCheck(check)->rows(scene, recording))
+  for (const ClaimRow& row : findCheck(check)->rows(asRun(scene, recording), recording))
     largest = std::isnan(row.error) ? row.error : std::max(largest, row.error);
   return largest;
 }

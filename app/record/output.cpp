@@ -137,7 +137,7 @@ std::string summaryJson(const Recording& recording, const Scene& scene) {
     std::visit([&, key = key](auto field) { json[key] = recording.report.certificate.*field; },
                number);
   json["cpu_seconds"] = recording.cpuSeconds;
-  json["method"] = scene.world.method;
+  json["method"] = recording.method;
   json["features"] = recording.features;
   json["version"] = TUMBLE_VERSION;
   json["scene"] = scene.line;

@@ -80,6 +80,8 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
   // The certificate is complete at the end of the duration.
   world.advance(scene.world.duration);
   recording.report = world.report();
+  recording.method = world.method();
+  recording.runs = world.runs();
   recording.cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return recording;
 }
@@ -90,6 +92,12 @@ Recording record(const Scene& scene, double rate, const std::function<void(doubl
       scene, rate, [&](Sample&& sample) { samples.push_back(std::move(sample)); }, progress);
   recording.samples = std::move(samples);
   return recording;
+}
+
+Scene asRun(const Scene& scene, const Recording& recording) {
+  Scene ran = scene;
+  if (!recording.runs.empty()) ran.world.method = recording.runs;
+  return ran;
 }
 
 }  // namespace tumble

@@ -15,6 +15,8 @@ struct Recording {
   std::vector<Sample> samples;  ///< at k/rate, k = 0 … sampleCount − 1
   Report report;
   std::vector<std::string> features;
+  std::string method;  ///< World::method at the end
+  std::string runs;    ///< World::runs at the end
   double rate = 60.0;  ///< [1/s]
   double cpuSeconds = 0.0;
 };
@@ -38,6 +40,9 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
 /// A run that stopped early has fewer samples and says so in its report.
 /// @throws SceneError if the world refuses the scene, or for too many samples.
 Recording record(const Scene& scene, double rate, const std::function<void(double)>& progress = {});
+
+/// The scene with the method that was at work at the end, for claims that ask which it was.
+Scene asRun(const Scene& scene, const Recording& recording);
 
 /// A run that stopped before there was anything to show: exit 6.
 class StoppedError : public std::runtime_error {

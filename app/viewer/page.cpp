@@ -75,7 +75,7 @@ void Viewer::numbers() {
   line(fmt::format("{} contact points", sample.contacts.size()));
   ImGui::Spacing();
   ImGui::TextDisabled("certificate");
-  line(fmt::format("method {}", scene_->world.method));
+  line(fmt::format("method {}", recording_->method));
   line(fmt::format("{} steps, {} events", certificate.steps, certificate.events));
   line(fmt::format("penetration {:.1e} m", certificate.max_penetration));
   line(fmt::format("energy balance {:.1e}", certificate.energy_balance_error));

@@ -1,4 +1,5 @@
 // The table of methods.
+#include "sim/method/auto.h"
 #include "sim/method/course/course.h"
 #include "sim/method/exact_or_joined.h"
 #include "sim/method/method.h"
@@ -8,6 +9,8 @@ namespace tumble {
 namespace {
 
 constexpr Method kMethods[] = {
+    {"auto", "exact while little stays in contact, else stepping: chosen by what the scene holds",
+     checkAuto, advanceAuto, lookAuto, true},
     {"course", "the notes: ODE black box, back up to the collision, impulses, resting forces",
      checkCourse, advanceCourse, lookCourse, true},
     {"exact", "from event to event in closed form: no step, no overlap, no missed hit",

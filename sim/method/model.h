@@ -1,9 +1,11 @@
 // Chapter 9, method: the constant half of a world. Nothing here changes while time runs.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/body/force.h"
@@ -77,7 +79,7 @@ struct SteppingSettings {
 /// Everything a world is made from.
 struct WorldDef {
   Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
-  std::string method = "course";
+  std::string method = "auto";
   std::string impact = "reflections";
   double duration = 5.0;  ///< [s] the last step ends there
   CourseSettings course;
@@ -124,6 +126,8 @@ struct Model {
   std::vector<Pivot> pivots;                  ///< of the bodies that have one
   std::vector<Joint> joints;                  ///< as in the definition
   std::vector<std::pair<int, int>> partners;  ///< bodies that a joint keeps from touching, sorted
+  std::string_view runs;                      ///< def.method, or what "auto" chose
+  long mostStretches = std::numeric_limits<long>::max();  ///< after which `exact` gives up
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }

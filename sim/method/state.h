@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -112,6 +113,10 @@ struct State {
   int stretchesLeft = 0;    ///< until closed forms are tried again,
   int patience = 0;         ///< and how many the next time
   Pace pace;                ///< of its events
+  long stretches = 0;       ///< so far
+
+  /// What `auto` remembers: how the exact method left things, where it gave up.
+  std::shared_ptr<const State> before;
 };
 
 }  // namespace tumble

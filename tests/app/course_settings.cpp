@@ -10,6 +10,7 @@ using namespace tumble;
 namespace {
 
 constexpr const char* kScene = R"([world]
+method = "course"
 gravity = [0, 0, 0]
 duration = 2.0
 [course]
@@ -57,9 +58,9 @@ TEST_CASE("order, attitude and pivot go from the file into the world") {
 TEST_CASE("what a world cannot integrate or hold is told at its key") {
   CHECK(refusal({}).empty());
   CHECK(refusal({"body.top.fixed=true"}) ==
-        "s.toml:19:14: error: \"top\" is fixed; leave out the pivot or let it move");
+        "s.toml:20:14: error: \"top\" is fixed; leave out the pivot or let it move");
   CHECK(refusal({"world.method=stepping"})
-            .find("s.toml:19:14: error: \"stepping\" knows no pivots") == 0);
+            .find("s.toml:20:14: error: \"stepping\" knows no pivots") == 0);
   CHECK(
       refusal({"course.integrator=taylor"}) ==
       "--set course.integrator=taylor: error: \"taylor\" needs a Taylor jet, which this scene does "

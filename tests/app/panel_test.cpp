@@ -22,6 +22,7 @@ constexpr const char* kBounce = R"(
 title = "Two steps"
 checks = ["first-hit"]
 [world]
+method = "course"
 duration = 0.7
 [materials.rubber]
 density = 1000.0

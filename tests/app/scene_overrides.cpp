@@ -109,8 +109,8 @@ TEST_CASE("a refused override is named as such, beside what the file has wrong i
   CHECK(begins(complaint({"world.gravity.x=1"}), "--set world.gravity.x=1: error: "));
   CHECK(begins(complaint({"world.duration=2", "world.duration.x=1"}),
                "--set world.duration.x=1: error: world.duration.x: leads below 2"));
-  CHECK(begins(complaint({"world.method=auto"}),
-               "--set world.method=auto: error: world.method: unknown value 'auto'"));
+  CHECK(begins(complaint({"world.method=magic"}),
+               "--set world.method=magic: error: world.method: unknown value 'magic'"));
   CHECK(begins(complaint({"title=\"a\"\nx = 1", "nonsense=1"}), "--set nonsense=1: error: "));
   CHECK(begins(complaint({"pairs.rubber-wood.friction=1"}),
                "--set pairs.rubber-wood.friction=1: "

@@ -7,6 +7,7 @@ namespace {
 const std::string kScene = R"(title = "Two bodies"
 checks = ["free-spin"]
 [world]
+method = "course"
 gravity = [0, 0, 0]
 duration = 2.0
 [course]
@@ -47,4 +48,6 @@ TEST_CASE("describe says how time runs, and what each body weighs") {
     CAPTURE(outcome.out, line);
     CHECK(outcome.out.find(line) != std::string::npos);
   }
+  const Outcome left = tumbleRun(scratch, "describe two.toml --set world.method=auto");
+  CHECK(left.out.find("method    auto: exact, 2 s\n") != std::string::npos);
 }

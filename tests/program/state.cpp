@@ -47,7 +47,8 @@ TEST_CASE("check --state names the layer of a start that is not legal, and draws
   CHECK(outcome.out.find("  positions     ok\n  velocities    NOT OK\n    \"brick\" moves into "
                          "\"floor\" at 0.5 m/s\n  accelerations ok") != std::string::npos);
 
-  outcome = tumbleRun(scratch, "check --state s.toml --set course.contact=penalty");
+  outcome = tumbleRun(
+      scratch, "check --state s.toml --set world.method=course --set course.contact=penalty");
   CHECK(outcome.code == 1);
   CHECK(outcome.out.find("  accelerations NOT OK\n    \"brick\" accelerates into \"floor\" at 9.81 "
                          "m/s²\n") != std::string::npos);

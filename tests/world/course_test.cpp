@@ -212,6 +212,7 @@ TEST_CASE("a corner that dips in and out within a step is caught at its entry") 
 // Oracle: the definition of a step; 1 rad each.
 TEST_CASE("where nothing can be met, the author's step is taken however fast a body spins") {
   WorldDef def;
+  def.method = "course";
   def.gravity.setZero();
   def.duration = 1.0;
   def.course.step = 0.01;

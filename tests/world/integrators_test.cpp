@@ -22,6 +22,7 @@ BodyDef brick(const std::string& name, const Vec3& x) {
 /// A ball on a spring from a moving fixed body, in a wind: offers everything.
 WorldDef ballOnSpring() {
   WorldDef def;
+  def.method = "course";
   def.duration = 1.0;
   def.bodies = {ball("ball", 0.1, {0.3, 1.0, 0.0}), ball("hook", 0.1, {0.0, 3.0, 0.0})};
   def.bodies[1].fixed = true;
@@ -34,6 +35,7 @@ WorldDef ballOnSpring() {
 /// A disc of 1 kg that spins about its pivot 0.1 m away.
 WorldDef spinningTop() {
   WorldDef def;
+  def.method = "course";
   def.duration = 2.0;
   BodyDef top;
   top.name = "top";
@@ -107,6 +109,7 @@ TEST_CASE("evaluations are counted") {
 // what rk4 alone does. Measured 1e-13 m, allowed 1e-9 m.
 TEST_CASE("rk4 stands in while contacts last, and the report says so") {
   WorldDef def;
+  def.method = "course";
   def.duration = 2.0;
   def.bodies = {ground(0.0, 0.3), box("box", {0.4, 0.2, 0.4}, {0.0, 0.6, 0.0}, 0.0, 0.3)};
   def.bodies[1].velocity = {1.0, 0.0, 0.0};
@@ -126,6 +129,7 @@ TEST_CASE("rk4 stands in while contacts last, and the report says so") {
 
 TEST_CASE("an integrator that a scene cannot serve is refused with what it lacks") {
   WorldDef def;
+  def.method = "course";
   def.bodies = {brick("brick", Vec3::Zero())};
   std::string why;
   def.course.integrator = "nystrom4";
@@ -150,6 +154,7 @@ TEST_CASE("an integrator that a scene cannot serve is refused with what it lacks
 TEST_CASE("an attitude integrated as nine numbers shears, a quaternion does not", "[figures]") {
   const auto drift = [](const char* attitude, const char* integrator, double* det = nullptr) {
     WorldDef def;
+    def.method = "course";
     def.gravity.setZero();
     def.bodies = {brick("brick", Vec3::Zero())};
     def.course = {.integrator = integrator, .attitude = attitude, .step = 1e-3};
@@ -181,6 +186,7 @@ TEST_CASE("an attitude integrated as nine numbers shears, a quaternion does not"
 
 TEST_CASE("a run stops where a matrix or a pivot would have to touch something") {
   WorldDef def;
+  def.method = "course";
   def.duration = 2.0;
   def.bodies = {ground(), box("box", {0.2, 0.2, 0.2}, {0.0, 1.0, 0.0})};
   def.course.attitude = "matrix";
@@ -205,6 +211,7 @@ TEST_CASE("a run stops where a matrix or a pivot would have to touch something")
 // ω² = M g l/Ip for small angles. Measured 2e-9 of the amplitude after a whole number of periods.
 TEST_CASE("a body on a pivot is a physical pendulum") {
   WorldDef def;
+  def.method = "course";
   BodyDef bar = box("bar", {0.1, 0.6, 0.1}, Vec3::Zero());
   bar.pivot_B = {0.0, 0.3, 0.0};
   const double small = 1e-4;

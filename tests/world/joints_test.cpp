@@ -174,6 +174,7 @@ WorldDef chain(int links, double ratio, double angle) {
   const double l = 0.1;
   const Vec3 along(std::sin(angle), -std::cos(angle), 0.0);
   WorldDef def;
+  def.method = "course";
   for (int k = 0; k < links; ++k) {
     BodyDef link;
     link.name = "link." + std::to_string(k);
@@ -266,6 +267,7 @@ namespace {
 /// A plank on a hinge at its left end and on the edge of a wedge at a distance d from it.
 WorldDef plankOn(double d) {
   WorldDef def;
+  def.method = "course";
   def.duration = 0.1;
   BodyDef plank;
   plank.name = "plank";
@@ -427,6 +429,7 @@ TEST_CASE("a joint told the other way round moves its bodies the same") {
 TEST_CASE("jointed bodies pass through each other unless they are told to collide") {
   for (const bool collide : {false, true}) {
     WorldDef def;
+    def.method = "course";
     def.duration = 0.2;
     BodyDef post = ball("post", 0.3, {0.0, 1.0, 0.0});
     post.fixed = true;
@@ -453,6 +456,7 @@ TEST_CASE("jointed bodies pass through each other unless they are told to collid
 TEST_CASE("joints that cannot be are refused with their place") {
   const auto refusal = [](auto change) {
     WorldDef def;
+    def.method = "course";
     def.bodies = {bar("bar", 1.0, 2.0, Vec3::Zero(), 0.0), ball("ball", 0.1, {3.0, 0.0, 0.0})};
     def.joints = {hinge(0, kNoBody, Vec3::Zero())};
     change(def);

@@ -15,6 +15,7 @@ constexpr double kPi = 3.14159265358979323846, kMass = 1.0, kSpeed = 2.0;
 /// A ball of 1 kg that comes down on the floor at 2 m/s, without weight.
 WorldDef soft(double stiffness, double damping = 0.0, double duration = 0.5) {
   WorldDef def;
+  def.method = "course";
   def.gravity.setZero();
   def.duration = duration;
   def.course.contact = "penalty";
@@ -223,6 +224,7 @@ TEST_CASE("symplectic Euler is stable up to h = 2/omega", "[figures]") {
 // in the books: 8.6 J of 89 J. Balance measured 7e-7, allowed 1e-4.
 TEST_CASE("penalty springs act between all shapes, and the books close", "[figures]") {
   WorldDef def;
+  def.method = "course";
   def.duration = 1.0;
   def.course.contact = "penalty";
   def.course.stiffness = 2e4;

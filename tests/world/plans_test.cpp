@@ -15,6 +15,7 @@ constexpr double kG = 9.81, kH = 0.1, kGap = 0.95, kSpeed = 2.0;
 /// A ball 0.95 m above the floor on its way down, and steps of 0.1 s: coarse on purpose.
 WorldDef coarse(const char* plan, double e, double duration) {
   WorldDef def;
+  def.method = "course";
   def.duration = duration;
   def.course.plan = plan;
   def.course.step = kH;
@@ -139,6 +140,7 @@ TEST_CASE("a repair moves neither the common centre of mass nor the momentum") {
   for (const char* plan : {"gradual", "lie"}) {
     CAPTURE(plan);
     WorldDef def;
+    def.method = "course";
     def.gravity.setZero();
     def.duration = 0.35;
     def.course.plan = plan;
@@ -211,6 +213,7 @@ TEST_CASE("plans add no energy to what rests") {
 // impact.
 TEST_CASE("at one instant impacts come before rest, separation, slip and stick") {
   WorldDef def;
+  def.method = "course";
   def.duration = 1.5;
   def.bodies = {ground(0.0, 0.4), box("plank", {1.0, 0.1, 0.4}, {0.0, 0.4, 0.0}, 0.0, 0.4),
                 ball("ball", 0.1, {0.3, 1.2, 0.0}, 0.0, 0.4)};

@@ -19,6 +19,7 @@ std::string refusedAt(const WorldDef& def, std::string* why = nullptr) {
 
 WorldDef sound() {
   WorldDef def;
+  def.method = "course";
   def.bodies = {ground(), ball("ball", 0.1, {0.0, 1.0, 0.0})};
   return def;
 }
@@ -55,7 +56,7 @@ TEST_CASE("impossible worlds are refused where they are wrong") {
   def.forces = {PointForce{7, Vec3::Zero(), Vec3::UnitX()}};
   CHECK(refusedAt(def) == "forces[0]");
   def = sound();
-  def.method = "auto";
+  def.method = "magic";
   CHECK(refusedAt(def) == "method");
   def = sound();
   def.course.integrator = "rk5";

@@ -14,6 +14,7 @@ namespace {
 
 WorldDef twoBoxes() {
   WorldDef def;
+  def.method = "course";
   def.bodies = {ground(0.0, 0.5), box("lower", {1.0, 0.5, 1.0}, {0.0, 0.25, 0.0}, 0.0, 0.5),
                 box("upper", {0.5, 0.5, 0.5}, {0.1, 0.75, 0.0}, 0.0, 0.5)};
   return def;
@@ -122,6 +123,7 @@ TEST_CASE("forces hold accelerations at zero or are found out") {
 TEST_CASE("a resting contact cancels the part of a force along n and no other") {
   const double angle = 0.4;
   WorldDef def;
+  def.method = "course";
   def.gravity = {9.81 * std::sin(angle), -9.81 * std::cos(angle), 0.0};
   def.bodies = {ground(), ball("ball", 0.2, {0.0, 0.2, 0.0})};
   const StartCheck check = World::checkStart(def);

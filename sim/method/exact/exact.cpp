@@ -88,6 +88,11 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
     } else {
       if (!sustained) sustained.emplace(model, state, report);
       sustained->next();
+      if (state.stretches >= model.mostStretches && !report.stopped) {
+        report.stopped = true;
+        report.reason = "the exact method had followed " + std::to_string(state.stretches) +
+                        " stretches of motion in contact";
+      }
     }
   }
   state.lookedAt = t_end;

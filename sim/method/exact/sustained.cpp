@@ -16,6 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-13;
 /// [m] per size of the world: overlap that dates an event of a pair that touches already.
 constexpr double kOff = 1e-12;
+/// [m] per size of the world: overlap that no event explains.
+constexpr double kAstray = 1e-9;
 /// [1] Normals that differ by less are one: faces that lie on each other may take turns.
 constexpr double kOneNormal = 1e-8;
 /// [s] A stretch that is shorter stands still; or counts as an event, however it ended.
@@ -68,8 +70,13 @@ void Sustained::next() {
   findNear(most_);
   if (report_.stopped) return;
   double h = most_;
-  const bool event = findEvent(h);
+  bool event = findEvent(h);
   allowance(h);
+  // What contacts keep from one try to the next may lead a motion astray: it is cut short.
+  for (; !blind_ && overlap_ > kAstray * std::max(1.0, model_.size) && h > kInstant; allowance(h)) {
+    h *= 0.5;
+    event = false;
+  }
   commit(h);
   keepPace(event || h < kShort);
   if (event || blind_ || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
@@ -128,6 +135,7 @@ double Sustained::allowance(double h) {
     least = std::min(least, separation(model_.shapes[pair.a], trial_[pair.a].pose(),
                                        model_.shapes[pair.b], trial_[pair.b].pose()) -
                                 pair.floor);
+  overlap_ = -least;
   if (least < 0.0) cause_ = Cause::Touch;
   if (blind_) return least;
   const double mode = modeAllowance();
@@ -214,6 +222,7 @@ void Sustained::commit(double h) {
   counted_ = system_.evaluations();
   state_.t = t1;
   ++books.steps;
+  ++state_.stretches;
   account(model_, state_, report_);
 }
 

@@ -83,6 +83,7 @@ class Sustained {
   long counted_ = 0;               ///< evaluations of system_ that are in the certificate,
   long before_ = 0;                ///< and those before this stretch
   Cause cause_ = Cause::None;
+  double overlap_ = 0.0;  ///< [m] of the bodies last tried, beyond what is allowed
   double reached_ = 0.0;  ///< [s] of the h last tried
 };
 

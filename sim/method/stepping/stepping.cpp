@@ -64,10 +64,11 @@ void Stepping::step() {
 }
 
 /// The length [s] of a step: that of the grid, free of the rounding of its ends, but for a shorter
-/// one at the end of the run.
+/// one at the end of the run, and at the start of one that another method began.
 double Stepping::lengthTo(double t1) const {
   const double h = model_.def.stepping.step;
-  const bool whole = t1 == static_cast<double>(state_.gridIndex + 1) * h;
+  const double k = static_cast<double>(state_.gridIndex);
+  const bool whole = state_.t == k * h && t1 == (k + 1.0) * h;
   return whole ? h : t1 - state_.t;
 }
 

@@ -1,0 +1,121 @@
+#include "sim/method/auto.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "sim/method/method.h"
+
+namespace tumble {
+namespace {
+
+/// A stretch of motion in contact costs the exact method 2 to 4 ms a body, where a step of stepping
+/// costs 13 µs a body. At this many, shared by the bodies, and this many in a second of the scene,
+/// its accuracy costs about as much time as the motion lasts. This and what follows was measured by
+/// `tests/bench/sim/auto.cpp`.
+constexpr long kMostStretches = 500;
+constexpr double kStretchesPerSecond = 100.0;
+/// Bodies other than balls that can come to lie on each other. Half a second of four boxes that
+/// tumble costs the exact method 1.1 s, of eight 5.6 s; stepping 15 and 21 ms.
+constexpr int kMostSolids = 4;
+/// Balls rest and roll on a floor in closed forms, at a quarter of what stepping costs; not so
+/// between each other.
+constexpr int kMostBalls = 16;
+/// Rows of joints that an adaptive integrator follows cheaper than steps of stepping do.
+constexpr std::size_t kMostJoints = 8;
+
+bool serves(const Method& method, const Model& model, std::span<const RigidBody> bodies) {
+  try {
+    method.check(model, bodies);
+    return true;
+  } catch (const Refusal&) {
+    return false;
+  }
+}
+
+/// Bodies that move and can touch another one.
+struct Counts {
+  int balls = 0, solids = 0;
+  bool fixed = false;  ///< something stands in their way
+};
+
+Counts countsOf(const Model& model) {
+  Counts counts;
+  for (const int i : model.solid) {
+    const Shape& shape = model.shapes[i];
+    const bool round =
+        std::holds_alternative<Sphere>(shape) || std::holds_alternative<Particle>(shape);
+    if (model.fixed(i))
+      counts.fixed = true;
+    else
+      ++(round ? counts.balls : counts.solids);
+  }
+  return counts;
+}
+
+/// Whether bodies can come to lie on something: without that, hits are all that happens.
+bool gathers(const Model& model, const Counts& counts) {
+  return counts.fixed && !(model.def.gravity.isZero(0.0) && model.def.forces.empty());
+}
+
+/// Bodies as the exact method left them, for steps of the grid from here on.
+void handOver(const Model& model, State& state, Report& report) {
+  auto before = std::make_shared<const State>(std::move(state));
+  state = State{};
+  state.t = before->t;
+  state.gridIndex = static_cast<long>(std::floor(before->t / model.def.stepping.step));
+  state.bodies = before->bodies;
+  state.externalImpulse = before->externalImpulse;
+  state.momentumStart = before->momentumStart;
+  state.momentumScale = before->momentumScale;
+  state.kineticMax = before->kineticMax;
+  for (const Contact& c : before->lasting)
+    if (state.stepping.lasting.empty() || state.stepping.lasting.back().a != c.a ||
+        state.stepping.lasting.back().b != c.b)
+      state.stepping.lasting.push_back(c);
+  state.before = std::move(before);
+  report.stopped = false;
+  report.note(("from t = " + shortNumber(state.t) + " s by stepping: " + report.reason).c_str());
+  report.reason.clear();
+}
+
+}  // namespace
+
+std::string_view chooseMethod(const Model& model, std::span<const RigidBody> bodies) {
+  const Method &exact = *findMethod("exact"), &stepping = *findMethod("stepping");
+  const Counts counts = countsOf(model);
+  const int moving = counts.balls + counts.solids;
+  const bool contact = moving > 1 || (moving == 1 && counts.fixed);
+  const bool few =
+      !gathers(model, counts) || (counts.solids <= kMostSolids && counts.balls <= kMostBalls);
+  if (few && model.joints.size() <= kMostJoints && serves(exact, model, bodies)) return "exact";
+  if ((contact || !model.joints.empty()) && serves(stepping, model, bodies)) return "stepping";
+  return serves(exact, model, bodies) ? "exact" : "course";
+}
+
+long mostStretches(const Model& model) {
+  const Counts counts = countsOf(model);
+  const long most = std::max(kMostStretches, std::lround(kStretchesPerSecond * model.def.duration));
+  return most / std::max(1, counts.balls + counts.solids);
+}
+
+void checkAuto(const Model& model, std::span<const RigidBody> bodies) {
+  findMethod(model.runs)->check(model, bodies);
+}
+
+void advanceAuto(const Model& model, State& state, double t_end, Report& report) {
+  if (!state.before) findMethod(model.runs)->advance(model, state, t_end, report);
+  const Method& stepping = *findMethod("stepping");
+  const bool gaveUp = report.stopped && state.stretches >= model.mostStretches;
+  if (gaveUp && serves(stepping, model, state.bodies)) handOver(model, state, report);
+  if (state.before && !report.stopped) stepping.advance(model, state, t_end, report);
+}
+
+void lookAuto(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
+              std::vector<Contact>& contacts, std::vector<JointForce>& joints) {
+  const bool earlier = state.before && t < state.before->t;
+  const Method& method = *findMethod(state.before && !earlier ? "stepping" : model.runs);
+  method.look(model, earlier ? *state.before : state, t, bodies, contacts, joints);
+}
+
+}  // namespace tumble
