@@ -69,6 +69,9 @@ void handOver(const Model& model, State& state, Report& report) {
   state.momentumStart = before->momentumStart;
   state.momentumScale = before->momentumScale;
   state.kineticMax = before->kineticMax;
+  state.momentumDrift = before->momentumDrift;
+  state.load = before->load;
+  state.loadPower = before->loadPower;
   for (const Contact& c : before->lasting)
     if (state.stepping.lasting.empty() || state.stepping.lasting.back().a != c.a ||
         state.stepping.lasting.back().b != c.b)
@@ -106,7 +109,7 @@ void checkAuto(const Model& model, std::span<const RigidBody> bodies) {
 void advanceAuto(const Model& model, State& state, double t_end, Report& report) {
   if (!state.before) findMethod(model.runs)->advance(model, state, t_end, report);
   const Method& stepping = *findMethod("stepping");
-  const bool gaveUp = report.stopped && state.stretches >= model.mostStretches;
+  const bool gaveUp = report.stopped && !state.before && model.runs != "stepping";
   if (gaveUp && serves(stepping, model, state.bodies)) handOver(model, state, report);
   if (state.before && !report.stopped) stepping.advance(model, state, t_end, report);
 }

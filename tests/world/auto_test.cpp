@@ -145,7 +145,8 @@ TEST_CASE("auto chooses by what a scene holds, and moves as what it chose") {
   }
 }
 
-// Oracle: the floor, and bit-equal motion however it is looked at. Measured 2e-12 m, allowed 1e-9.
+// Oracle: the floor, and bit-equal motion however it is looked at. Measured 1.2e-11 m, allowed
+// 1e-9.
 TEST_CASE("auto goes on by stepping where the exact method gives up") {
   const WorldDef def = tumbling(4, 12, 1.0);
   World often(def), once(def);
@@ -156,12 +157,13 @@ TEST_CASE("auto goes on by stepping where the exact method gives up") {
   }
   once.advance(1.0);
   const Report& report = often.report();
-  WARN("tumbling boxes: " << often.method() << ", lowest corner " << lowest << " m, "
-                          << report.notes.front());
+  CAPTURE(often.method(), lowest);
   CHECK(often.method() == "auto: exact, then stepping");
   CHECK(often.runs() == "stepping");
   CHECK_FALSE(report.stopped);
-  CHECK(report.notes.front().find("by stepping: the exact method") != std::string::npos);
+  CHECK(std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+    return note.find("by stepping: the exact method") != std::string::npos;
+  }));
   CHECK(lowest > -1e-9);
   CHECK(report.certificate.momentum_error < 1e-9);
   CHECK(report.certificate.energy_balance_error < 0.05);

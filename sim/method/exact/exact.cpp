@@ -52,6 +52,24 @@ std::string crowdedAt(double t) {
          " s; try method \"stepping\", or a little less restitution or friction";
 }
 
+namespace {
+
+/// Stops where the scene may go on by another method and that would be the better one.
+void giveUp(const Model& model, const State& state, Report& report) {
+  if (model.mostStretches == std::numeric_limits<long>::max()) return;
+  if (state.stretches >= model.mostStretches) {
+    report.reason = "the exact method had followed " + std::to_string(state.stretches) +
+                    " stretches of motion in contact";
+  } else if (state.pace.level > 0) {
+    report.reason = "the exact method met more events than it could follow closely";
+  } else {
+    return;
+  }
+  report.stopped = true;
+}
+
+}  // namespace
+
 void checkExact(const Model& model, std::span<const RigidBody>) {
   const std::vector<Force>& forces = model.def.forces;
   for (std::size_t k = 0; k < forces.size(); ++k)
@@ -88,11 +106,7 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
     } else {
       if (!sustained) sustained.emplace(model, state, report);
       sustained->next();
-      if (state.stretches >= model.mostStretches && !report.stopped) {
-        report.stopped = true;
-        report.reason = "the exact method had followed " + std::to_string(state.stretches) +
-                        " stretches of motion in contact";
-      }
+      if (!report.stopped) giveUp(model, state, report);
     }
   }
   state.lookedAt = t_end;
