@@ -1,6 +1,7 @@
 // Chapter 9, method: the half of a world that changes.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -49,8 +50,10 @@ struct State {
   double momentumDrift = 0.0;           ///< [kg m/s] worst |P − P₀ − ∫F − Σ impulses|
   double momentumScale = 0.0;           ///< [kg m/s] max of Σ|P|
   double kineticMax = 0.0;              ///< [J]
-  double load = 0.0;                    ///< [N] Σ|F| of gravity and the forces, at the start
-  double loadPower = 0.0;               ///< [W/s] Σ F²/m of the same
+  /// [J] of the step before, without what repairs and forces did to it.
+  double energyOwn = std::numeric_limits<double>::infinity();
+  double load = 0.0;       ///< [N] Σ|F| of gravity and the forces, at the start
+  double loadPower = 0.0;  ///< [W/s] Σ F²/m of the same
 
   SteppingMemory stepping;          ///< what only `stepping` remembers
   std::vector<Segment> spareTrail;  ///< stretches gone by, whose memory is used again

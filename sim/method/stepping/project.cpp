@@ -1,6 +1,7 @@
 // Position projection: the least displacement, weighed by mass, that lifts what overlaps.
 #include <algorithm>
 
+#include "sim/body/force.h"
 #include "sim/contact/rows.h"
 #include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
@@ -10,12 +11,18 @@ namespace tumble {
 void Stepping::project() {
   constexpr int kRounds = 10;
   double deepest = deepestOverlap();
+  const auto potential = [&] {
+    return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
+  };
+  const bool lifts = deepest > tolerance_.drift || largestGap() > tolerance_.drift;
+  const double before = lifts ? potential() : 0.0;
   for (int round = 0;
        round < kRounds && (deepest > tolerance_.drift || largestGap() > tolerance_.drift);
        ++round) {
     lift();
     deepest = deepestOverlap();
   }
+  if (lifts) report_.certificate.energy_added_repair += potential() - before;
   report_.certificate.max_penetration = std::max(report_.certificate.max_penetration, deepest);
 }
 
