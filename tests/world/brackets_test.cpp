@@ -13,14 +13,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-WorldDef worldOf(const char* method, double duration, std::vector<BodyDef> bodies) {
-  WorldDef def;
-  def.method = method;
-  def.duration = duration;
-  def.bodies = std::move(bodies);
-  return def;
-}
-
 /// How far the bodies that moved most are from their start, and what the run says of itself.
 struct Outcome {
   double way = 0.0;   ///< [m]
@@ -70,22 +62,6 @@ WorldDef blockOnSlope(const char* method, double angle, const Vec3& edges, doubl
   BodyDef block = box("block", edges, turn * Vec3(0.0, 0.5 * edges.y(), 0.0), 0.0, mu);
   block.orientation = turn;
   return worldOf(method, 10.0, {slope(angle, mu), block});
-}
-
-/// A plank at 60 degrees, its lower corner on the floor, its upper against a smooth wall.
-/// @param side  of the least friction that holds it
-WorldDef leaningPlank(const char* method, double side) {
-  BodyDef plank = box("plank", {3.0, 0.1, 0.5}, Vec3::Zero());
-  plank.orientation = fromAxisAngle({0.0, 0.0, 1.0}, 60.0 * kPi / 180.0);
-  const Vec3 B = plank.orientation * Vec3(-1.5, -0.05, 0.0);
-  const Vec3 U = plank.orientation * Vec3(1.5, -0.05, 0.0);
-  const double mu = -B.x() / (U.y() - B.y()) * side;
-  plank.position = {-U.x(), -B.y(), 0.0};
-  plank.friction = mu;
-  BodyDef wall = ground();
-  wall.name = "wall";
-  wall.shape = HalfSpace{{-1.0, 0.0, 0.0}, 0.0};
-  return worldOf(method, 10.0, {ground(0.0, mu), wall, plank});
 }
 
 /// Books on the edge of a table, which ends at x = 0: book k from the top stands out over the next

@@ -10,14 +10,6 @@ using namespace tumble::scenes;
 
 namespace {
 
-WorldDef exactWorld(double duration, std::vector<BodyDef> bodies) {
-  WorldDef def;
-  def.method = "exact";
-  def.duration = duration;
-  def.bodies = std::move(bodies);
-  return def;
-}
-
 BodyDef turntable(double speed, double mu) {
   BodyDef table;
   table.name = "table";
@@ -61,8 +53,8 @@ TEST_CASE("a box that hits the ground beside a ball that rolls flies on from whe
   BodyDef thrown = box("thrown", {0.3, 0.2, 0.4}, {0.0, 0.5, 0.0}, 0.8, 0.3);
   thrown.angularVelocity = {1.0, 2.0, 3.0};
   const BodyDef floor = ground(0.0, 0.3);
-  World alone(exactWorld(0.6, {floor, thrown}));
-  World beside(exactWorld(0.6, {floor, table, rolling, thrown}));
+  World alone(worldOf("exact", 0.6, {floor, thrown}));
+  World beside(worldOf("exact", 0.6, {floor, table, rolling, thrown}));
   const BodySample one = run(alone).bodies[1], other = run(beside).bodies[3];
   REQUIRE(alone.report().events.size() >= 2);
   const double apart = (one.x - other.x).norm();
@@ -79,8 +71,8 @@ TEST_CASE("boxes on a turntable and boxes that clatter come to an end") {
   BodyDef lower = box("lower", {0.4, 0.4, 0.4}, {0.8, 0.2, 0.0}, 0.0, 0.5);
   BodyDef clatter = box("clatter", {0.4, 0.1, 0.3}, {0.0, 0.4, 0.0}, 0.5, 0.3);
   clatter.orientation = Quat(1.0, 0.01, 0.0, 0.02).normalized();
-  for (const WorldDef& def : {exactWorld(0.1, {turntable(2.0, 0.5), lower, upper}),
-                              exactWorld(1.0, {ground(0.5, 0.3), clatter})}) {
+  for (const WorldDef& def : {worldOf("exact", 0.1, {turntable(2.0, 0.5), lower, upper}),
+                              worldOf("exact", 1.0, {ground(0.5, 0.3), clatter})}) {
     World world(def);
     run(world);
     const Certificate& books = world.report().certificate;
@@ -96,7 +88,7 @@ TEST_CASE("boxes on a turntable and boxes that clatter come to an end") {
 // Measured 1e-15, allowed 1e-12.
 TEST_CASE("the books of a scene at rest are numbers, with loads and without") {
   const std::string method = GENERATE("course", "stepping", "exact");
-  WorldDef def = exactWorld(0.5, {ground(), box("box", {0.4, 0.4, 0.4}, {0.0, 0.2, 0.0})});
+  WorldDef def = worldOf("exact", 0.5, {ground(), box("box", {0.4, 0.4, 0.4}, {0.0, 0.2, 0.0})});
   def.method = method;
   const bool loaded = GENERATE(true, false);
   if (!loaded) def.gravity.setZero();

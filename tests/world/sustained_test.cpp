@@ -15,14 +15,6 @@ namespace {
 constexpr double kG = 9.81, kPi = 3.14159265358979323846;
 const Vec3 kUp(0.0, 1.0, 0.0);
 
-WorldDef exactWorld(double duration, std::vector<BodyDef> bodies) {
-  WorldDef def;
-  def.method = "exact";
-  def.duration = duration;
-  def.bodies = std::move(bodies);
-  return def;
-}
-
 /// The end of a run whose books must close, and no two bodies overlap.
 Sample endOf(const WorldDef& def, Report* report = nullptr) {
   World world(def);
@@ -65,7 +57,8 @@ TEST_CASE("a ball that slides comes to roll when and where it should", "[figures
       GENERATE(std::tuple{5.0, 0.3, 0.1}, std::tuple{2.0, 0.05, 1.0}, std::tuple{11.0, 1.7, 0.02});
   const double t = 2.0 * v0 / (7.0 * mu * kG), v = 5.0 * v0 / 7.0;
   const double d = 12.0 * v0 * v0 / (49.0 * mu * kG);
-  WorldDef def = exactWorld(3.0 * t, {ground(0.0, mu), ball("ball", r, {0.0, r, 0.0}, 0.0, mu)});
+  WorldDef def =
+      worldOf("exact", 3.0 * t, {ground(0.0, mu), ball("ball", r, {0.0, r, 0.0}, 0.0, mu)});
   def.bodies[1].velocity = {v0, 0.0, 0.0};
   Report report;
   const Sample end = endOf(def, &report);
@@ -88,7 +81,8 @@ TEST_CASE("a ball with side spin slides along a parabola", "[figures]") {
   const Vec3 v0 = turn * Vec3(3.0, 0.0, 0.0), omega = turn * Vec3(25.0, 4.0, 7.0);
   const Vec3 slip = v0 - r * omega.cross(kUp), v = (5.0 * v0 + 2.0 * r * omega.cross(kUp)) / 7.0;
   const double t = 2.0 * slip.norm() / (7.0 * mu * kG), rest = 0.5;
-  WorldDef def = exactWorld(t + rest, {ground(0.0, mu), ball("ball", r, {0.0, r, 0.0}, 0.0, mu)});
+  WorldDef def =
+      worldOf("exact", t + rest, {ground(0.0, mu), ball("ball", r, {0.0, r, 0.0}, 0.0, mu)});
   def.bodies[1].velocity = v0;
   def.bodies[1].angularVelocity = omega;
   const Sample end = endOf(def);
@@ -104,7 +98,7 @@ TEST_CASE("balls and cylinders roll and slide down as they should", "[figures]")
   const double angle = kPi / 6.0, T = 2.0;
   const Vec3 n(std::sin(angle), std::cos(angle), 0.0), down(std::cos(angle), -std::sin(angle), 0.0);
   const auto way = [&](BodyDef body) {
-    const Sample end = endOf(exactWorld(T, {slope(angle, body.friction), body}));
+    const Sample end = endOf(worldOf("exact", T, {slope(angle, body.friction), body}));
     CHECK(std::abs(end.bodies[1].x.dot(n) - 0.1) < 1e-12);
     return end.bodies[1].x.dot(down);
   };
@@ -138,7 +132,7 @@ TEST_CASE("a ball on a turntable circles at two sevenths of its speed", "[figure
   rolling.velocity = {0.3, 0.0, 0.2};
   rolling.angularVelocity =
       kUp.cross(rolling.velocity - Omega * kUp.cross(Vec3(1.0, 0.0, 0.0))) / 0.1;
-  const Sample end = endOf(exactWorld(3.0 * period, {table, rolling}));
+  const Sample end = endOf(worldOf("exact", 3.0 * period, {table, rolling}));
   WARN("turntable closes to " << (end.bodies[1].x - rolling.position).norm() << " m");
   CHECK((end.bodies[1].x - rolling.position).norm() < 1e-10);
 }
@@ -163,7 +157,7 @@ TEST_CASE("Euler's disk keeps its angle", "[figures]") {
                         (across - 0.5 * h / a * along * std::tan(alpha)) / std::sin(alpha);
   // It turns about the line from the centre to the contact, so that both are at rest.
   disk.angularVelocity = -std::sqrt(square) * std::sin(alpha) / a * toContact;
-  const Sample end = endOf(exactWorld(10.0, {ground(0.0, 3.0), disk}));
+  const Sample end = endOf(worldOf("exact", 10.0, {ground(0.0, 3.0), disk}));
   const double drift = std::acos((end.bodies[1].q * kUp).y()) - alpha;
   const double centre = (end.bodies[1].x - disk.position).norm();
   WARN("Euler's disk at " << degrees << " degrees, " << h << " m high, 10 s: angle drifts " << drift
@@ -191,8 +185,8 @@ TEST_CASE("a top that stands on a rough floor moves as one that is held at its t
   BodyDef held = top;
   held.pivot_B = Vec3(0.0, -0.1, 0.0);
   held.velocity.setZero();
-  const BodySample stands = endOf(exactWorld(2.0, {ground(0.0, 2.0), top})).bodies[1];
-  const BodySample pivots = endOf(exactWorld(2.0, {held})).bodies[0];
+  const BodySample stands = endOf(worldOf("exact", 2.0, {ground(0.0, 2.0), top})).bodies[1];
+  const BodySample pivots = endOf(worldOf("exact", 2.0, {held})).bodies[0];
   const double apart = (stands.x - pivots.x).norm(), turned = stands.q.angularDistance(pivots.q);
   WARN("spinning top, 2 s: " << apart << " m, " << turned << " rad from one on a pivot");
   CHECK(apart < 1e-12);
@@ -217,7 +211,7 @@ TEST_CASE("Jellett's integral of a round end is constant while it slides and rol
     const Vec3 a = -0.5 * h * R.col(1) - r * kUp;
     return -(R * inertia * R.transpose() * body.omega).dot(a);
   };
-  World world(exactWorld(3.0, {ground(0.0, mu), egg}));
+  World world(worldOf("exact", 3.0, {ground(0.0, mu), egg}));
   const Mat3 inertia = massOf(egg).inertia;
   const double first = level(world.sample(0.0).bodies[1], inertia);
   double worst = 0.0;
@@ -245,7 +239,7 @@ TEST_CASE("a block on a slope sticks and slides to a millionth of its friction",
   for (const double side : {1.0 + 1e-6, 1.0 - 1e-6}) {
     const double mu = std::tan(angle) * side;
     const BodyDef block = blockOn(angle, {1.0, 0.2, 0.6}, mu, about);
-    const Sample end = endOf(exactWorld(2.0, {slope(angle, mu, about), block}));
+    const Sample end = endOf(worldOf("exact", 2.0, {slope(angle, mu, about), block}));
     const double way = (end.bodies[1].x - block.position).norm();
     const double d = 0.5 * kG * std::cos(angle) * (std::tan(angle) - mu) * 4.0;
     WARN("block on " << angle * 180.0 / kPi << " degrees, mu = tan θ · " << side << ": " << way
@@ -263,7 +257,7 @@ TEST_CASE("a block comes to a stop where it should", "[figures]") {
   const Vec3 down(std::cos(angle), -std::sin(angle), 0.0);
   BodyDef block = blockOn(angle, {1.0, 0.2, 0.6}, mu);
   block.velocity = v0 * down;
-  const Sample end = endOf(exactWorld(3.0, {slope(angle, mu), block}));
+  const Sample end = endOf(worldOf("exact", 3.0, {slope(angle, mu), block}));
   const double d = 0.5 * v0 * v0 / (kG * (mu * std::cos(angle) - std::sin(angle)));
   const double error = (end.bodies[1].x - block.position).dot(down) - d;
   WARN("stopping distance: off by " << error << " m");
@@ -283,7 +277,7 @@ TEST_CASE("balls roll on a box that is pushed from under them", "[figures]") {
   base.material = "box";
   BodyDef floor = ground();
   floor.material = "floor";
-  WorldDef def = exactWorld(T, {floor, base});
+  WorldDef def = worldOf("exact", T, {floor, base});
   for (int i = 0; i < n * n; ++i) {
     def.bodies.push_back(
         ball("ball." + std::to_string(i), 0.5, {2.0 * (i % n - 2), 1.5, 2.0 * (i / n - 2)}));
@@ -318,7 +312,7 @@ TEST_CASE("a rod that no force can hold jams without a collision, and loses ener
       rod.position = {0.0, std::sin(angle) + r, 0.0};
       rod.velocity = {v, 0.0, 0.0};
       Report report;
-      endOf(exactWorld(0.2, {ground(0.0, mu), rod}), &report);
+      endOf(worldOf("exact", 0.2, {ground(0.0, mu), rod}), &report);
       const bool jams = v < 0.0 && mu > 4.0 / 3.0;
       WARN("rod at tan θ = 2, mu " << mu << ", v " << v << ": " << eventName(report.events[0].kind)
                                    << ", lost to friction "
@@ -345,7 +339,7 @@ TEST_CASE("a rod on an edge jams as one on a point") {
     rod.position.y() = std::sin(angle) + 0.5 * w * std::cos(angle);
     rod.velocity = fromAxisAngle(kUp, about) * Vec3(-1.0, 0.0, 0.0);
     Report report;
-    endOf(exactWorld(0.2, {ground(0.0, mu), rod}), &report);
+    endOf(worldOf("exact", 0.2, {ground(0.0, mu), rod}), &report);
     CHECK(count(report, EventKind::Impact) == (mu > 1.4 ? 1 : 0));
   }
 }
@@ -361,7 +355,7 @@ TEST_CASE("what slides or rolls over an edge tips and falls where it should") {
   BodyDef rolling = ball("ball", 0.2, {0.2, 1.2, 0.0}, 0.0, 0.3);
   rolling.velocity = {0.8, 0.0, 0.1};
   for (const BodyDef& body : {block, rolling}) {
-    WorldDef def = exactWorld(0.8, {ground(0.0, 0.3), table, body});
+    WorldDef def = worldOf("exact", 0.8, {ground(0.0, 0.3), table, body});
     const Sample exact = endOf(def);
     def.method = "course";
     def.course.step = 1.0 / 8000.0;
@@ -378,7 +372,7 @@ TEST_CASE("a block on a slope stands or topples to a millionth of its width", "[
     const double angle = 20.0 * kPi / 180.0, height = 1.0, width = std::tan(angle) * height * side;
     const BodyDef block = blockOn(angle, {width, height, 0.5}, 0.9);
     Report report;
-    const Sample end = endOf(exactWorld(10.0, {slope(angle, 0.9), block}), &report);
+    const Sample end = endOf(worldOf("exact", 10.0, {slope(angle, 0.9), block}), &report);
     const double turn = end.bodies[1].q.angularDistance(block.orientation);
     WARN("width = tan θ · height · " << side << ": turned by " << turn << " rad");
     if (side > 1.0)
@@ -392,18 +386,9 @@ TEST_CASE("a block on a slope stands or topples to a millionth of its width", "[
 TEST_CASE("a plank against a smooth wall stands or slides to a millionth of its friction",
           "[figures]") {
   for (const double side : {1.0 + 1e-6, 1.0 - 1e-6}) {
-    BodyDef plank = box("plank", {3.0, 0.1, 0.5}, Vec3::Zero());
-    plank.orientation = fromAxisAngle({0.0, 0.0, 1.0}, 60.0 * kPi / 180.0);
-    const Vec3 B = plank.orientation * Vec3(-1.5, -0.05, 0.0);
-    const Vec3 U = plank.orientation * Vec3(1.5, -0.05, 0.0);
-    const double mu = -B.x() / (U.y() - B.y()) * side;
-    plank.position = {-U.x(), -B.y(), 0.0};
-    plank.friction = mu;
-    BodyDef wall = ground();
-    wall.name = "wall";
-    wall.shape = HalfSpace{{-1.0, 0.0, 0.0}, 0.0};
-    const Sample end = endOf(exactWorld(10.0, {ground(0.0, mu), wall, plank}));
-    const double way = (end.bodies[2].x - plank.position).norm();
+    const WorldDef def = leaningPlank("exact", side);
+    const Sample end = endOf(def);
+    const double way = (end.bodies[2].x - def.bodies[2].position).norm();
     WARN("plank, mu = μc · " << side << ": moved by " << way << " m");
     CHECK((way < 1e-9) == (side > 1.0));
     CHECK((way > 1.0) == (side < 1.0));

@@ -14,11 +14,10 @@ void Stepping::project() {
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
   };
-  const bool lifts = deepest > tolerance_.drift || largestGap() > tolerance_.drift;
+  const auto open = [&] { return deepest > tolerance_.drift || largestGap() > tolerance_.drift; };
+  const bool lifts = open();
   const double before = lifts ? potential() : 0.0;
-  for (int round = 0;
-       round < kRounds && (deepest > tolerance_.drift || largestGap() > tolerance_.drift);
-       ++round) {
+  for (int round = 0; round < kRounds && open(); ++round) {
     lift();
     deepest = deepestOverlap();
   }
