@@ -42,16 +42,16 @@ int check(int argc, char** argv) {
   std::vector<std::string> names, overrides;
   std::string folder;
   bool state = false;
-  CommandLine app("check", "Holds scenes to the closed forms that they claim.",
-                  {"                # every demo", "path-of-brick my-scene.toml",
-                   "stacked-boxes --set world.gravity=[0,-1.62,0]",
-                   "--state my-scene.toml -o out/mine # is its start legal? state.png shows it"});
-  app.add_option("SCENE", names, "demos or TOML files [every demo]");
-  addOverrides(app, overrides);
-  app.add_flag("--state", state,
-               "instead: are positions, velocities and accelerations of the start legal?");
-  app.add_option("-o,--output", folder, "folder for state.png [none]")->needs("--state");
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line("check", "Holds scenes to the closed forms that they claim.",
+                   {"                # every demo", "path-of-brick my-scene.toml",
+                    "stacked-boxes --set world.gravity=[0,-1.62,0]",
+                    "--state my-scene.toml -o out/mine # is its start legal? state.png shows it"});
+  line.option("SCENE", names, "demos or TOML files [every demo]");
+  addOverrides(line, overrides);
+  line.flag("--state", state,
+            "instead: are positions, velocities and accelerations of the start legal?");
+  line.option("-o,--output", folder, "folder for state.png [none]", {.needs = "--state"});
+  if (!line.read(argc, argv)) return kOk;
 
   if (names.empty()) names = demoNames();
   int worst = kOk;

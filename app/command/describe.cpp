@@ -111,10 +111,10 @@ void printMasses(const Scene& scene) {
 
 int describe(int argc, char** argv) {
   SceneOptions options;
-  CommandLine app("describe", "What a scene contains, uses and claims.",
-                  {"path-of-brick", "my-scene.toml --set world.method=stepping"});
-  addSceneOptions(app, options);
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line("describe", "What a scene contains, uses and claims.",
+                   {"path-of-brick", "my-scene.toml --set world.method=stepping"});
+  addSceneOptions(line, options);
+  if (!line.read(argc, argv)) return kOk;
 
   const Scene scene = load(options);
   const WorldDef& world = scene.world;

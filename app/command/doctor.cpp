@@ -88,9 +88,9 @@ std::string onPath(const std::string& program) {
 }  // namespace
 
 int doctor(int argc, char** argv) {
-  CommandLine app("doctor", "Tells what this machine offers for drawing, and what is missing.",
-                  {"  # contexts, folders, helpers", "  && tumble render path-of-brick"});
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line("doctor", "Tells what this machine offers for drawing, and what is missing.",
+                   {"  # contexts, folders, helpers", "  && tumble render path-of-brick"});
+  if (!line.read(argc, argv)) return kOk;
 
   row("tumble", TUMBLE_VERSION);
   tellFolders();

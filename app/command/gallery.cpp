@@ -66,14 +66,15 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
 
 int gallery(int argc, char** argv) {
   Options options;
-  CommandLine app("gallery", "Draws every demo and a page to leaf through them.",
-                  {"             # out/index.html with still, strobe, sheet and sweep of each demo",
-                   "--all        # every sequence and film too; needs ffmpeg",
-                   "-o out/moon --set world.gravity=[0,-1.62,0]"});
-  app.add_option("-o,--output", options.folder, "folder for pages and pictures [out]");
-  app.add_flag("--all", options.all, "every sequence and film too");
-  addOverrides(app, options.overrides);
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line(
+      "gallery", "Draws every demo and a page to leaf through them.",
+      {"             # out/index.html with still, strobe, sheet and sweep of each demo",
+       "--all        # every sequence and film too; needs ffmpeg",
+       "-o out/moon --set world.gravity=[0,-1.62,0]"});
+  line.option("-o,--output", options.folder, "folder for pages and pictures [out]");
+  line.flag("--all", options.all, "every sequence and film too");
+  addOverrides(line, options.overrides);
+  if (!line.read(argc, argv)) return kOk;
 
   makeFolder(options.folder);
   Studio studio;

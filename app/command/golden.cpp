@@ -77,17 +77,17 @@ void refuseOtherRasterisers(const Context& context) {
 }  // namespace
 
 int golden(int argc, char** argv) {
-  CommandLine app("golden",
-                  "Compares small images and numbers of every demo with the approved ones.",
-                  {"                       # all of them", "path-of-brick          # one",
-                   "--update               # accept what is drawn now"});
+  CommandLine line("golden",
+                   "Compares small images and numbers of every demo with the approved ones.",
+                   {"                       # all of them", "path-of-brick          # one",
+                    "--update               # accept what is drawn now"});
   std::vector<std::string> asked;
   std::string out = "out/golden";
   bool update = false;
-  app.add_option("SUBJECT", asked, "demos to look at [all]");
-  app.add_flag("--update", update, "accept what is drawn now");
-  app.add_option("-o,--output", out, "folder for failing images and report.html [out/golden]");
-  if (!app.read(argc, argv)) return kOk;
+  line.option("SUBJECT", asked, "demos to look at [all]");
+  line.flag("--update", update, "accept what is drawn now");
+  line.option("-o,--output", out, "folder for failing images and report.html [out/golden]");
+  if (!line.read(argc, argv)) return kOk;
 
   const std::vector<std::string> subjects = chosen(asked);
   const std::string folder = dataFolder("golden");

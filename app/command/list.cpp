@@ -10,8 +10,8 @@
 namespace tumble::command {
 
 int list(int argc, char** argv) {
-  CommandLine app("list", "The demos, by chapter.", {"  # names, titles and claims"});
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line("list", "The demos, by chapter.", {"  # names, titles and claims"});
+  if (!line.read(argc, argv)) return kOk;
 
   std::map<std::string, std::vector<Scene>> chapters;
   for (const std::string& name : demoNames()) {

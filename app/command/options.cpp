@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
+#include <optional>
 
 #include "app/claim/verdict.h"
 #include "app/command/command.h"
@@ -12,55 +12,18 @@
 
 namespace tumble {
 
-CommandLine::CommandLine(const std::string& name, const std::string& summary,
-                         const std::vector<std::string>& examples)
-    : CLI::App(summary, "tumble " + name) {
-  std::string text = "\nExamples:";
-  for (const std::string& example : examples) text += "\n  tumble " + name + " " + example;
-  footer(text);
+void addOverrides(CommandLine& line, std::vector<std::string>& overrides) {
+  line.option("--set", overrides, "override a key of the scene; repeatable", {.type = "KEY=VALUE"});
 }
 
-bool CommandLine::read(int argc, char** argv) {
-  try {
-    parse(argc, argv);
-    return true;
-  } catch (const CLI::CallForHelp&) {
-    fmt::print("{}\n", help());
-    return false;
-  } catch (const CLI::ParseError& error) {
-    std::string what = error.what();
-    std::replace(what.begin(), what.end(), '\n', ' ');
-    throw UsageError(fmt::format("{}; `{} --help` shows how", what, get_name()));
-  }
+void addSceneOptions(CommandLine& line, SceneOptions& options) {
+  line.option("SCENE", options.scene, "a demo's name or a TOML file", {.required = true});
+  addOverrides(line, options.overrides);
 }
 
-void addOverrides(CLI::App& app, std::vector<std::string>& overrides) {
-  app.add_option("--set", overrides, "override a key of the scene; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-}
-
-void addSceneOptions(CLI::App& app, SceneOptions& options) {
-  app.add_option("SCENE", options.scene, "a demo's name or a TOML file")->required();
-  addOverrides(app, options.overrides);
-}
-
-CLI::Validator between(double lo, double hi) {
-  return CLI::Validator(
-      [lo, hi](const std::string& text) {
-        // What is no number at all is left to the conversion that follows.
-        const double value = std::strtod(text.c_str(), nullptr);
-        return value >= lo && value <= hi
-                   ? std::string()
-                   : fmt::format("expected a number from {:g} to {:g}, found {}", lo, hi, text);
-      },
-      fmt::format("from {:g} to {:g}", lo, hi));
-}
-
-void addRate(CLI::App& app, double& rate) {
-  app.add_option("--rate", rate, "samples and images a second [the scene's own]")
-      ->type_name("HZ")
-      ->check(between(1e-3, 1e5));
+void addRate(CommandLine& line, double& rate) {
+  line.option("--rate", rate, "samples and images a second [the scene's own]",
+              {.type = "HZ", .range = {{1e-3, 1e5}}});
 }
 
 Scene load(const SceneOptions& options) {

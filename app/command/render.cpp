@@ -22,7 +22,7 @@ struct Options {
 };
 
 bool readOptions(int argc, char** argv, Options& options) {
-  CommandLine app(
+  CommandLine line(
       "render", "Draws a scene.",
       {"path-of-brick                  # out/path-of-brick/image-000000.png …",
        "path-of-brick --strobe --sheet # strobe.png and sheet.png instead",
@@ -31,17 +31,17 @@ bool readOptions(int argc, char** argv, Options& options) {
        "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
        "path-of-brick --video brick.mp4",
        "stacked-boxes --still 0 --set world.gravity=[0,-1.62,0] -o out/moon"});
-  addSceneOptions(app, options.scene);
-  app.add_option("-o,--output", options.folder, "folder for the images [out/<scene>]");
-  app.add_option("--frames", options.frames, "images A to B-1 of the sequence")->type_name("A:B");
-  app.add_option("--size", options.size, "pixels [the scene's own]")->type_name("WxH");
-  addRate(app, options.rate);
-  app.add_option("--still", options.still, "one image, at this time")->type_name("SECONDS");
-  app.add_flag("--strobe", options.strobe, "one image of the whole motion");
-  app.add_flag("--sheet", options.sheet, "twelve stills on one page");
-  app.add_flag("--panels", options.panels, "the scene's panels, graphs and charts");
-  app.add_option("--video", options.video, "a film, by ffmpeg")->type_name("FILE");
-  return app.read(argc, argv);
+  addSceneOptions(line, options.scene);
+  line.option("-o,--output", options.folder, "folder for the images [out/<scene>]");
+  line.option("--frames", options.frames, "images A to B-1 of the sequence", {.type = "A:B"});
+  line.option("--size", options.size, "pixels [the scene's own]", {.type = "WxH"});
+  addRate(line, options.rate);
+  line.option("--still", options.still, "one image, at this time", {.type = "SECONDS"});
+  line.flag("--strobe", options.strobe, "one image of the whole motion");
+  line.flag("--sheet", options.sheet, "twelve stills on one page");
+  line.flag("--panels", options.panels, "the scene's panels, graphs and charts");
+  line.option("--video", options.video, "a film, by ffmpeg", {.type = "FILE"});
+  return line.read(argc, argv);
 }
 
 // The range of --frames, or everything.

@@ -98,19 +98,18 @@ std::vector<Profile> contact(const Options& options) {
 
 int report(int argc, char** argv) {
   Options options;
-  CommandLine app(
+  CommandLine line(
       "report", "Measures speed against error: CSV, figures, a table, a page.",
       {"             # charts of assets/report, detection, solvers, into out/report/index.html",
        "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
-  app.add_option(
+  line.option(
       "SCENE", options.scenes,
       "scenes with [[chart]]s [those of assets/report, and what detection and contact cost]");
-  app.add_option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
-  app.add_option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]")
-      ->type_name("S")
-      ->check(between(0.0, 100.0));
-  addOverrides(app, options.overrides);
-  if (!app.read(argc, argv)) return kOk;
+  line.option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
+  line.option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]",
+              {.type = "S", .range = {{0.0, 100.0}}});
+  addOverrides(line, options.overrides);
+  if (!line.read(argc, argv)) return kOk;
   const bool whole = options.scenes.empty();
   if (whole) options.scenes = reportScenes();
 

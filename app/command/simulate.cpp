@@ -14,15 +14,15 @@ int simulate(int argc, char** argv) {
   SceneOptions options;
   std::string folder;
   double rate = 0.0;
-  CommandLine app("simulate", "Runs a scene and writes its numbers.",
-                  {"path-of-brick                       # trajectory.csv, events.csv, "
-                   "contacts.csv, summary.json",
-                   "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
-                   "path-of-brick --set materials.brick.restitution=0.4"});
-  addSceneOptions(app, options);
-  app.add_option("-o,--output", folder, "folder for the files [out/<scene>]");
-  addRate(app, rate);
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line("simulate", "Runs a scene and writes its numbers.",
+                   {"path-of-brick                       # trajectory.csv, events.csv, "
+                    "contacts.csv, summary.json",
+                    "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
+                    "path-of-brick --set materials.brick.restitution=0.4"});
+  addSceneOptions(line, options);
+  line.option("-o,--output", folder, "folder for the files [out/<scene>]");
+  addRate(line, rate);
+  if (!line.read(argc, argv)) return kOk;
 
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;

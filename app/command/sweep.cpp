@@ -12,14 +12,15 @@ namespace tumble::command {
 int sweep(int argc, char** argv) {
   SceneOptions options;
   std::string folder, shard;
-  CommandLine app("sweep", "Runs a scene once for each value of its [sweep].",
-                  {"path-of-brick             # out/path-of-brick/sweep.csv, sweep.png, sweep-0/ …",
-                   "restitution-sweep --shard 2/8  # every eighth value from the third, no sheet",
-                   "path-of-brick --set sweep.values=[0.2,0.9]"});
-  addSceneOptions(app, options);
-  app.add_option("-o,--output", folder, "folder for the files [out/<scene>]");
-  app.add_option("--shard", shard, "every N-th value from the I-th")->type_name("I/N");
-  if (!app.read(argc, argv)) return kOk;
+  CommandLine line(
+      "sweep", "Runs a scene once for each value of its [sweep].",
+      {"path-of-brick             # out/path-of-brick/sweep.csv, sweep.png, sweep-0/ …",
+       "restitution-sweep --shard 2/8  # every eighth value from the third, no sheet",
+       "path-of-brick --set sweep.values=[0.2,0.9]"});
+  addSceneOptions(line, options);
+  line.option("-o,--output", folder, "folder for the files [out/<scene>]");
+  line.option("--shard", shard, "every N-th value from the I-th", {.type = "I/N"});
+  if (!line.read(argc, argv)) return kOk;
 
   const std::pair<int, int> part = shard.empty() ? std::pair(0, 1) : parseShard(shard);
   const Scene scene = load(options);

@@ -41,16 +41,16 @@ void show(Window& window, UiInput& input, Viewer& viewer, UiRenderer& renderer, 
 }  // namespace
 
 int view(int argc, char** argv) {
-  CommandLine app(
+  CommandLine line(
       "view", "Opens a window with all demos: play, step, scrub, turn.",
       {"                    # choose in the window", "stacked-boxes       # start with one",
        "my-scene.toml --set world.gravity=[0,-1.62,0]"});
   SceneOptions options;
   int images = 0;
-  app.add_option("SCENE", options.scene, "a demo's name or a TOML file [none]");
-  addOverrides(app, options.overrides);
-  app.add_option("--images", images, "close after so many images")->group("");
-  if (!app.read(argc, argv)) return kOk;
+  line.option("SCENE", options.scene, "a demo's name or a TOML file [none]");
+  addOverrides(line, options.overrides);
+  line.option("--images", images, "close after so many images", {.hidden = true});
+  if (!line.read(argc, argv)) return kOk;
 
   // A scene that is refused ends the program before a window flashes up.
   std::optional<Scene> scene;

@@ -5,6 +5,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/inertia.h"
+#include "sim/math/rotation.h"
 
 namespace tumble {
 
@@ -43,7 +44,7 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
     instance.form = Form::Box;
     instance.scale = {0.5 * extent, 0.5 * thickness, 0.5 * extent};
     instance.position = foot - 0.5 * thickness * plane->n;
-    instance.orientation = Quat::FromTwoVectors(Vec3::UnitY(), plane->n);
+    instance.orientation = turnBetween(Vec3::UnitY(), plane->n);
   }
   return instance;
 }

@@ -58,7 +58,7 @@ Instance rodFrom(const Vec3& p, const Vec3& q, double radius, const Colour& colo
   Instance rod;
   rod.form = Form::Cylinder;
   rod.position = 0.5 * (p + q);
-  rod.orientation = Quat::FromTwoVectors(Vec3::UnitY(), (q - p).stableNormalized());
+  rod.orientation = turnBetween(Vec3::UnitY(), q - p);
   rod.scale = {radius, 0.5 * (q - p).norm(), radius};
   rod.colour = colour;
   return rod;

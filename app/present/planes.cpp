@@ -5,6 +5,7 @@
 
 #include "app/claim/parting.h"
 #include "app/present/palette.h"
+#include "sim/math/rotation.h"
 
 namespace tumble {
 
@@ -39,7 +40,7 @@ Instance discOf(const Parting& p) {
   disc.form = Form::Cylinder;
   disc.finish = Finish::Glass;
   disc.position = middleOf(p);
-  disc.orientation = Quat::FromTwoVectors(Vec3::UnitY(), p.n);
+  disc.orientation = turnBetween(Vec3::UnitY(), p.n);
   disc.scale = {r, kThickness * r, r};
   disc.colour = p.gap <= kTouch ? colour::kInk : p.remembered ? kKept : kSought;
   return disc;

@@ -1,11 +1,11 @@
 #include "sim/contact/modes.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 
 #include "sim/contact/rest.h"
 #include "sim/contact/rows.h"
+#include "sim/math/least_squares.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -16,8 +16,6 @@ constexpr double kStill = 1e-10;
 /// [1] A slip across the line of its start, below these parts of the slip and of the speeds, is
 /// left alone: friction against it would be right, but is stiff where the slip is slow.
 constexpr double kStraight = 1e-9, kNoise = 1e-10;
-/// [1] Equations that follow from the others leave no more than this.
-constexpr double kDependent = 1e-11;
 
 bool sticks(const Contact& c) {
   return c.friction > 0.0 && !c.sliding;
@@ -110,10 +108,7 @@ void ModeForces::solve(std::span<const RigidBody> bodies) {
       for (Eigen::Index j = 0; j < n; ++j)
         matrix_(i, j) = product(bodies, rows_[own[i]], forces_[own[j]]);
     }
-    Eigen::CompleteOrthogonalDecomposition<MatX> orthogonal;
-    orthogonal.setThreshold(kDependent);
-    orthogonal.compute(matrix_);
-    const VecX lambda = orthogonal.solve(rhs);
+    const VecX lambda = leastSquares(matrix_, rhs);
     for (Eigen::Index i = 0; i < n; ++i) lambda_[static_cast<Eigen::Index>(own[i])] = lambda[i];
   }
 }

@@ -1,9 +1,9 @@
 #include "sim/contact/polish.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "sim/math/least_squares.h"
 #include "sim/problem/cone.h"
 #include "sim/problem/delassus.h"
 
@@ -13,8 +13,6 @@ namespace {
 constexpr int kPasses = 40;
 /// Passes without gain after which modes only go round in circles.
 constexpr int kPatience = 8;
-/// [1] Equations that follow from the others leave no more than this.
-constexpr double kDependent = 1e-11;
 
 /// One pass: the equations G(λ) in units of u, and their derivative.
 class Pass {
@@ -84,10 +82,7 @@ SolveReport polish(const Problem& problem, const SolveSettings& settings, Soluti
   int since = 0;
   for (int pass = 0; pass < kPasses && since < kPatience; ++pass, ++since) {
     const Pass here(problem, system, lambda);
-    Eigen::CompleteOrthogonalDecomposition<MatX> orthogonal;
-    orthogonal.setThreshold(kDependent);
-    orthogonal.compute(here.dG);
-    lambda -= orthogonal.solve(here.G);
+    lambda -= leastSquares(here.dG, here.G);
     if (!lambda.allFinite()) break;
     trial.lambda.assign(lambda.data(), lambda.data() + lambda.size());
     velocitiesFromLambda(problem, trial.lambda, trial.v);

@@ -109,6 +109,22 @@ Quat fromAxisAngle(const Vec3& axis, double radians) {
   return Quat(c, s * unit.x(), s * unit.y(), s * unit.z());
 }
 
+Quat turnBetween(const Vec3& from, const Vec3& to) {
+  const Vec3 a = from.stableNormalized(), b = to.stableNormalized();
+  const auto acute = [](const Vec3& u, const Vec3& v) {
+    const Vec3 axis = u.cross(v);
+    return Quat(1.0 + u.dot(v), axis.x(), axis.y(), axis.z()).normalized();
+  };
+  if (a.dot(b) >= 0.0) return acute(a, b);
+  // Half a turn takes a to −a, from where the way is short. Its axis is cleared of its part along
+  // a.
+  Vec3 across = a.cross(b);
+  across -= a * a.dot(across);
+  const double size = across.norm();
+  across = size > 0.0 ? Vec3(across / size) : a.unitOrthogonal();
+  return acute(-a, b) * Quat(0.0, across.x(), across.y(), across.z());
+}
+
 Quat rotated(const Quat& q, const Vec3& w) {
   const double angle2 = w.squaredNorm();
   double scale, c;  // sin(|w|/2)/|w| and cos(|w|/2)

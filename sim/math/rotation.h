@@ -17,6 +17,11 @@ void sinCos(double x, double& s, double& c);
 /// @throws std::invalid_argument if the axis is zero or not finite.
 Quat fromAxisAngle(const Vec3& axis, double radians);
 
+/// The least rotation that takes the direction of `from` to that of `to`; where they are opposite,
+/// about any axis across them. Both of any length but zero and infinity.
+///   q = (1 + a·b, a × b) / |…|  for the unit vectors a, b
+Quat turnBetween(const Vec3& from, const Vec3& to);
+
 /// exp(w) q: the orientation q, turned about the world vector w by |w| [rad]. Exact for a constant
 /// angular velocity:  q(t + h) = rotated(q(t), h ω).
 ///   exp(w) = (cos(|w|/2), sin(|w|/2) w/|w|)

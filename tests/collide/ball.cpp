@@ -5,6 +5,7 @@
 
 #include "sim/collide/collide.h"
 #include "sim/collide/features.h"
+#include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
 
@@ -179,7 +180,7 @@ TEST_CASE("a half-space heeds its own plane, not its pose") {
 TEST_CASE("a box meets a half-space with one, two or four vertices") {
   const HalfSpace floor;
   const Vec3 diagonal(1.0, 1.0, 1.0);
-  const Quat onCorner = Quat::FromTwoVectors(diagonal, Vec3::UnitY());
+  const Quat onCorner = turnBetween(diagonal, Vec3::UnitY());
   const Box cube{Vec3::Constant(0.5)};
   const auto count = [&](double height, const Quat& q) {
     return points(cube, {{0.0, height, 0.0}, q}, floor, Pose{}, 1e-9).size();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/collide/contact_kind.h"
+#include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/boxes.h"
 #include "tests/collide/hulls.h"
@@ -16,7 +17,7 @@ const double kHalfSpaceDiagonal = std::sqrt(0.75);
 
 // A cube that stands on one corner: its space diagonal is along Y.
 Quat onCorner() {
-  return Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitY());
+  return turnBetween(Vec3::Ones(), Vec3::UnitY());
 }
 
 struct Kind {
