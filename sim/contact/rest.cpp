@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/contact/polish.h"
 #include "sim/contact/rows.h"
 #include "sim/problem/cone.h"
+#include "sim/problem/polish.h"
 
 namespace tumble {
 

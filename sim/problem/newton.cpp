@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/problem/last_resort.h"
 #include "sim/problem/newton_system.h"
 #include "sim/problem/solvers.h"
 
@@ -234,31 +235,16 @@ void Newton::takeLambda(const Problem& problem, Solution& solution, SolveReport&
   report.balance = 0.0;
 }
 
-/// Sweeps from the forces that Newton's method ended with, in place of its answer if they are
-/// nearer.
-void sweep(const Problem& problem, const SolveSettings& settings, Solution& solution,
-           SolveReport& report) {
-  constexpr int kWork = 100'000, kLeast = 20, kMost = 4000;  // cones times sweeps; sweeps
-  const int cones = static_cast<int>(problem.cones.size());
-  Solution swept{.lambda = solution.lambda, .v = {}};
-  for (double& lambda : swept.lambda)
-    if (!std::isfinite(lambda)) lambda = 0.0;
-  const SolveReport other =
-      solvePgs(problem, {settings.tolerance, std::clamp(kWork / cones, kLeast, kMost)}, swept);
-  if (!(other.residual < report.residual)) return;
-  const int iterations = report.iterations + other.iterations;
-  report = other;
-  report.iterations = iterations;
-  std::swap(solution, swept);
-}
-
 }  // namespace
 
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution) {
   thread_local Newton newton;  // keeps its memory from call to call
-  SolveReport report = newton.solve(problem, settings, solution);
-  if (report.status != SolveStatus::Solved) sweep(problem, settings, solution, report);
-  return report;
+  const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {
+    return newton.solve(p, to, answer);
+  };
+  const SolveReport report = alone(problem, settings, solution);
+  if (report.status == SolveStatus::Solved) return report;
+  return lastResort(problem, settings, alone, report, solution);
 }
 
 }  // namespace tumble

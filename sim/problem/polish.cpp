@@ -1,4 +1,4 @@
-#include "sim/contact/polish.h"
+#include "sim/problem/polish.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Chapter 7, contact: the last digits of contact forces with friction.
+// Chapter 6, problem: the last digits of contact forces with friction.
 #pragma once
 
 #include "sim/problem/problem.h"

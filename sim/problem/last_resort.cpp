@@ -1,0 +1,157 @@
+#include "sim/problem/last_resort.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/problem/polish.h"
+#include "sim/problem/solvers.h"
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t kDense = 120;  ///< rows up to which dense steps are tried
+
+/// The best answer so far.
+struct Best {
+  SolveReport report;
+  Solution solution;
+
+  bool solved() const { return report.status == SolveStatus::Solved; }
+
+  void take(SolveReport other, Solution&& candidate) {
+    const int iterations = report.iterations + other.iterations;
+    if (other.residual < report.residual || !std::isfinite(report.residual)) {
+      report = other;
+      solution = std::move(candidate);
+    }
+    report.iterations = iterations;
+  }
+};
+
+/// The same forces, without what is not a number, and the velocities that they give.
+Solution finite(const Problem& problem, const Solution& solution) {
+  Solution start = solution;
+  for (double& lambda : start.lambda)
+    if (!std::isfinite(lambda)) lambda = 0.0;
+  velocitiesFromLambda(problem, start.lambda, start.v);
+  return start;
+}
+
+/// A path from an easy problem, t = 0, to the one that is asked for, t = 1.
+class Path {
+ public:
+  explicit Path(const Problem& problem) : asked_(problem), now_(problem) {}
+  virtual ~Path() = default;
+
+  /// @param longest  step of t; the path is another where steps are shorter
+  void follow(double longest, const SolveSettings& settings, const NewtonAlone& newton, Best& best);
+
+ protected:
+  const Problem& asked_;
+  Problem now_;
+
+ private:
+  virtual void set(double t) = 0;
+  SolveReport step(const SolveSettings& settings, const NewtonAlone& newton, Solution& solution);
+};
+
+/// Polishes what the problem before has led to; else starts anew and polishes that.
+SolveReport Path::step(const SolveSettings& settings, const NewtonAlone& newton,
+                       Solution& solution) {
+  const Solution start = solution;
+  SolveReport report = polish(now_, settings, solution);
+  if (report.status == SolveStatus::Solved) return report;
+  solution = start;
+  newton(now_, settings, solution);
+  return polish(now_, settings, solution);
+}
+
+void Path::follow(double longest, const SolveSettings& settings, const NewtonAlone& newton,
+                  Best& best) {
+  constexpr int kSteps = 30, kFactors = 1000;
+  constexpr double kGood = 1e-9;  // residual from which a step goes on
+  const SolveSettings brief{settings.tolerance, std::min(kFactors, settings.maxIterations)};
+  set(0.0);
+  Solution solution;
+  newton(now_, brief, solution);
+  double t = 0.0, length = longest;
+  for (int k = 0; k < kSteps; ++k) {
+    const double next = std::min(1.0, t + length);
+    set(next);
+    Solution trial = solution;
+    const SolveReport report = step(brief, newton, trial);
+    if (!(report.residual <= kGood)) {
+      length *= 0.5;
+      continue;
+    }
+    solution = trial;
+    if (next == 1.0) {
+      best.take(report, std::move(trial));
+      return;
+    }
+    t = next;
+    length = std::min(longest, 2.0 * length);
+  }
+}
+
+/// Friction grows from none.
+class MoreFriction : public Path {
+ public:
+  using Path::Path;
+
+ protected:
+  void set(double t) override {
+    for (std::size_t i = 0; i < now_.cones.size(); ++i) now_.cones[i].mu = t * asked_.cones[i].mu;
+  }
+};
+
+/// Friction grows while contacts close that all part at first.
+class LessRoom : public MoreFriction {
+ public:
+  explicit LessRoom(const Problem& problem) : MoreFriction(problem) {
+    std::vector<double> u(problem.rows.size());
+    rowVelocities(problem, problem.vStar, u);
+    for (const Cone& cone : problem.cones)
+      if (cone.kind != ConeKind::Equality) room_ = std::max(room_, -u[cone.row]);
+  }
+
+ private:
+  void set(double t) override {
+    MoreFriction::set(t);
+    for (const Cone& cone : now_.cones)
+      if (cone.kind != ConeKind::Equality)
+        now_.rows[cone.row].bias = asked_.rows[cone.row].bias + (1.0 - t) * room_;
+  }
+
+  double room_ = 0.0;  ///< [m/s] fastest approach
+};
+
+void sweep(const Problem& problem, const SolveSettings& settings, Best& best) {
+  constexpr int kWork = 100'000, kLeast = 20, kMost = 4000;  // cones times sweeps; sweeps
+  const int cones = static_cast<int>(problem.cones.size());
+  Solution swept = finite(problem, best.solution);
+  const int most = std::clamp(kWork / cones, kLeast, kMost);
+  const SolveReport report = solvePgs(problem, {settings.tolerance, most}, swept);
+  best.take(report, std::move(swept));
+}
+
+}  // namespace
+
+SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
+                       const NewtonAlone& newton, const SolveReport& report, Solution& solution) {
+  Best best{report, solution};
+  if (problem.rows.size() <= kDense) {
+    Solution polished = finite(problem, solution);
+    const SolveReport last = polish(problem, settings, polished);
+    best.take(last, std::move(polished));
+    for (const double longest : {0.5, 0.15}) {
+      if (!best.solved()) MoreFriction(problem).follow(longest, settings, newton, best);
+      if (!best.solved()) LessRoom(problem).follow(longest, settings, newton, best);
+    }
+  }
+  if (!best.solved()) sweep(problem, settings, best);
+  solution = best.solution;
+  return best.report;
+}
+
+}  // namespace tumble
