@@ -20,7 +20,8 @@ struct Best {
 
   void take(SolveReport other, Solution&& candidate) {
     const int iterations = report.iterations + other.iterations;
-    if (other.residual < report.residual || !std::isfinite(report.residual)) {
+    const bool fits = std::isfinite(other.residual);
+    if (fits && (other.residual < report.residual || !std::isfinite(report.residual))) {
       report = other;
       solution = std::move(candidate);
     }
@@ -69,7 +70,7 @@ SolveReport Path::step(const SolveSettings& settings, const NewtonAlone& newton,
 void Path::follow(double longest, const SolveSettings& settings, const NewtonAlone& newton,
                   Best& best) {
   constexpr int kSteps = 30, kFactors = 1000;
-  constexpr double kGood = 1e-9;  // residual from which a step goes on
+  constexpr double kGood = 1e-6;  // residual from which a step goes on
   const SolveSettings brief{settings.tolerance, std::min(kFactors, settings.maxIterations)};
   set(0.0);
   Solution solution;

@@ -244,6 +244,10 @@ SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, S
   };
   const SolveReport report = alone(problem, settings, solution);
   if (report.status == SolveStatus::Solved) return report;
+  if (islands(problem).size() > 1) {  // those that are easy need not fail with the others
+    solution = {};
+    return solveByIslands({"newton", "", solveNewton}, problem, settings, solution);
+  }
   return lastResort(problem, settings, alone, report, solution);
 }
 

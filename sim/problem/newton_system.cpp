@@ -155,8 +155,9 @@ double NewtonSystem::residual() const {
   for (const Point& point : points) {
     const double rho = point.mobility > 0.0 ? 1.0 / point.mobility : 1.0;
     const Cone cone{point.kind, 0, point.mu};
-    worst =
-        std::max(worst, coneResidual(cone, point.force.data(), point.u.data(), rho) / point.length);
+    const double own = coneResidual(cone, point.force.data(), point.u.data(), rho) / point.length;
+    if (!std::isfinite(own)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, own);
   }
   return worst / scale;
 }

@@ -31,7 +31,6 @@ struct Point {
   double saxce = 0.0;          ///< mu |u_t| of the last stage
   Vec3 u = Vec3::Zero(), du = Vec3::Zero();
   Vec3 force = Vec3::Zero();  ///< Π_K(λ − ρ(u + s))
-  Mat3 slope = Mat3::Zero();  ///< ∂Π
   Piece piece = Piece::Zero, factored = Piece::Zero;
 };
 
@@ -95,7 +94,7 @@ class NewtonSystem {
   template <class Factor>
   double direction(Factor& factor);
   double slopeAt(double alpha);
-  double searchLine();
+  void walk(bool whole);
   double merit() const;
   void shorten();
 

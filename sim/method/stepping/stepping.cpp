@@ -95,11 +95,6 @@ void Stepping::beginSegment(double t1) {
 void Stepping::endSegment(double t1) {
   Segment& segment = state_.trail.back();
   segment.end = state_.bodies;
-  double& deepest = report_.certificate.max_penetration;
-  for (Contact c : segment.contacts) {
-    follow(state_.bodies[c.a], state_.bodies[c.b], c);
-    deepest = std::max(deepest, -c.point.separation);
-  }
   state_.t = t1;
   ++state_.gridIndex;
   ++report_.certificate.steps;
