@@ -26,6 +26,8 @@ std::vector<ClaimRow> leverRows(const Scene&, const Recording&);
 std::vector<ClaimRow> grooveRows(const Scene&, const Recording&);
 std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
 std::vector<ClaimRow> slidingRows(const Scene&, const Recording&);
+std::vector<ClaimRow> wayRows(const Scene&, const Recording&);
+std::vector<ClaimRow> bookRows(const Scene&, const Recording&);
 std::vector<ClaimRow> equilibriumRows(const Scene&, const Recording&);
 std::vector<ClaimRow> settledRows(const Scene&, const Recording&);
 std::vector<ClaimRow> topplingRows(const Scene&, const Recording&);

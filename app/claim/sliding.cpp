@@ -2,99 +2,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 
-#include "app/claim/free_body.h"
+#include "app/claim/footing.h"
 #include "app/claim/rows.h"
 
 namespace tumble {
 
 namespace {
 
-constexpr double kStill = 1e-9;  // [m/s] slower than this nothing slides
-
 // Allowed errors [m/s²], [s], [m/s]; measured 1e-10, 8e-11, 8e-15, and 4e-12 m/s in steps.
 constexpr double kAcceleration = 1e-9, kInstant = 1e-9, kSpeed = 1e-9;
-
-// Velocities of this method change once in so many seconds, and events end there.
-double grain(const Scene& scene) {
-  return scene.world.method == "stepping" ? scene.world.stepping.step : 0.0;
-}
-
-/// A body that one plane carries, at one sample.
-struct Footing {
-  int ground = kNoBody;      ///< the body below it; none: it touches none, several, a moving one
-  Vec3 n = Vec3::UnitY();    ///< [1] out of the ground
-  Vec3 slip = Vec3::Zero();  ///< [m/s] of the points that touch
-  Vec3 downhill = Vec3::Zero();  ///< [m/s²] gravity along the plane
-  double into = 0.0;             ///< [m/s²] gravity into the plane
-  double mu = 0.0;
-  double mobility = 1.0;  ///< 1 + m r²/I of a ball: so much faster does friction change its slip
-
-  bool slides() const { return slip.norm() > kStill; }
-  bool holds() const { return downhill.norm() <= mu * into * mobility; }
-  double degrees() const { return std::atan2(downhill.norm(), into) * 180.0 / EIGEN_PI; }
-  /// Slip keeps its direction only along the steepest line, or where the plane is level.
-  bool straight() const {
-    return slip.cross(downhill).norm() <= kStill * (slip.norm() + downhill.norm());
-  }
-  /// Of the centre of mass [m/s²]: g sin θ less μ g cos θ against the slip; stuck, a block rests
-  /// and a ball rolls with g sin θ/(1 + I/(m r²)).
-  Vec3 acceleration() const {
-    if (slides()) return downhill - mu * into * slip.normalized();
-    if (!holds()) return downhill - mu * into * downhill.normalized();
-    return downhill * (mobility - 1.0) / mobility;
-  }
-  /// Until a slip that slows down has ended [s].
-  double stops() const {
-    const double rate = mu * into * mobility - downhill.dot(slip.normalized());
-    return rate > 0.0 ? slip.norm() / rate : std::numeric_limits<double>::infinity();
-  }
-};
-
-bool standsStill(const BodyDef& body) {
-  return !moves(body) && body.velocity.isZero() && body.angularVelocity.isZero();
-}
-
-Footing footingOf(const Scene& scene, const Sample& sample, int body, const Vec3& gravity) {
-  const BodyDef& def = scene.world.bodies[body];
-  const BodySample& seen = sample.bodies[body];
-  Footing footing;
-  for (const ContactSample& contact : sample.contacts) {
-    if (contact.a != body && contact.b != body) continue;
-    const int other = contact.a == body ? contact.b : contact.a;
-    const Vec3 n = contact.a == body ? contact.n : Vec3(-contact.n);
-    const bool second = footing.ground != kNoBody &&
-                        (footing.ground != other || footing.n.cross(n).norm() > kStill);
-    if (second || !standsStill(scene.world.bodies[other])) return {};
-    footing.ground = other;
-    footing.n = n;
-  }
-  const Sphere* ball = std::get_if<Sphere>(&def.shape);
-  if (footing.ground == kNoBody || (!ball && seen.omega.norm() > kStill)) return {};
-  footing.into = -gravity.dot(footing.n);
-  footing.downhill = gravity + footing.into * footing.n;
-  footing.mu = surfaceOf(scene.world, body, footing.ground).friction;
-  footing.slip = seen.v;
-  if (ball) {
-    footing.slip -= ball->r * seen.omega.cross(footing.n);
-    const MassProperties mass = massOf(def);
-    footing.mobility = 1.0 + mass.mass * ball->r * ball->r / mass.inertia(0, 0);
-  }
-  footing.slip -= footing.n * footing.n.dot(footing.slip);
-  return footing;
-}
-
-/// The first event of a body after an instant; without one, at infinity.
-Event nextEvent(const Recording& recording, int body, double t) {
-  for (const Event& event : recording.report.events)
-    if (event.t > t && (event.a == body || event.b == body)) return event;
-  Event never;
-  never.t = std::numeric_limits<double>::infinity();
-  return never;
-}
 
 // Two samples may have a step more or less between them than fits.
 void seeChange(const Vec3& change, const Vec3& told, double time, double step, WorstRow& row) {
@@ -150,10 +68,8 @@ void addStops(const Scene& scene, const Recording& recording, int body, const Ve
     const auto after = std::find_if(recording.samples.begin(), recording.samples.end(),
                                     [&](const Sample& s) { return s.t >= end.t; });
     if (after == recording.samples.end()) continue;
-    Footing stuck = footing;
-    stuck.slip.setZero();
     const Vec3 then = now.bodies[body].v + footing.acceleration() * footing.stops();
-    const Vec3 seen = after->bodies[body].v - stuck.acceleration() * (after->t - told);
+    const Vec3 seen = after->bodies[body].v - footing.stuck().acceleration() * (after->t - told);
     speed.see(seen.norm(), then.norm(), (seen - then).norm());
   }
   if (!any) return;

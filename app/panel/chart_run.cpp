@@ -32,7 +32,7 @@ ChartPoint runPoint(const Scene& scene, const ChartDef& chart, const Variant& va
   const Recording recording = record(changed, changed.image.rate);
   ChartPoint point;
   point.error = recording.report.stopped ? std::numeric_limits<double>::infinity()
-                                         : largestError(chart.error, changed, recording);
+                                         : largestError(chart, changed, recording);
   point.evaluations = recording.report.certificate.evaluations;
   point.cpuShare = recording.cpuSeconds / changed.world.duration;
   return point;
@@ -55,11 +55,15 @@ std::string costTitle(const ChartDef& chart) {
 
 }  // namespace
 
-double largestError(const std::string& check, const Scene& scene, const Recording& recording) {
+double largestError(const ChartDef& chart, const Scene& scene, const Recording& recording) {
   double largest = 0.0;
-  for (const ClaimRow& row : findCheck(check)->rows(asRun(scene, recording), recording))
+  bool any = false;
+  for (const ClaimRow& row : findCheck(chart.error)->rows(asRun(scene, recording), recording)) {
+    if (row.label.find(chart.row) == std::string::npos) continue;
     largest = std::isnan(row.error) ? row.error : std::max(largest, row.error);
-  return largest;
+    any = true;
+  }
+  return any ? largest : std::numeric_limits<double>::infinity();
 }
 
 Variant pointVariant(const ChartDef& chart, std::size_t curve, std::size_t point) {

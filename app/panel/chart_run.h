@@ -23,8 +23,8 @@ struct ChartSeries {
 /// What is changed for one point of a curve.
 Variant pointVariant(const ChartDef& chart, std::size_t curve, std::size_t point);
 
-/// The largest error among the rows of a check.
-double largestError(const std::string& check, const Scene& scene, const Recording& recording);
+/// The largest error among the rows of the chart's check that it is about; infinite without one.
+double largestError(const ChartDef& chart, const Scene& scene, const Recording& recording);
 
 /// Runs every value of every curve. @throws SceneError
 std::vector<ChartSeries> runChart(const Scene& scene, const ChartDef& chart, const RunDone& done);

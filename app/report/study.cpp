@@ -108,15 +108,14 @@ void requireError(const Scene& scene, std::size_t index, const std::vector<Chart
 
 }  // namespace
 
-double roundingFloor(const Scene& scene, const Scene& flown, const std::string& check,
-                     int members) {
+double roundingFloor(const Scene& scene, const Scene& flown, const ChartDef& chart, int members) {
   Random random(scene.seed, "a unit in the last place");
-  const double before = largestError(check, scene, record(flown, scene.image.rate));
+  const double before = largestError(chart, scene, record(flown, scene.image.rate));
   std::vector<double> errors;
   for (int k = 0; k < members; ++k) {
     Scene nudged = flown;
     for (BodyDef& body : nudged.world.bodies) nudge(body, random);
-    const double after = largestError(check, scene, record(nudged, scene.image.rate));
+    const double after = largestError(chart, scene, record(nudged, scene.image.rate));
     errors.push_back(std::abs(after - before));
   }
   std::nth_element(errors.begin(), errors.begin() + members / 2, errors.end());
@@ -146,7 +145,7 @@ Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDo
   ChartDef& chart = study.chart;
   if (!chart.floor) {
     const Best best = bestOf(scene, chart, study.series);
-    chart.floor = roundingFloor(best.held, best.flown, chart.error, kMembers);
+    chart.floor = roundingFloor(best.held, best.flown, chart, kMembers);
   }
   for (std::size_t i = 0; i < study.series.size(); ++i) {
     study.orders.push_back(stepOrder(chart, study.series[i]));

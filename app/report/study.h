@@ -31,7 +31,7 @@ Study runStudy(const Scene& scene, std::size_t chart, double budget, const RunDo
 /// @param scene    whose check holds
 /// @param flown    the same scene with the settings that fly the ensemble
 /// @param members  of the ensemble
-double roundingFloor(const Scene& scene, const Scene& flown, const std::string& check, int members);
+double roundingFloor(const Scene& scene, const Scene& flown, const ChartDef& chart, int members);
 
 /// curve, parameter, value, error, evaluations, cpu_seconds_per_second: a row for each run.
 std::string studyCsv(const Study& study);

@@ -227,6 +227,7 @@ void readCharts(Section& root, const std::vector<std::string>& parts, Scene& sce
     section.read("error", chart.error);
     if (chart.error.empty())
       section.complain("error", "expected the name of a check, whose largest error is drawn");
+    readLine(section, "row", chart.row);
     readParameter(section, "along", "course.step", chart.along);
     section.read("cost", chart.cost, {"evaluations", "cpu", "value"});
     section.read("floor", chart.floor, positive({}));

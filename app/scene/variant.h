@@ -54,6 +54,7 @@ struct ChartDef {
   Variant variant;  ///< of all its runs
   std::string subtitle;
   std::string error;  ///< name of a check: the largest error of its rows is drawn
+  std::string row;    ///< only of rows that have this in their label
   Sweep along;
   std::string cost = "evaluations";  ///< evaluations | cpu | value, of the key itself
   std::optional<double> floor;       ///< the error that rounding leaves

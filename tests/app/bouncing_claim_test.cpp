@@ -15,7 +15,9 @@ Scene ball(const std::vector<std::string>& overrides) {
 
 double errorOf(const std::vector<std::string>& overrides) {
   const Scene scene = ball(overrides);
-  return largestError("bouncing", scene, record(scene, scene.image.rate));
+  ChartDef chart;
+  chart.error = "bouncing";
+  return largestError(chart, scene, record(scene, scene.image.rate));
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ bodies = ["right"]
 [[chart]]
 title = "error"
 error = "arcs"
+row = "arc / m"
 along = "course.step"
 values = [0.1, 0.01]
 floor = 1e-15
@@ -75,6 +76,7 @@ curves = [ { label = "E", set = { "course.integrator" = "euler" } }, { label = "
   REQUIRE(scene.charts.size() == 1);
   const ChartDef& chart = scene.charts[0];
   CHECK(chart.error == "arcs");
+  CHECK(chart.row == "arc / m");
   CHECK(chart.cost == "evaluations");
   CHECK(chart.floor == 1e-15);
   CHECK(chart.along.values == std::vector<std::string>{"0.1", "0.01"});

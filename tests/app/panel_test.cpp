@@ -136,6 +136,14 @@ TEST_CASE("a chart holds the largest error of its check against the cost of each
   }
   CHECK(series[1].points[0].error < 1e-3 * series[0].points[0].error);
 
+  // One row alone, and one that is not there.
+  ChartDef one = scene.charts[0];
+  const ClaimRow last = judge(euler, recording).rows.back();
+  one.row = last.label;
+  CHECK(largestError(one, euler, recording) == last.error);
+  one.row = "no such row";
+  CHECK(std::isinf(largestError(one, euler, recording)));
+
   const std::string csv = chartCsv(series);
   CHECK(
       csv.starts_with("curve,parameter,value,error,evaluations\n\"Euler\",course.step,\"0.02\","));
