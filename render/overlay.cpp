@@ -120,6 +120,17 @@ void drawPageArrow(const PageArrow& arrow, const Projection& projection, Canvas&
   canvas.text(tip + Vector2d(10.0, 5.0), arrow.text, {14.0, Face::Regular, Align::Left, ink::text});
 }
 
+void drawPageShape(const PageShape& shape, Canvas& canvas) {
+  switch (shape.form) {
+    case Flat::Line:
+      return canvas.stroke(shape.from, shape.to, shape.width, shape.colour);
+    case Flat::Rectangle:
+      return canvas.fill(shape.from, shape.to - shape.from, shape.colour);
+    case Flat::Disc:
+      return canvas.disc(shape.from, 0.5 * shape.width, shape.colour);
+  }
+}
+
 }  // namespace
 
 void drawOverlay(const Picture& picture, const Projection& projection, Canvas& canvas) {
@@ -127,6 +138,7 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
   for (const Polyline& line : picture.lines)
     if (line.stroke == Stroke::Dotted) drawDots(line, projection, canvas);
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
+  for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
   for (const PageArrow& arrow : picture.pageArrows) drawPageArrow(arrow, projection, canvas);
   LabelDrawer labels(projection, canvas);
   for (const Label& label : picture.labels) labels.draw(label);

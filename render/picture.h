@@ -102,6 +102,17 @@ struct PageArrow {
   Colour colour = {0.835f, 0.251f, 0.102f};
 };
 
+enum class Flat { Line, Rectangle, Disc };
+
+/// A flat shape on the page, below arrows and text.
+struct PageShape {
+  Flat form = Flat::Line;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< [px] end, corner, or centre
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< [px] other end, or opposite corner
+  double width = 1.0;                              ///< [px] of a line; diameter of a disc
+  Colour colour = {0.17f, 0.18f, 0.21f};
+};
+
 /// Linear colour scale with ticks, at the lower right.
 struct ColourBar {
   std::string caption;        ///< "time / s"
@@ -130,6 +141,7 @@ struct Picture {
   std::vector<Arrow> arrows;
   std::vector<Mark> marks;
   std::vector<Label> labels;
+  std::vector<PageShape> pageShapes;
   std::vector<PageArrow> pageArrows;
   std::optional<ColourBar> bar;
   Floor floor;

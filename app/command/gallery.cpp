@@ -17,7 +17,8 @@ namespace tumble::command {
 
 namespace {
 
-// Of the whole motion, where the still is taken: on the way, with some of it still to come.
+// Of the whole motion, where the still is taken unless the scene says so: on the way, with some of
+// it still to come.
 constexpr double kStillShare = 0.35;
 
 struct Options {
@@ -38,7 +39,7 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
   const std::string folder = options.folder + "/" + name;
   Shoot shoot(scene, folder, studio);
   shoot.strobe();
-  shoot.still(kStillShare * scene.world.duration);
+  shoot.still(scene.image.still.value_or(kStillShare * scene.world.duration));
   shoot.sheet();
   shown.plates = {{name + "/strobe.png", "the whole motion"},
                   {name + "/still.png", "one instant"},

@@ -94,7 +94,7 @@ std::vector<std::string> Shoot::panels() {
   format.width = kSheetPanel;
   format.height = panelHeight(scene_, kSheetPanel);
   const auto draw = [&](const Picture& picture) {
-    return studio_.draw(picture, format, panelPage(scene_));
+    return studio_.draw(picture, format, panelPage(scene_).y());
   };
   for (const Plot& plot : plotsOf(scene_, runs)) {
     writeFile(folder_ + "/" + plot.name + ".csv", plot.csv);

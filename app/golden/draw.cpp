@@ -72,7 +72,7 @@ void addPage(const Scene& scene, Renderer& renderer, Golden& golden) {
   Fonts fonts(dataFolder("fonts"));
   const RenderOptions options{.width = kSmallPanel,
                               .height = panelHeight(scene, kSmallPanel),
-                              .pageHeight = panelPage(scene)};
+                              .pageHeight = panelPage(scene).y()};
   const auto draw = [&](const Picture& picture) { return renderer.draw(picture, options); };
   golden.images.push_back({"panels", drawPage(scene, runs, kSmallPanel, draw, fonts)});
   for (const Plot& plot : plotsOf(scene, runs)) golden.tables.push_back({plot.name, plot.csv});
@@ -81,7 +81,10 @@ void addPage(const Scene& scene, Renderer& renderer, Golden& golden) {
 Golden drawDemo(const std::string& name, Renderer& renderer) {
   const Scene scene = readScene(scenePath(name));
   const Recording recording = record(scene, scene.image.rate);
-  const Presenter presenter(scene, recording);
+  Scene small = scene;
+  small.image.width = kSmall.width;
+  small.image.height = kSmall.height;
+  const Presenter presenter(small, recording);
   const int last = presenter.count() - 1;
   std::vector<NamedImage> images;
   const auto draw = [&](const std::string& image, const Picture& picture) {
@@ -89,7 +92,8 @@ Golden drawDemo(const std::string& name, Renderer& renderer) {
   };
   draw("strobe", presenter.strobe());
   draw("end", presenter.image(last));
-  draw("middle", presenter.image(last / 3));
+  draw("middle",
+       scene.image.still ? presenter.still(*scene.image.still) : presenter.image(last / 3));
   draw("start", presenter.image(0));
   Golden golden{name,
                 distinctImages(std::move(images)),

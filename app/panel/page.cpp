@@ -7,9 +7,6 @@ namespace tumble {
 
 namespace {
 
-// Width [px] of the page that a panel is drawn for: text is nearly as large as the captions.
-constexpr double kPanelWidth = 800.0;
-
 constexpr int kGraphRows =
     20;  // intervals between the numbers that a graph's file keeps of a curve
 
@@ -60,10 +57,6 @@ PageRuns runPage(const Scene& scene, const RunDone& done) {
   return runs;
 }
 
-double panelPage(const Scene& scene) {
-  return kPanelWidth * scene.image.height / scene.image.width;
-}
-
 Image drawPage(const Scene& scene, const PageRuns& runs, int width, const DrawPanel& draw,
                Fonts& fonts) {
   const int height = panelHeight(scene, width);
@@ -71,8 +64,8 @@ Image drawPage(const Scene& scene, const PageRuns& runs, int width, const DrawPa
   for (Plot& plot : plotsOf(scene, runs)) {
     const std::string title = std::exchange(plot.chart.title, "");
     const std::string subtitle = std::exchange(plot.chart.subtitle, "");
-    panels.push_back(
-        {drawChart(plot.chart, width, height, width / kPanelWidth, fonts), title, subtitle});
+    panels.push_back({drawChart(plot.chart, width, height, width / panelPage(scene).x(), fonts),
+                      title, subtitle});
   }
   return drawSheet(panels, columnsOf(panels.size()), scene.title, scene.subtitle, fonts);
 }

@@ -43,7 +43,4 @@ std::vector<Plot> plotsOf(const Scene& scene, const PageRuns& runs);
 Image drawPage(const Scene& scene, const PageRuns& runs, int width, const DrawPanel& draw,
                Fonts& fonts);
 
-/// [px] of the page that panels are drawn for, as in RenderOptions.
-double panelPage(const Scene& scene);
-
 }  // namespace tumble

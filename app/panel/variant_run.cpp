@@ -9,6 +9,8 @@ namespace tumble {
 
 namespace {
 
+constexpr double kPanelWidth = 800.0;  // [px] of the page of a panel
+
 // Whether one camera serves both: the same bodies, seen in the same way.
 bool comparable(const VariantRun& runA, const VariantRun& runB) {
   if (runA.still != runB.still) return false;
@@ -65,13 +67,19 @@ std::deque<VariantRun> runPanels(const Scene& scene, const RunDone& done) {
 std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPanel& draw) {
   std::vector<Panel> panels;
   for (const VariantRun& run : runs) {
-    const Presenter presenter(run.scene, run.recording, sharedFraming(runs, run));
+    Framing framing = sharedFraming(runs, run);
+    framing.page = panelPage(run.scene);
+    const Presenter presenter(run.scene, run.recording, framing);
     Picture picture = run.picture(presenter);
     picture.title.clear();
     picture.subtitle.clear();
     panels.push_back({draw(picture), run.title, run.subtitle});
   }
   return panels;
+}
+
+Eigen::Vector2d panelPage(const Scene& scene) {
+  return {kPanelWidth, kPanelWidth * scene.image.height / scene.image.width};
 }
 
 int panelHeight(const Scene& scene, int width) {

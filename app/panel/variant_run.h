@@ -38,6 +38,9 @@ using DrawPanel = std::function<Image(const Picture&)>;
 /// the same bodies that are looked at from the same side share a camera, and so do strobes.
 std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPanel& draw);
 
+/// Page [px] that a panel is drawn for: text is nearly as large as the captions.
+Eigen::Vector2d panelPage(const Scene& scene);
+
 /// Height [px] of panels of a width: in the proportion of the scene's images.
 int panelHeight(const Scene& scene, int width);
 

@@ -29,7 +29,9 @@ void addForces(const Scene& scene, const Sample& sample, double length, Picture&
 
 /// A bar for each pair of bodies that touch in the tallest group of touching bodies: the sum of the
 /// pair's contact forces in newtons, as long as it is large, level with the contact.
-/// The picture's camera decides where on the page; aspect = width / height.
-void addForceLadder(const Scene& scene, const Sample& sample, double aspect, Picture& picture);
+/// The picture's camera decides where on a page of that many pixels; rows that do not fit are left
+/// out, evenly.
+void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,
+                    Picture& picture);
 
 }  // namespace tumble

@@ -78,37 +78,76 @@ std::vector<Rung> rungsOf(const std::vector<Level>& levels, const Projection& pr
   return rungs;
 }
 
-}  // namespace
+constexpr double kSpacing = 20.0, kLength = 220.0, kShortest = 90.0;  // [px] of rows and bars
+constexpr double kGap = 0.1015625;  // of the page, between the bodies and the bars
+constexpr double kText = 80.0, kTop = 90.0, kBottom = 40.0, kEdge = 16.0;  // [px] left free
 
-void addForceLadder(const Scene& scene, const Sample& sample, double aspect, Picture& picture) {
-  constexpr double kPage = 720.0, kSpacing = 20.0, kGap = 130.0, kLength = 220.0;  // [px]
-  const Projection projection(picture.camera, kPage * aspect, kPage);
-  const std::vector<Rung> rungs = rungsOf(tallestGroup(scene, levelsOf(sample)), projection);
-  if (rungs.size() < 2) return;
+// Every second, fifth, tenth … level from below, so that rows fit on a page of that height. Returns
+// which.
+int thin(double height, std::vector<Rung>& rungs) {
+  const double rows = std::max(2.0, std::floor((height - kTop - kBottom) / kSpacing));
+  int every = 1;
+  for (const int step : {1, 2, 5, 10, 20, 50, 100})
+    if (static_cast<double>(rungs.size()) / (every = step) <= rows) break;
+  std::vector<Rung> kept;
+  for (std::size_t k = (rungs.size() - 1) % every; k < rungs.size(); k += every)
+    kept.push_back(rungs[k]);
+  rungs = std::move(kept);
+  return every;
+}
 
-  double largest = 0.0, right = 0.0, above = -1e9;
-  for (const Rung& rung : rungs) {
-    largest = std::max(largest, rung.force);
-    right = std::max(right, rung.place.x());
-  }
-  const double x = right + kGap;
-  for (const Rung& rung : rungs) {
-    // Rows keep apart where levels lie close together.
-    const double y = std::max(rung.place.y(), above + kSpacing);
-    picture.pageArrows.push_back({rung.leader,
-                                  {x, y},
-                                  kLength * rung.force / largest,
-                                  fmt::format("{:.4g} N", rung.force),
-                                  colour::kForce});
-    above = y;
-  }
+// Rows keep apart where levels lie close together, and stay on the page.
+std::vector<double> rowsOf(const std::vector<Rung>& rungs, double height) {
+  std::vector<double> rows;
+  for (const Rung& rung : rungs)
+    rows.push_back(rows.empty() ? std::max(rung.place.y(), kTop)
+                                : std::max(rung.place.y(), rows.back() + kSpacing));
+  double below = height - kBottom + kSpacing;
+  for (std::size_t k = rows.size(); k-- > 0;) rows[k] = below = std::min(rows[k], below - kSpacing);
+  return rows;
+}
+
+void addCaption(double x, double y, int every, double width, Picture& picture) {
   Label caption;
-  caption.offset = {x, picture.pageArrows.front().base.y() - 44.0};
-  caption.text = "sum over the points of a level";
+  caption.text = every == 1 ? "sum over the points of a level"
+                            : fmt::format("sum over a level's points, every {} levels", every);
+  const double needed = every == 1 ? 180.0 : 250.0;
+  caption.offset = {std::min(x, width - kEdge - needed), y};
   caption.size = 13.0f;
   caption.italic = true;
   caption.colour = colour::kQuiet;
   picture.labels.push_back(caption);
+}
+
+}  // namespace
+
+void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,
+                    Picture& picture) {
+  const Projection projection(picture.camera, page.x(), page.y());
+  std::vector<Rung> rungs = rungsOf(tallestGroup(scene, levelsOf(sample)), projection);
+  std::erase_if(rungs, [&](const Rung& rung) {
+    return rung.place.x() < 0.0 || rung.place.x() > page.x() || rung.place.y() < 0.0 ||
+           rung.place.y() > page.y();
+  });
+  if (rungs.size() < 2) return;
+  const int every = thin(page.y(), rungs);
+
+  double largest = 0.0, right = 0.0;
+  for (const Rung& rung : rungs) {
+    largest = std::max(largest, rung.force);
+    right = std::max(right, rung.place.x());
+  }
+  const double end = page.x() - kEdge - kText;
+  const double x = std::min(right + kGap * page.x(), end - kShortest);
+  const double length = std::min(kLength, end - x);
+  const std::vector<double> rows = rowsOf(rungs, page.y());
+  for (std::size_t k = 0; k < rungs.size(); ++k)
+    picture.pageArrows.push_back({rungs[k].leader,
+                                  {x, rows[k]},
+                                  length * rungs[k].force / largest,
+                                  fmt::format("{:.4g} N", rungs[k].force),
+                                  colour::kForce});
+  addCaption(x, std::max(rows.front() - 44.0, 20.0), every, page.x(), picture);
 }
 
 }  // namespace tumble

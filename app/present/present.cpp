@@ -11,6 +11,7 @@
 #include "app/present/boxes.h"
 #include "app/present/facets.h"
 #include "app/present/inertia.h"
+#include "app/present/insets.h"
 #include "app/present/joints.h"
 #include "app/present/labels.h"
 #include "app/present/marks.h"
@@ -77,6 +78,7 @@ Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
   }
   framing.centre = 0.5 * (low + high);
   framing.radius = 0.5 * (high - low).norm();
+  framing.page.x() = aspectOf(scene) * framing.page.y();
   return framing;
 }
 
@@ -239,11 +241,13 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.joint_forces) {
     addJointForces(scene_, sample, forceScale(length), picture);
   } else if (show.contact_forces) {
-    const double largest =
-        show.force_scale > 0.0 ? length / show.force_scale : largestContactForce(recording_);
-    addContactForces(sample, largest, length, picture);
-    addForceLadder(scene_, sample, aspectOf(scene_), picture);
+    const double largest = largestContactForce(recording_);
+    const double longest = show.force_scale > 0.0 ? show.force_scale * largest : length;
+    addContactForces(sample, largest, longest, picture);
+    if (show.ladder) addForceLadder(scene_, sample, framing_.page, picture);
   }
+  if (show.matrix) addContactMatrix(scene_, sample, framing_.page, picture);
+  if (show.either_or) addEitherOr(scene_, recording_, sample, framing_.page, picture);
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);
   if (show.samples) addSamplePoints(scene_, sample, picture);
   if (show.body_box) addBodyBoxes(scene_, sample, picture);
@@ -262,6 +266,7 @@ void stripForPanel(Picture& picture) {
   picture.subtitle.clear();
   picture.marks.clear();
   picture.labels.clear();
+  picture.pageShapes.clear();
   picture.bar.reset();
   picture.floor.rule = false;
 }

@@ -17,6 +17,7 @@ struct Framing {
   Camera camera;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 1.0;                               ///< [m] of all motion about the centre
+  Eigen::Vector2d page = {1280.0, 720.0};            ///< [px] that text and flat shapes stand on
 };
 
 /// The scene's own camera, or one that the points of the motion fill.

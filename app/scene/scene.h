@@ -51,6 +51,7 @@ struct ImageFormat {
   int width = 1280, height = 720;
   double rate = 60.0;               ///< [1/s] samples and images
   std::string antialias = "msaa4";  ///< none | msaa4 | ssaa2x2
+  std::optional<double> still;      ///< [s] the instant worth a picture of its own
 };
 
 /// What is drawn besides the bodies.
@@ -58,6 +59,9 @@ struct ShowFlags {
   bool path = false;   ///< path of each centre of mass
   bool theory = true;  ///< the curves that the scene's checks expect, dotted
   bool contact_forces = false;
+  bool ladder = true;         ///< beside contact forces, bars of what each level carries
+  bool matrix = false;        ///< the matrix A of the contact problem, a colour each number
+  bool either_or = false;     ///< force against acceleration of each contact, on the page
   bool joint_forces = false;  ///< arrows of what joints exert, with numbers
   double force_scale = 0.0;   ///< [m/N] of arrows of contacts and joints; 0: as the run has them
   bool normals = false;

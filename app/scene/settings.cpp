@@ -99,6 +99,7 @@ void readImage(Section& root, ImageFormat& image) {
   if (image.width != size[0] || image.height != size[1])
     section.complain("size", "expected whole numbers");
   section.read("rate", image.rate, {0.0, 1e5, true, "1/s"});
+  section.read("still", image.still, notNegative("s"));
   section.read("antialias", image.antialias, {"none", "msaa4", "ssaa2x2"});
   section.finish();
 }
@@ -110,6 +111,9 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("path", show.path);
   section.read("theory", show.theory);
   section.read("contact_forces", show.contact_forces);
+  section.read("ladder", show.ladder);
+  section.read("matrix", show.matrix);
+  section.read("either_or", show.either_or);
   section.read("joint_forces", show.joint_forces);
   section.read("force_scale", show.force_scale, positive("m/N"));
   section.read("normals", show.normals);

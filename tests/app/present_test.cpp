@@ -179,8 +179,8 @@ body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
                                  {0.0, 5.0 * above, 0.0}});
     }
   Picture picture;
-  picture.camera = {.eye = {1.0, 1.0, 8.0}, .target = {1.0, 1.0, 0.0}, .fov = 24.0};
-  addForceLadder(scene, sample, 16.0 / 9.0, picture);
+  picture.camera = {.eye = {2.0, 1.0, 8.0}, .target = {2.0, 1.0, 0.0}, .fov = 24.0};
+  addForceLadder(scene, sample, {1280.0, 720.0}, picture);
   REQUIRE(picture.pageArrows.size() == 3);
   CHECK(picture.pageArrows[0].text == "10 N");
   CHECK(picture.pageArrows[1].text == "20 N");

@@ -127,10 +127,14 @@ elevation = 50
 size = [320, 240]
 rate = 30
 antialias = "ssaa2x2"
+still = 1.25
 [show]
 path = true
 theory = false
 contact_forces = true
+ladder = false
+matrix = true
+either_or = true
 normals = true
 velocities = true
 forces = true
@@ -205,12 +209,14 @@ strobe = 0.5
   CHECK(scene.image.height == 240);
   CHECK(scene.image.rate == 30.0);
   CHECK(scene.image.antialias == "ssaa2x2");
+  CHECK(scene.image.still == 1.25);
   const ShowFlags& show = scene.show;
   for (const bool flag :
-       {show.path, show.contact_forces, show.normals, show.velocities, show.forces, show.impacts,
-        show.labels, show.boxes, show.planes, show.energy, show.glass})
+       {show.path, show.contact_forces, show.matrix, show.either_or, show.normals, show.velocities,
+        show.forces, show.impacts, show.labels, show.boxes, show.planes, show.energy, show.glass})
     CHECK(flag);
   CHECK_FALSE(show.theory);
+  CHECK_FALSE(show.ladder);
   CHECK(show.strobe == 0.5);
 }
 
