@@ -1,5 +1,6 @@
 // How far a body gets on the plane that carries it at the start, how fast, and when its slip ends.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "app/claim/footing.h"
