@@ -54,20 +54,15 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
   problem_.cones.back().mu = contact.friction;
 }
 
-SolveReport RestForces::solve(std::span<const Contact> contacts, bool bonds) {
-  // Pivoting is exact where there is no friction; with it, sweeps that start from the last solution
-  // (the stage before) are soon there, unless bonds carry pushes far. What they leave is in the
-  // certificate.
+SolveReport RestForces::solve(std::span<const Contact> contacts) {
+  // Pivoting is exact where there is no friction. What a solver leaves is in the certificate.
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
-  constexpr int kSweeps = 200, kMoreSweeps = 10000;
-  const Solver& solver = *findSolver(friction && !bonds ? "pgs" : "pivoting");
-  SolveReport report = solveByIslands(solver, problem_, {.maxIterations = kSweeps}, solution_);
-  if (!polished_ || !friction) return report;
-  report = polish(problem_, {}, solution_);
-  if (report.status == SolveStatus::Solved) return report;
-  solveByIslands(solver, problem_, {.maxIterations = kMoreSweeps}, solution_);
-  return polish(problem_, {}, solution_);
+  const Solver& solver = *findSolver(friction ? "newton" : "pivoting");
+  solution_ = {};  // the same answer whatever was solved before
+  SolveReport report = solveByIslands(solver, problem_, {}, solution_);
+  if (polished_ && friction) report = polish(problem_, {}, solution_);
+  return report;
 }
 
 Vec3 RestForces::force(std::size_t contact) const {
@@ -86,7 +81,7 @@ SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> co
   for (const Contact& contact : contacts) addRows(bodies, contact);
   const std::size_t firstBond = problem_.rows.size();
   if (bound) appendBonds(*bonds, problem_);
-  const SolveReport report = solve(contacts, bound);
+  const SolveReport report = solve(contacts);
   if (bound) {
     readBonds(solution_.lambda, firstBond, *bonds);
     addBondForces(*bonds, bodies);
@@ -104,7 +99,6 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
                              double h, const Bonds* bonds) {
   const auto creeps = [](const Contact& c) { return c.creeping; };
   if (std::none_of(contacts.begin(), contacts.end(), creeps)) return;
-  solution_.lambda.clear();  // the same answer whatever was solved before
   beginAccelerationProblem(bodies, problem_);
   for (Contact contact : contacts) {
     const bool slides = contact.sliding && !contact.creeping;
@@ -116,7 +110,7 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
   }
   const bool bound = bonds && !bonds->empty();
   if (bound) appendBonds(*bonds, problem_);
-  solve(contacts, bound);
+  solve(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& c = contacts[i];
     if (!c.creeping) continue;

@@ -42,7 +42,7 @@ class RestForces {
  private:
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
   void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact, double slipTime);
-  SolveReport solve(std::span<const Contact> contacts, bool bonds);
+  SolveReport solve(std::span<const Contact> contacts);
   Vec3 force(std::size_t contact) const;
 
   double tau_;

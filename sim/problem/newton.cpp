@@ -242,7 +242,8 @@ SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, S
   const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {
     return newton.solve(p, to, answer);
   };
-  const SolveReport report = alone(problem, settings, solution);
+  SolveReport report = alone(problem, settings, solution);
+  if (atRounding(problem, solution, report.residual)) report.status = SolveStatus::Solved;
   if (report.status == SolveStatus::Solved) return report;
   if (islands(problem).size() > 1) {  // those that are easy need not fail with the others
     solution = {};
