@@ -7,8 +7,6 @@
 namespace tumble {
 namespace {
 
-/// Attempts in one step.
-constexpr int kMostAttempts = 400;
 /// Part of the tolerance that is rounding alone: more substeps would bring nothing.
 constexpr double kEnough = 1e-2;
 
@@ -30,26 +28,32 @@ Extrapolation::Extrapolation(int size, double tolerance)
 }
 
 double Extrapolation::step(const System& system, double t, double h, std::span<double> y) {
-  double done = 0.0;
-  std::copy(y.begin(), y.end(), now_.begin());
-  system.derivative(t, now_, rate_);
-  double size = h;
-  for (int attempts = 0; done < h && attempts < kMostAttempts; ++attempts) {
-    const bool last = 1.01 * size >= h - done;
-    const double stride = last ? h - done : size;
-    const double error = attempt(system, t + done, stride);
-    if (!(error <= 1.0)) {
-      size = stride * std::min(0.7, factor(error));
-      continue;
-    }
-    for (std::size_t i = 0; i < size_; ++i) now_[i] += table_[column_][i];
-    done = last ? h : done + stride;
-    size = std::max(size, stride) * factor(error);
-    if (done < h) system.derivative(t + done, now_, rate_);
+  double done = 0.0, size = h;
+  for (int attempts = kMostAttempts; done < h;) {
+    const double way = stride(system, t + done, h - done, size, attempts, y);
+    if (way == 0.0) break;
+    done = way == h - done ? h : done + way;
   }
-  std::copy(now_.begin(), now_.end(), y.begin());
   system.normalise(y);
   return done;
+}
+
+double Extrapolation::stride(const System& system, double t, double most, double& size,
+                             int& attempts, std::span<double> y) {
+  std::copy(y.begin(), y.end(), now_.begin());
+  system.derivative(t, now_, rate_);
+  while (attempts-- > 0) {
+    const double way = 1.01 * size >= most ? most : size;
+    const double error = attempt(system, t, way);
+    if (!(error <= 1.0)) {
+      size = way * std::min(0.7, factor(error));
+      continue;
+    }
+    for (std::size_t i = 0; i < size_; ++i) y[i] = now_[i] + table_[column_][i];
+    size = std::max(size, way) * factor(error);
+    return way;
+  }
+  return 0.0;
 }
 
 void Extrapolation::midpoint(const System& system, double t, double h, int n, Numbers& increment) {

@@ -27,6 +27,18 @@ class Extrapolation {
   /// @return h [s], or how far a limited number of attempts led, which is where y then is
   double step(const System& system, double t, double h, std::span<double> y);
 
+  /// One step alone: replaces y = Y(t) by what it is as far on as the tolerance lets go at once,
+  /// and normalises nothing.
+  /// @param most      [s] > 0, no further than this
+  /// @param size      [s] the step to try; afterwards that of the next
+  /// @param attempts  that may still be made; counts down
+  /// @return how far it led [s]; 0 where no attempts were left
+  double stride(const System& system, double t, double most, double& size, int& attempts,
+                std::span<double> y);
+
+  /// Attempts in one step.
+  static constexpr int kMostAttempts = 400;
+
  private:
   static constexpr int kColumns = 5;
   using Numbers = std::vector<double>;

@@ -1,6 +1,7 @@
 // How far to look ahead at once, what may be met there, and what may have happened unseen.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collide/collide.h"
 #include "sim/method/exact/sustained.h"
@@ -16,8 +17,21 @@ constexpr double kOff = 1e-12;
 constexpr double kDeep = 1e-10;
 /// Part of a stretch below which no closer look is taken at what may have happened unseen.
 constexpr double kClosest = 1.0 / 64.0;
-/// [s] Nor below this.
-constexpr double kInstant = 1e-12;
+
+/// When the cubic through both ends of a span h [s], at heights g [m] and rates v [m/s], dips below
+/// zero between them; h if it does not.
+double dip(double g0, double g1, double v0, double v1, double h) {
+  if (v0 >= 0.0 || v1 <= 0.0) return h;
+  constexpr int kLooks = 16;
+  double lowest = 0.0, when = h;
+  for (int k = 1; k < kLooks; ++k) {
+    const double s = static_cast<double>(k) / kLooks, r = 1.0 - s;
+    const double gap =
+        r * r * (1.0 + 2.0 * s) * g0 + s * s * (1.0 + 2.0 * r) * g1 + h * s * r * (r * v0 - s * v1);
+    if (gap < lowest) lowest = gap, when = s * h;
+  }
+  return when;
+}
 
 }  // namespace
 
@@ -71,6 +85,11 @@ void Sustained::findNear(double h) {
   touching_.clear();
   if (stopAtUnknownPair(model_, state_.near, report_)) return;
   std::vector<Contact> points;
+  const auto held = [&](const Contact& c) {
+    return std::any_of(state_.lasting.begin(), state_.lasting.end(), [&](const Contact& d) {
+      return c.a == d.a && c.b == d.b && c.point.feature == d.point.feature;
+    });
+  };
   for (const auto& [b, a] : state_.near) {
     Near pair{.b = b, .a = a, .speed = speedBound(a, b, h)};
     pair.lasts = std::any_of(state_.lasting.begin(), state_.lasting.end(),
@@ -87,50 +106,48 @@ void Sustained::findNear(double h) {
     findContacts(model_, state_.bodies, {b, a}, std::max(tolerance_.touch, pair.speed * h), points);
     for (Contact& c : points) {
       c.anchor = anchorOf(state_.bodies[a], state_.bodies[b], c.point);
-      (c.point.separation > tolerance_.touch ? watched_ : touching_).push_back(c);
+      const bool touches = c.point.separation <= tolerance_.touch;
+      if (touches) touching_.push_back(c);
+      if (!touches || !held(c)) watched_.push_back(c);
     }
   }
 }
 
-double Sustained::sooner(double h) const {
-  if (blind_) return h;
-  // The direction of a slip that turns too far would be taken for its end.
+// Those that have sunk below have left the face that they would have touched.
+double Sustained::lowestWatched() const {
+  const double close = kOff * std::max(1.0, model_.size);
+  double least = std::numeric_limits<double>::infinity();
+  for (Contact point : watched_) {
+    follow(trial_[point.a], trial_[point.b], point);
+    const double height = point.point.separation - close;
+    if (height > 0.0) least = std::min(least, height);
+  }
+  return least;
+}
+
+bool Sustained::slipTurned() const {
+  if (blind_) return false;
   for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
     const Contact& c = system_.contacts()[k];
     if (!c.sliding || slip_[k] <= tolerance_.stick) continue;
     const Vec3 slip = slipVelocity(trial_[c.a], trial_[c.b], c.point);
-    if (slip.dot(c.slipDirection) >= 0.5 * slip.norm()) continue;
-    return h > kInstant ? 0.5 * h : h;
+    if (slip.norm() > tolerance_.stick && slip.dot(c.slipDirection) < 0.5 * slip.norm())
+      return true;
   }
-  if (h <= kClosest * most_) return h;
-  for (const Near& pair : near_) {
-    if (pair.lasts) continue;
-    const double end = separation(model_.shapes[pair.a], trial_[pair.a].pose(),
-                                  model_.shapes[pair.b], trial_[pair.b].pose());
-    if (pair.now + end < pair.speed * h) return 0.5 * h;
-  }
-  double least = h;
-  for (const Contact& point : watched_) least = std::min(least, dip(point, h));
-  return least;
+  return false;
 }
 
-// When the cubic through both ends dips below the surface between them; h if it does not.
-double Sustained::dip(const Contact& point, double h) const {
-  Contact end = point;
-  follow(trial_[point.a], trial_[point.b], end);
-  const double g0 = point.point.separation, g1 = end.point.separation;
-  const double v0 = approachVelocity(state_.bodies[point.a], state_.bodies[point.b], point.point);
-  const double v1 = approachVelocity(trial_[point.a], trial_[point.b], end.point);
-  if (v0 >= 0.0 || v1 <= 0.0) return h;
-  constexpr int kLooks = 16;
-  double lowest = 0.0, when = h;
-  for (int k = 1; k < kLooks; ++k) {
-    const double s = static_cast<double>(k) / kLooks, r = 1.0 - s;
-    const double gap =
-        r * r * (1.0 + 2.0 * s) * g0 + s * s * (1.0 + 2.0 * r) * g1 + h * s * r * (r * v0 - s * v1);
-    if (gap < lowest) lowest = gap, when = s * h;
-  }
-  return when;
+double Sustained::doubt(const Look& lo, const Look& hi) const {
+  const double span = hi.s - lo.s;
+  if (blind_ || span <= kClosest * most_) return hi.s;
+  for (std::size_t k = 0; k < near_.size(); ++k)
+    if (!near_[k].lasts && lo.gaps[k] + hi.gaps[k] < near_[k].speed * span)
+      return lo.s + 0.5 * span;
+  double least = hi.s;
+  for (std::size_t k = 0; k < watched_.size(); ++k)
+    least =
+        std::min(least, lo.s + dip(lo.heights[k], hi.heights[k], lo.rates[k], hi.rates[k], span));
+  return least;
 }
 
 }  // namespace tumble

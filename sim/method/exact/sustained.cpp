@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "sim/collide/collide.h"
-#include "sim/math/root.h"
 #include "sim/method/exact/exact.h"
 
 namespace tumble {
@@ -92,31 +91,60 @@ void Sustained::keepPace(bool event) {
 }
 
 bool Sustained::findEvent(double& h) {
-  const double now = allowance(0.0);
-  if (!(now > 0.0)) {
-    h = 0.0;
-    return true;
-  }
-  for (;;) {
-    const double end = allowance(h);
-    if (reached_ < h) {  // forces change faster and faster
-      h = 0.9 * reached_;
+  path_.begin(state_.t, most_, y0_);
+  Look before = look(0.0);
+  h = 0.0;
+  if (!(before.allowed > 0.0)) return true;
+  while (before.s < most_) {
+    if (!path_.grow(system_, integrator_, most_)) {  // forces change faster and faster
+      h = 0.9 * before.s;
       state_.jammed = h < kInstant;
-      if (state_.jammed) return true;
-    } else if (end < 0.0) {
-      const double instant =
-          std::max(1e-15, std::numeric_limits<double>::epsilon() * (state_.t + h));
-      const Bracket bracket =
-          findRoot([&](double s) { return allowance(s); }, 0.0, h, now, end, instant);
-      h = bracket.hi;
-      if (allowance(h) < 0.0 && cause_ == Cause::Touch) h = bracket.lo;
       return true;
-    } else if (const double earlier = sooner(h); earlier < h) {
-      h = earlier;
-    } else {
-      return false;
     }
+    Look after = look(path_.reached());
+    const std::optional<Bracket> event = between(before, after);
+    if (event && !look(event->lo).turned) {
+      h = event->hi;
+      if (allowance(h) < 0.0 && cause_ == Cause::Touch) h = event->lo;
+      return true;
+    }
+    // The direction of a slip that turns too far would be taken for its end.
+    if (after.turned && before.s > 0.0) break;
+    if (after.turned && after.s > kInstant) {
+      path_.cut(before.s, 0.5 * after.s);
+      continue;
+    }
+    before = std::move(after);
   }
+  h = before.s;
+  return false;
+}
+
+std::optional<Bracket> Sustained::between(const Look& lo, const Look& hi) {
+  if (hi.allowed < 0.0) {
+    const double instant =
+        std::max(1e-15, std::numeric_limits<double>::epsilon() * (state_.t + hi.s));
+    return findRoot([&](double s) { return allowance(s); }, lo.s, hi.s, lo.allowed, hi.allowed,
+                    instant);
+  }
+  const double when = doubt(lo, hi);
+  if (!(when > lo.s && when < hi.s)) return std::nullopt;
+  const Look middle = look(when);
+  if (const std::optional<Bracket> first = between(lo, middle)) return first;
+  return between(middle, hi);
+}
+
+Sustained::Look Sustained::look(double s) {
+  Look look{.s = s, .allowed = allowance(s)};
+  look.turned = slipTurned();
+  look.gaps = gaps_;
+  for (Contact point : watched_) {
+    const RigidBody &a = trial_[point.a], &b = trial_[point.b];
+    follow(a, b, point);
+    look.heights.push_back(point.point.separation);
+    look.rates.push_back(approachVelocity(a, b, point.point));
+  }
+  return look;
 }
 
 void Sustained::leave() {
@@ -126,25 +154,31 @@ void Sustained::leave() {
 
 double Sustained::allowance(double h) {
   cause_ = Cause::None;
-  y_ = y0_;
-  reached_ = h == 0.0 ? 0.0 : integrator_.step(system_, state_.t, h, y_);
+  path_.at(system_, integrator_, h, y_);
   if (!allFinite(y_)) return 1.0;  // commit() reports it
   system_.unpack(y_, trial_);
-  double least = kInfinity;
-  for (const Near& pair : near_)
-    least = std::min(least, separation(model_.shapes[pair.a], trial_[pair.a].pose(),
-                                       model_.shapes[pair.b], trial_[pair.b].pose()) -
-                                pair.floor);
+  double least = kInfinity, above = kInfinity;
+  gaps_.clear();
+  for (const Near& pair : near_) {
+    gaps_.push_back(separation(model_.shapes[pair.a], trial_[pair.a].pose(), model_.shapes[pair.b],
+                               trial_[pair.b].pose()));
+    least = std::min(least, gaps_.back() - pair.floor);
+    if (!pair.lasts) above = std::min(above, gaps_.back() - pair.floor);
+  }
   overlap_ = -least;
-  if (least < 0.0) cause_ = Cause::Touch;
+  if (least < 0.0)
+    cause_ = Cause::Touch;
+  else
+    least = std::min(above, lowestWatched());
   if (blind_) return least;
   const double mode = modeAllowance();
   if (mode < least) {
     least = mode;
     cause_ = Cause::Mode;
   }
-  if (h > 0.0 && least > 0.0 && featuresChanged()) {
-    least = -1.0;
+  if (h == 0.0 || least <= 0.0) return least;
+  if (const double features = featureAllowance(); features < 0.0) {
+    least = features;
     cause_ = Cause::Mode;
   }
   return least;
@@ -159,8 +193,9 @@ double Sustained::ambiguity(const Contact& c) const {
   return least < kInfinity ? least : 0.0;
 }
 
-// Whether a pair that touches would be found to touch in another way. Rims are followed.
-bool Sustained::featuresChanged() const {
+// Rims are followed. How deep a new point is tells how far back it was not there.
+double Sustained::featureAllowance() const {
+  double least = kInfinity;
   std::vector<Contact> found;
   const double close = kOff * std::max(1.0, model_.size);
   for (const Near& pair : near_) {
@@ -188,12 +223,12 @@ bool Sustained::featuresChanged() const {
       return approachVelocity(trial_[c.a], trial_[c.b], c.point) < -tolerance_.rest;
     };
     for (const Contact& c : held)
-      if (ofPair(c) && !remains(c)) return true;
+      if (ofPair(c) && !remains(c)) return -1.0;
     for (const Contact& c : found)
       if (c.point.separation < close && approaches(c) && !lists(held, c) && !lists(touching_, c))
-        return true;
+        least = std::min(least, c.point.separation - close);
   }
-  return false;
+  return least;
 }
 
 void Sustained::commit(double h) {

@@ -2,12 +2,14 @@
 // contact keeps to its mode (sticks, slides, idle), and events where one of them cannot.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/contact/rest.h"
+#include "sim/math/root.h"
 #include "sim/method/exact/sustained_system.h"
 #include "sim/method/method.h"
-#include "sim/ode/extrapolation.h"
+#include "sim/ode/path.h"
 
 namespace tumble {
 
@@ -33,12 +35,27 @@ class Sustained {
     double speed = 0.0;  ///< [m/s] that the gap cannot change faster than
   };
   enum class Cause { None, Touch, Mode };
+  /// What the bodies show at one instant of the stretch.
+  struct Look {
+    double s = 0.0;                 ///< [s] since its start
+    double allowed = 0.0;           ///< see allowance()
+    bool turned = false;            ///< a slip has left the direction of its start too far behind
+    std::vector<double> gaps = {};  ///< [m] of near_
+    std::vector<double> heights = {}, rates = {};  ///< [m], [m/s] of watched_
+  };
 
-  /// Shortens h [s] to the first event, if there is one before. @return whether there is
+  /// Sets h [s] to the first event, or to where the stretch ends without one. @return whether
+  /// there is one
   bool findEvent(double& h);
+  /// The first change between two looks, all being well at the first; nothing if none is seen.
+  std::optional<Bracket> between(const Look& lo, const Look& hi);
+  Look look(double s);
   /// How far the motion may go: ≥ 0 a mode and no overlap, < 0 too far. Leaves y_, trial_, cause_.
   double allowance(double h);
-  bool featuresChanged() const;
+  /// The height of the lowest point that does not touch yet, where that is left to sink [m].
+  double lowestWatched() const;
+  /// < 0 where a pair that touches would be found to touch in another way.
+  double featureAllowance() const;
   double ambiguity(const Contact& contact) const;
   void commit(double h);
   void leave();
@@ -61,9 +78,10 @@ class Sustained {
   double lookAhead() const;
   void findNear(double h);
   double speedBound(int a, int b, double h) const;
-  /// A shorter h if something may have happened unseen before the end of this one.
-  double sooner(double h) const;
-  double dip(const Contact& point, double h) const;
+  /// An instant between two looks at which something may have happened unseen; hi.s if there is
+  /// none.
+  double doubt(const Look& lo, const Look& hi) const;
+  bool slipTurned() const;
 
   const Model& model_;
   State& state_;
@@ -71,11 +89,13 @@ class Sustained {
   ContactTolerance tolerance_;
   SustainedSystem system_;
   Extrapolation integrator_;
+  Path path_;
   std::vector<double> y0_, y_;
   std::vector<RigidBody> trial_;
   std::vector<Near> near_;
-  std::vector<Contact> watched_;   ///< points of lasting pairs that do not touch yet
+  std::vector<Contact> watched_;   ///< points of lasting pairs that do not last
   std::vector<Contact> touching_;  ///< points of lasting pairs that touched at the start
+  std::vector<double> gaps_;       ///< [m] of near_, where the bodies were last tried
   std::vector<double> slip_;       ///< [m/s] per lasting contact, at the start
   double acceleration_ = 1.0;      ///< [m/s²] what counts as large
   double most_ = 0.0;              ///< [s] how far could be looked ahead
@@ -84,7 +104,6 @@ class Sustained {
   long before_ = 0;                ///< and those before this stretch
   Cause cause_ = Cause::None;
   double overlap_ = 0.0;  ///< [m] of the bodies last tried, beyond what is allowed
-  double reached_ = 0.0;  ///< [s] of the h last tried
 };
 
 /// The bodies at time t of the trail, and their lasting contacts with forces.
