@@ -103,7 +103,9 @@ Plane nearestPlane(const Core& a, const Core& b) {
 Plane widestPlane(const Core& a, const Core& b, double bias) {
   if (a.isCylinder() || b.isCylinder()) return widestPlaneRound(a, b);
   Plane axis = widestAxis(a, b, bias);
-  if (axis.gap > 0.0 || axis.gap == -std::numeric_limits<double>::infinity()) {
+  // The difference of two segments is flat: a plane along it parts nothing, and overlaps nothing.
+  const bool flat = a.normals.empty() && b.normals.empty();
+  if (flat || axis.gap > 0.0 || axis.gap == -std::numeric_limits<double>::infinity()) {
     const Plane nearest = nearestPlane(a, b);
     if (nearest.gap > axis.gap + kWider * (a.size + b.size + nearest.gap) + bias) return nearest;
   }

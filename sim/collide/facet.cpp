@@ -11,6 +11,10 @@ constexpr double kSquareBias = 1e-9;
 constexpr double kCap = 0.7071067811865476;
 // A cap that leans by less than this is level: its rim has no lowest point.
 constexpr double kLevel = 1e-9;
+// An axis that is square to n within this shows its side: of the radius, half the square is lost.
+constexpr double kLying = 1e-6;
+// Points of a rim that are always shown; numbers above are those of its outermost.
+constexpr int kRim = 8;
 
 Facet faceOf(const Core& core, const Vec3& n) {
   int best = 0;
@@ -40,21 +44,26 @@ Facet pointsOf(const Core& core) {
   return facet;
 }
 
-// The line of a cylinder's side that is outermost, as its axis with the radius about it.
-Facet sideOf(const Core& core) {
+// The line of a cylinder's side that is outermost along n. Where it lies square to n, as its axis
+// with the radius about it, so that it rolls; else where it is, between the outermost points of the
+// rims: the axis is further than the radius behind it along n.
+Facet sideOf(const Core& core, const Vec3& n) {
+  const Vec3 u = core.axis(), lean = n - n.dot(u) * u;
+  const bool lies = std::abs(n.dot(u)) < kLying;
   Facet facet = pointsOf(core);
   facet.code = edgeCode(2);
   for (std::uint32_t& side : facet.sideCodes) side = edgeCode(2);
-  for (std::size_t k = 0; k < 2; ++k)
-    facet.cornerCodes[k] = vertexCode(16 + 2 + static_cast<int>(k));
-  facet.round = core.disc;
+  for (std::size_t k = 0; k < 2; ++k) {
+    facet.cornerCodes[k] = vertexCode(2 * kRim + (lies ? 2 : 0) + static_cast<int>(k));
+    if (!lies) facet.corners[k] += core.disc * lean.normalized();
+  }
+  facet.round = lies ? core.disc : 0.0;
   return facet;
 }
 
 }  // namespace
 
 Facet capOf(const Core& core, const Vec3& n, const Vec3& cap) {
-  constexpr int kRim = 8;
   constexpr double d = 0.7071067811865476;
   constexpr double cosines[kRim] = {1, d, 0, -d, -1, -d, 0, d};
   const int top = cap.dot(core.axis()) > 0.0 ? 1 : 0;
@@ -84,7 +93,8 @@ Facet outermostFacet(const Core& core, const Vec3& n) {
   if (!core.normals.empty()) return faceOf(core, n);
   if (!core.isCylinder()) return pointsOf(core);
   const Vec3 u = core.axis();
-  return std::abs(n.dot(u)) > kCap ? capOf(core, n, n.dot(u) > 0.0 ? u : Vec3(-u)) : sideOf(core);
+  return std::abs(n.dot(u)) > kCap ? capOf(core, n, n.dot(u) > 0.0 ? u : Vec3(-u))
+                                   : sideOf(core, n);
 }
 
 }  // namespace tumble::convex
