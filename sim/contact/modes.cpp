@@ -186,6 +186,24 @@ void ModeForces::project(std::span<RigidBody> bodies, std::span<Contact> contact
   }
 }
 
+std::vector<Vec3> ModeForces::still(std::span<RigidBody> bodies,
+                                    std::span<const Contact> contacts) {
+  rows_.clear();
+  forces_.clear();
+  for (const Contact& c : contacts) addRows(bodies, c, false);
+  rhs_.resize(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    rhs_[static_cast<Eigen::Index>(k)] = -approachVelocity(bodies[c.a], bodies[c.b], c.point);
+  }
+  solve(bodies);
+  push(bodies, true);
+  std::vector<Vec3> impulses;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    impulses.push_back(lambda_[static_cast<Eigen::Index>(k)] * rows_[k].linear);
+  return impulses;
+}
+
 double pushLeft(const RigidBody& a, const RigidBody& b, const Contact& c) {
   const auto mobility = [&](const Vec3& d) {
     double sum = 0.0;

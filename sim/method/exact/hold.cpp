@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact/modes.h"
 #include "sim/contact/rest.h"
-#include "sim/contact/rows.h"
 #include "sim/method/exact/exact.h"
 
 namespace tumble {
@@ -133,31 +133,23 @@ void Exact::stillNormals(const std::vector<Contact>& resting) {
   });
   if (still) return;
   std::vector<RigidBody> bodies;
-  std::vector<int> local(state_.bodies.size(), -1);
-  const auto place = [&](int i) {
-    if (local[i] < 0) {
-      local[i] = static_cast<int>(bodies.size());
-      bodies.push_back(state_.bodies[i]);
+  std::vector<int> local(state_.bodies.size(), -1), global;
+  std::vector<Contact> contacts = resting;
+  for (Contact& c : contacts)
+    for (int* i : {&c.a, &c.b}) {
+      if (local[*i] < 0) {
+        local[*i] = static_cast<int>(bodies.size());
+        global.push_back(*i);
+        bodies.push_back(state_.bodies[*i]);
+      }
+      *i = local[*i];
     }
-    return local[i];
-  };
-  for (const Contact& c : resting) place(c.a), place(c.b);
-  Problem problem;
-  beginVelocityProblem(bodies, problem);
-  for (const Contact& c : resting) {
-    problem.cones.push_back(
-        {.kind = ConeKind::Equality, .row = static_cast<int>(problem.rows.size()), .mu = 0.0});
-    problem.rows.push_back(pointRow(bodies, local[c.a], local[c.b], c.point.p, c.point.n, 0.0));
-  }
-  Solution solution;
-  solveByIslands(*findSolver("pivoting"), problem, {}, solution);
+  const std::vector<Vec3> impulses = ModeForces().still(bodies, contacts);
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    if (!bodies[k].fixed()) state_.bodies[global[k]] = bodies[k];
   for (std::size_t k = 0; k < resting.size(); ++k) {
-    const Contact& c = resting[k];
-    const Vec3 J = solution.lambda[k] * c.point.n;
-    applyImpulse(state_.bodies[c.a], c.point.p, J);
-    applyImpulse(state_.bodies[c.b], c.point.p, -J);
-    if (model_.fixed(c.b)) state_.externalImpulse += J;
-    if (model_.fixed(c.a)) state_.externalImpulse -= J;
+    if (model_.fixed(resting[k].b)) state_.externalImpulse += impulses[k];
+    if (model_.fixed(resting[k].a)) state_.externalImpulse -= impulses[k];
   }
 }
 
