@@ -183,11 +183,11 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
     case NormalTie::FaceOfA:
     case NormalTie::EdgeOfA:
       return pointVelocity(b, c.pb) + c.rb * normalRate(a, b, c);
-    default: {  // the crossing of two edges slides along both, and round edges roll about it
+    default: {  // the nearest points of two edges slide along both: their offset stays along n
       const Vec3 va = pointVelocity(a, c.pa), vb = pointVelocity(b, c.pb);
-      const Vec3 side = c.eb.cross(c.n);
-      const Vec3 crossing = va - ((va - vb).dot(side) / c.ea.dot(side)) * c.ea;
-      return c.ra == 0.0 ? crossing : Vec3(crossing - c.ra * normalRate(a, b, c));
+      const Vec3 side = c.eb.cross(c.n), rate = normalRate(a, b, c);
+      const Vec3 apart = va - vb - reach(c) * rate;
+      return va - (apart.dot(side) / c.ea.dot(side)) * c.ea - c.ra * rate;
     }
   }
 }
