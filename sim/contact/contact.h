@@ -53,7 +53,9 @@ struct Contact {
   bool mayStick = false;  ///< its slip can come to an end along slipDirection
   bool idle = false;      ///< touches and lasts, but carries nothing
   Vec3 slipDirection = Vec3::Zero();  ///< of the slip at the start of this stretch of motion
-  Vec3 force = Vec3::Zero();          ///< [N] on a, friction included
+  double onset = 0.0;          ///< [m/s] below this, a slip that has just begun follows `growth`:
+  Vec3 growth = Vec3::Zero();  ///< [1] the direction in which it grows
+  Vec3 force = Vec3::Zero();   ///< [N] on a, friction included
 };
 
 /// vrel = n·(ṗa − ṗb) [m/s]: < 0 approaches (slide SD30; Baraff, Rigid Body Simulation II, §8).

@@ -1,6 +1,7 @@
 #include "sim/contact/modes.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "sim/contact/rest.h"
@@ -30,6 +31,8 @@ double response(const RigidBody& body, const Vec3& pull, const Vec3& turn, const
 
 Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& contact) {
   const Vec3 slip = slipVelocity(a, b, contact.point);
+  if (const double part = slip.norm() / contact.onset; part < 1.0)
+    return ((1.0 - part) * contact.growth + slip / contact.onset).normalized();
   Vec3 t1, t2;  // the direction of the start, in the tangent plane of now
   tangents(contact.point.n, contact.slipDirection, t1, t2);
   const double along = slip.dot(t1), across = std::abs(slip.dot(t2)), size = slip.norm();
@@ -114,6 +117,40 @@ void ModeForces::solve(std::span<const RigidBody> bodies) {
 }
 
 void ModeForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts) {
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (contacts[k].onset > 0.0 && !contacts[k].idle) findGrowth(bodies, contacts, k);
+  give(bodies, contacts);
+}
+
+// Secants, as many as always, so that the answer is as smooth as the motion.
+void ModeForces::findGrowth(std::span<const RigidBody> bodies, std::span<Contact> contacts,
+                            std::size_t k) {
+  constexpr int kSecants = 4;
+  constexpr double kFirst = 1e-2;
+  Contact& c = contacts[k];
+  const double onset = c.onset;
+  Vec3 t1, t2;
+  tangents(c.point.n, c.slipDirection, t1, t2);
+  const auto turn = [&](double tangent) { c.growth = (t1 + tangent * t2).normalized(); };
+  const auto across = [&](double tangent) {
+    turn(tangent);
+    tried_.assign(bodies.begin(), bodies.end());
+    give(tried_, contacts);
+    const Vec3 rate = slipAcceleration(tried_[c.a], tried_[c.b], c.point);
+    return rate.dot(t2) - tangent * rate.dot(t1);
+  };
+  c.onset = std::numeric_limits<double>::infinity();
+  double last = 0.0, now = kFirst, offLast = across(last);
+  for (int secant = 0; secant < kSecants; ++secant) {
+    const double off = across(now);
+    const double next = off == offLast ? now : now - off * (now - last) / (off - offLast);
+    last = now, offLast = off, now = next;
+  }
+  turn(now);
+  c.onset = onset;
+}
+
+void ModeForces::give(std::span<RigidBody> bodies, std::span<Contact> contacts) {
   rows_.clear();
   forces_.clear();
   for (const Contact& c : contacts)

@@ -13,6 +13,11 @@ namespace tumble {
 /// The unit vector along which a sliding contact slips: where its slip is too slow to tell, the
 /// direction in which its sliding began, or the last stretch of it; and never turned against that,
 /// so that forces stay smooth beyond the instant at which a slip ends.
+/// The direction of a slip u that has just begun obeys a stiff equation, of rate mu f_n/(m |u|),
+/// which keeps it where it grows: where u̇ is along it. Below the contact's onset u₀ it is taken as
+///   e = d/|d|,   d = (1 − |u|/u₀) growth + u/u₀,
+/// with the rate mu f_n/(m u₀). Friction deviates from the direction of growth, to first order, as
+/// it would; the slip lags behind it by the part u₀/(mu f_n/m) of what it turns in a second.
 Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& contact);
 
 /// Forces of contacts that stick (u = 0), slide (u_n = 0, f_t = −mu f_n slip/|slip|), or are idle
@@ -24,6 +29,7 @@ class ModeForces {
  public:
   /// Reads pose, velocity, force and torque of the bodies; sets `force` of every contact and adds
   /// it to the forces and torques. Contacts must have been followed to this pose.
+  /// Where a slip has an onset, the direction of its growth is found anew.
   void apply(std::span<RigidBody> bodies, std::span<Contact> contacts);
 
   /// Moves the bodies by the least way, weighed by mass, that takes the separations of all that are
@@ -36,6 +42,10 @@ class ModeForces {
   std::vector<Vec3> still(std::span<RigidBody> bodies, std::span<const Contact> contacts);
 
  private:
+  /// As apply(), with growth as it is.
+  void give(std::span<RigidBody> bodies, std::span<Contact> contacts);
+  /// Turns the growth of contact k until the slip, at rest, would begin along it.
+  void findGrowth(std::span<const RigidBody> bodies, std::span<Contact> contacts, std::size_t k);
   /// Rows of contact k, and the forces of their multipliers.
   void addRows(std::span<const RigidBody> bodies, const Contact& contact, bool tangential);
   /// λ of the least norm with  J M⁻¹ F λ = rhs_, for each heap of bodies on its own.
@@ -47,6 +57,7 @@ class ModeForces {
   double product(std::span<const RigidBody> bodies, const Row& row, const Row& force) const;
 
   std::vector<Row> rows_, forces_;  ///< J, and the columns of F
+  std::vector<RigidBody> tried_;    ///< bodies under the forces of a growth that is tried
   MatX matrix_;
   VecX rhs_, lambda_;
 };

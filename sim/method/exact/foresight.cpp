@@ -137,6 +137,13 @@ bool Sustained::slipTurned() const {
   return false;
 }
 
+bool Sustained::slipBegan() const {
+  const std::vector<Contact>& contacts = system_.contacts();
+  return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+    return c.onset > 0.0 && slipVelocity(trial_[c.a], trial_[c.b], c.point).norm() >= c.onset;
+  });
+}
+
 double Sustained::doubt(const Look& lo, const Look& hi) const {
   const double span = hi.s - lo.s;
   if (blind_ || span <= kClosest * most_) return hi.s;

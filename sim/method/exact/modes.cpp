@@ -15,6 +15,8 @@ namespace {
 constexpr double kMargin = 1e-9;
 /// Accelerations below this part of the largest are rounding.
 constexpr double kRounding = 2e-10;
+/// [m/s] per size of the world: up to this, a slip that begins follows its growth.
+constexpr double kOnset = 3e-4;
 /// What friction must leave of a push; see `pushLeft`.
 constexpr double kPushLeft = 1e-12;
 /// No pull towards zero: velocities and gaps are projected. [s]
@@ -52,6 +54,7 @@ void Sustained::chooseModes() {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     follow(a, b, c);
     c.creeping = false;
+    c.onset = 0.0;
     if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
     c.creeping = state_.pace.level > 0;
   }
@@ -77,6 +80,25 @@ void Sustained::chooseModes() {
   slip_.clear();
   for (const Contact& c : lasting)
     slip_.push_back(slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm());
+}
+
+// Where two begin to slip at once, their directions depend on each other: these are left alone.
+void Sustained::markOnset() {
+  Contact* begins = nullptr;
+  const double onset = kOnset * std::max(1.0, model_.size);
+  for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
+    Contact& c = state_.lasting[k];
+    if (!c.sliding || c.idle || c.friction <= 0.0 || c.creeping || slip_[k] >= onset) continue;
+    if (begins) return;
+    begins = &c;
+    const Vec3 rate = slipAcceleration(trial_[c.a], trial_[c.b], c.point);
+    if (slip_[k] > tolerance_.stick && !(rate.dot(c.slipDirection) > 0.0)) return;
+  }
+  if (!begins) return;
+  begins->onset = onset;
+  system_.begin(state_.lasting);
+  trial_ = state_.bodies;
+  system_.findForces(trial_);
 }
 
 // Contacts that slide in unlike directions share a load in more than one way, and not all ways move

@@ -59,6 +59,7 @@ void Sustained::next() {
   system_.pack(state_.bodies, y0_);
   trial_ = state_.bodies;
   system_.findForces(trial_);
+  markOnset();
   most_ = lookAhead();
   blind_ = state_.pace.level > 0;
   integrator_.setTolerance(kTolerance * state_.pace.coarseness());
@@ -115,6 +116,7 @@ bool Sustained::findEvent(double& h) {
       continue;
     }
     before = std::move(after);
+    if (slipBegan()) break;
   }
   h = before.s;
   return false;

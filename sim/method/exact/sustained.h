@@ -67,6 +67,8 @@ class Sustained {
   SolveReport solveCones(std::vector<RigidBody>& bodies, std::vector<Contact>& contacts) const;
   /// Whether the forces of the modes, which the bodies carry, accelerate as the contact problem.
   bool conesAgree(std::span<const RigidBody> bodies) const;
+  /// Marks a slip that begins.
+  void markOnset();
   void unload();
   bool pairCarries(std::size_t contact) const;
   double modeAllowance();
@@ -82,6 +84,8 @@ class Sustained {
   /// none.
   double doubt(const Look& lo, const Look& hi) const;
   bool slipTurned() const;
+  /// Whether a slip has grown beyond its onset.
+  bool slipBegan() const;
 
   const Model& model_;
   State& state_;
