@@ -10,26 +10,62 @@ namespace {
 
 /// [1] A cap that leans by less lies flat.
 constexpr double kFlat = 1e-6;
+/// [1] Edges that lean by less against the face of a contact lie on it.
+constexpr double kLevel = 1e-9;
 /// [1] Edges that cross at less than this angle have no point to follow.
 constexpr double kCrossing = 1e-3;
 
-/// Direction [1] of the edge of a box that a contact point is on, world; zero if it is on none.
-Vec3 edgeOf(const std::vector<Convex>& parts, const RigidBody& body, std::uint32_t code) {
+/// The edge of a box that a contact point is on, and the outward normals of the faces beside it
+/// [1], world; zero if it is on none.
+struct BoxEdge {
+  Vec3 along = Vec3::Zero(), faces[2] = {Vec3::Zero(), Vec3::Zero()};
+  /// Whether a solid that is outermost there along n may touch there.
+  bool shows(const Vec3& n) const { return faces[0].dot(n) >= 0.0 && faces[1].dot(n) >= 0.0; }
+};
+
+BoxEdge edgeOf(const std::vector<Convex>& parts, const RigidBody& body, std::uint32_t code) {
+  BoxEdge edge;
   const std::size_t part = code >> 20;
   if ((code & kKindCode) != kEdgeCode || part >= parts.size() ||
       !std::holds_alternative<Box>(parts[part].shape))
-    return Vec3::Zero();
-  const int axis = static_cast<int>((code & (kEdgeCode - 1)) >> 2);
-  return axis < 3 ? Vec3(body.q * parts[part].pose.q * Vec3::Unit(axis)) : Vec3(Vec3::Zero());
+    return edge;
+  const std::uint32_t number = code & (kEdgeCode - 1);
+  const int axis = static_cast<int>(number >> 2);
+  if (axis > 2) return edge;
+  const Quat q = body.q * parts[part].pose.q;
+  edge.along = q * Vec3::Unit(axis);
+  edge.faces[0] = q * Vec3(((number & 1) != 0 ? 1.0 : -1.0) * Vec3::Unit(nextAxis(axis)));
+  edge.faces[1] = q * Vec3(((number & 2) != 0 ? 1.0 : -1.0) * Vec3::Unit(lastAxis(axis)));
+  return edge;
 }
 
 void tieCrossing(const State& state, Contact& c) {
-  const Vec3 ea = edgeOf(state.parts[c.a], state.bodies[c.a], featureOfA(c.point.feature));
-  const Vec3 eb = edgeOf(state.parts[c.b], state.bodies[c.b], featureOfB(c.point.feature));
+  const Vec3 ea = edgeOf(state.parts[c.a], state.bodies[c.a], featureOfA(c.point.feature)).along;
+  const Vec3 eb = edgeOf(state.parts[c.b], state.bodies[c.b], featureOfB(c.point.feature)).along;
   if (ea.cross(eb).norm() < kCrossing) return;
   c.point.ea = ea;
   c.point.eb = eb;
   c.point.bend = -1.0;
+}
+
+/// Ties a contact of a face to edges that lean. @return whether it is one, and whether it is
+/// outermost
+std::pair<bool, bool> tieEdges(const State& state, Contact& c) {
+  const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
+  const BoxEdge ofA = edgeOf(state.parts[c.a], a, featureOfA(c.point.feature));
+  const BoxEdge ofB = edgeOf(state.parts[c.b], b, featureOfB(c.point.feature));
+  const double lean =
+      std::max(std::abs(ofA.along.dot(c.point.n)), std::abs(ofB.along.dot(c.point.n)));
+  if (ofA.along.cross(ofB.along).norm() < kCrossing || lean <= kLevel) return {false, true};
+  Contact tied = c;
+  tied.point.tie = NormalTie::Edges;
+  tied.point.ea = ofA.along;
+  tied.point.eb = ofB.along;
+  tied.anchor = anchorOf(a, b, tied.point);
+  follow(a, b, tied);
+  const bool shows = ofA.shows(-tied.point.n) && ofB.shows(tied.point.n);
+  if (shows) c = tied;
+  return {shows, shows};
 }
 
 bool sameRim(const Contact& c, const Contact& d) {
@@ -38,6 +74,32 @@ bool sameRim(const Contact& c, const Contact& d) {
 }
 
 }  // namespace
+
+void tieLeaning(const State& state, std::vector<Contact>& contacts) {
+  for (std::size_t first = 0; first < contacts.size();) {
+    const int a = contacts[first].a, b = contacts[first].b;
+    bool tied = false;
+    std::vector<Contact> kept;
+    std::size_t end = first;
+    for (; end < contacts.size() && contacts[end].a == a && contacts[end].b == b; ++end) {
+      const NormalTie tie = contacts[end].point.tie;
+      const bool ofFace = tie == NormalTie::FaceOfA || tie == NormalTie::FaceOfB;
+      Contact c = contacts[end];
+      const auto [edges, shows] = ofFace ? tieEdges(state, c) : std::pair(false, true);
+      tied = tied || edges;
+      if (shows) kept.push_back(c);
+    }
+    if (!tied) {
+      first = end;
+      continue;
+    }
+    const auto at = contacts.begin() + static_cast<std::ptrdiff_t>(first);
+    contacts.erase(at, contacts.begin() + static_cast<std::ptrdiff_t>(end));
+    contacts.insert(contacts.begin() + static_cast<std::ptrdiff_t>(first), kept.begin(),
+                    kept.end());
+    first += kept.size();
+  }
+}
 
 void tieRims(const State& state, double close, std::vector<Contact>& contacts) {
   for (Contact& c : contacts) {

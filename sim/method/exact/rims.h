@@ -14,4 +14,9 @@ namespace tumble {
 /// @param close  [m] of a rim, for a point that is on it
 void tieRims(const State& state, double close, std::vector<Contact>& contacts);
 
+/// Contacts that are told as of a face, but where two edges of boxes cross that lean against it:
+/// ties them to their edges, n = ± ea×eb. Of a pair that has such contacts, those are dropped whose
+/// n does not lie between the faces beside both edges: there the solids are not outermost.
+void tieLeaning(const State& state, std::vector<Contact>& contacts);
+
 }  // namespace tumble

@@ -87,6 +87,7 @@ Cluster Exact::gather(double t, std::span<const int> seeds) {
     for (const int j : w.finite)
       if (j != i && w.swept[i].overlaps(w.swept[j])) meet(j);
   }
+  tieLeaning(state_, cluster.contacts);
   const auto hasRim = [&](int i) {
     const std::vector<Convex>& parts = state_.parts[i];
     return std::any_of(parts.begin(), parts.end(),
