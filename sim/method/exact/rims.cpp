@@ -11,7 +11,7 @@ namespace {
 /// [1] A cap that leans by less lies flat.
 constexpr double kFlat = 1e-6;
 /// [1] Edges that lean by less against the face of a contact lie on it.
-constexpr double kLevel = 1e-9;
+constexpr double kLevel = 1e-6;
 /// [1] Edges that cross at less than this angle have no point to follow.
 constexpr double kCrossing = 1e-3;
 
@@ -48,15 +48,15 @@ void tieCrossing(const State& state, Contact& c) {
   c.point.bend = -1.0;
 }
 
-/// Ties a contact of a face to edges that lean. @return whether it is one, and whether it is
-/// outermost
-std::pair<bool, bool> tieEdges(const State& state, Contact& c) {
+/// Ties a contact of a face to its edges, if these lean. @return whether the solids touch there
+bool tieEdges(const State& state, Contact& c) {
+  if (c.point.tie != NormalTie::FaceOfA && c.point.tie != NormalTie::FaceOfB) return true;
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
   const BoxEdge ofA = edgeOf(state.parts[c.a], a, featureOfA(c.point.feature));
   const BoxEdge ofB = edgeOf(state.parts[c.b], b, featureOfB(c.point.feature));
   const double lean =
       std::max(std::abs(ofA.along.dot(c.point.n)), std::abs(ofB.along.dot(c.point.n)));
-  if (ofA.along.cross(ofB.along).norm() < kCrossing || lean <= kLevel) return {false, true};
+  if (ofA.along.cross(ofB.along).norm() < kCrossing || lean <= kLevel) return true;
   Contact tied = c;
   tied.point.tie = NormalTie::Edges;
   tied.point.ea = ofA.along;
@@ -65,7 +65,7 @@ std::pair<bool, bool> tieEdges(const State& state, Contact& c) {
   follow(a, b, tied);
   const bool shows = ofA.shows(-tied.point.n) && ofB.shows(tied.point.n);
   if (shows) c = tied;
-  return {shows, shows};
+  return shows;
 }
 
 bool sameRim(const Contact& c, const Contact& d) {
@@ -76,29 +76,21 @@ bool sameRim(const Contact& c, const Contact& d) {
 }  // namespace
 
 void tieLeaning(const State& state, std::vector<Contact>& contacts) {
-  for (std::size_t first = 0; first < contacts.size();) {
-    const int a = contacts[first].a, b = contacts[first].b;
-    bool tied = false;
-    std::vector<Contact> kept;
-    std::size_t end = first;
-    for (; end < contacts.size() && contacts[end].a == a && contacts[end].b == b; ++end) {
-      const NormalTie tie = contacts[end].point.tie;
-      const bool ofFace = tie == NormalTie::FaceOfA || tie == NormalTie::FaceOfB;
+  std::vector<Contact> all;
+  for (std::size_t first = 0, end = 0; first < contacts.size(); first = end) {
+    std::vector<Contact> shown;
+    for (end = first; end < contacts.size(); ++end) {
       Contact c = contacts[end];
-      const auto [edges, shows] = ofFace ? tieEdges(state, c) : std::pair(false, true);
-      tied = tied || edges;
-      if (shows) kept.push_back(c);
+      if (c.a != contacts[first].a || c.b != contacts[first].b) break;
+      if (tieEdges(state, c)) shown.push_back(c);
     }
-    if (!tied) {
-      first = end;
-      continue;
-    }
-    const auto at = contacts.begin() + static_cast<std::ptrdiff_t>(first);
-    contacts.erase(at, contacts.begin() + static_cast<std::ptrdiff_t>(end));
-    contacts.insert(contacts.begin() + static_cast<std::ptrdiff_t>(first), kept.begin(),
-                    kept.end());
-    first += kept.size();
+    const auto at = [&](std::size_t k) {
+      return contacts.begin() + static_cast<std::ptrdiff_t>(k);
+    };
+    if (shown.empty()) shown.assign(at(first), at(end));
+    all.insert(all.end(), shown.begin(), shown.end());
   }
+  contacts = all;
 }
 
 void tieRims(const State& state, double close, std::vector<Contact>& contacts) {
