@@ -16,7 +16,7 @@ constexpr double kMargin = 1e-9;
 /// Accelerations below this part of the largest are rounding.
 constexpr double kRounding = 2e-10;
 /// [m/s] per size of the world: up to this, a slip that begins follows its growth.
-constexpr double kOnset = 3e-4;
+constexpr double kOnset = 1e-4;
 /// What friction must leave of a push; see `pushLeft`.
 constexpr double kPushLeft = 1e-12;
 /// No pull towards zero: velocities and gaps are projected. [s]
