@@ -189,33 +189,24 @@ double NewtonSystem::slopeAt(double alpha) {
   return slope;
 }
 
-/// Goes along the step: the whole way where that has brought the slope of Φ down enough, or `whole`
-/// asks for it; else as far as the slope says.
-void NewtonSystem::walk(bool whole) {
+/// The part of the step that Φ asks for: 1 where its slope has gone down enough.
+double NewtonSystem::searchLine() {
   constexpr double kEnough = 0.25;
   constexpr int kMost = 12;
-  const auto slopeHere = [&] {
-    double slope = 0.0;
-    for (const Mover& mover : movers) slope += mover.step.dot(mover.gradient);
-    return slope;
-  };
-  double low = -1.0, high = 0.0;  // of the way, seen from its end
-  double slopeLow = slopeHere();
-  for (Mover& mover : movers) mover.v += mover.step;
-  look();
-  double slopeHigh = slopeHere();
+  double low = 0.0, slopeLow = 0.0;
+  for (const Mover& mover : movers) slopeLow += mover.step.dot(mover.gradient);
   const double enough = kEnough * std::abs(slopeLow);
-  if (whole || slopeHigh <= enough) return;
-  double back = 0.0;
+  double high = 1.0, slopeHigh = slopeAt(high);
+  if (slopeHigh <= enough) return 1.0;
+  double alpha = 1.0;
   for (int k = 0; k < kMost; ++k) {
-    back = low + (high - low) * std::clamp(-slopeLow / (slopeHigh - slopeLow), 0.05, 0.95);
-    const double slope = slopeAt(back);
+    alpha = low + (high - low) * std::clamp(-slopeLow / (slopeHigh - slopeLow), 0.05, 0.95);
+    const double slope = slopeAt(alpha);
     if (std::abs(slope) <= enough) break;
-    (slope < 0.0 ? low : high) = back;
+    (slope < 0.0 ? low : high) = alpha;
     (slope < 0.0 ? slopeLow : slopeHigh) = slope;
   }
-  for (Mover& mover : movers) mover.v += back * mover.step;
-  look();
+  return alpha;
 }
 
 /// Whether the last factor is that of the pieces and ρ as they are.
@@ -228,7 +219,7 @@ bool NewtonSystem::factorFits() const {
 bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
   constexpr double kChord = 0.1;   // a factor whose edges have turned serves while steps shrink so
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  evaluate();
+  look();
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
     const bool edges = std::any_of(points.begin(), points.end(),
@@ -241,9 +232,10 @@ bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
       change = direction(H_);
     }
     if (!std::isfinite(change)) return false;
-    walk(change <= accuracy);
+    const double alpha = change <= accuracy ? 1.0 : searchLine();
+    for (Mover& mover : movers) mover.v += alpha * mover.step;
+    look();
     if (change <= accuracy) return true;
-    if (!edges && factorFits()) return true;  // Φ was quadratic all the way
     if (fits && change > 0.5 * before && (!edges || change < kSmall * scale)) return true;
     before = change;
   }

@@ -94,7 +94,7 @@ class NewtonSystem {
   template <class Factor>
   double direction(Factor& factor);
   double slopeAt(double alpha);
-  void walk(bool whole);
+  double searchLine();
   double merit() const;
   void shorten();
 
