@@ -15,6 +15,8 @@ constexpr double kRounding = 1e-10;
 constexpr double kLeft = 100.0;
 /// What parts at less than this part of its weight has just been pushed still.
 constexpr double kSlow = 1e-4;
+/// Residual of contact forces that are no solution.
+constexpr double kUnsolved = 1e-6;
 /// Stretches before closed forms are tried again: the first time, and at most.
 constexpr int kFirst = 1, kMost = 64;
 /// No pull towards zero: flights in contact have no error that grows. [s]
@@ -184,7 +186,12 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
 void Exact::hold(double t, Cluster& cluster) {
   std::vector<Contact> resting;
   double& worst = report_.certificate.max_complementarity;
-  worst = std::max(worst, findForces(t, cluster, resting));
+  const double residual = findForces(t, cluster, resting);
+  worst = std::max(worst, residual);
+  if (residual > kUnsolved)
+    return stop("no forces were found at t = " + digits(t) +
+                " s that obey the laws of contact and friction: what slides may jam there; try "
+                "method \"stepping\", or less friction");
   const bool slowly = letGo(resting);
   if (!resting.empty()) stillNormals(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
