@@ -10,6 +10,7 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t kDense = 120;  ///< rows up to which dense steps are tried
+constexpr double kNear = 1e-8;       ///< residual below which they are not worth their price
 
 /// The best answer so far.
 struct Best {
@@ -141,7 +142,7 @@ void sweep(const Problem& problem, const SolveSettings& settings, Best& best) {
 SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
                        const NewtonAlone& newton, const SolveReport& report, Solution& solution) {
   Best best{report, solution};
-  if (problem.rows.size() <= kDense) {
+  if (problem.rows.size() <= kDense && !(report.residual <= kNear)) {
     Solution polished = finite(problem, solution);
     const SolveReport last = polish(problem, settings, polished);
     best.take(last, std::move(polished));
