@@ -59,8 +59,9 @@ SolveReport RestForces::solve(std::span<const Contact> contacts) {
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
   const Solver& solver = *findSolver(friction ? "newton" : "pivoting");
-  solution_ = {};  // the same answer whatever was solved before
-  SolveReport report = solveByIslands(solver, problem_, {}, solution_);
+  solution_ = {};             // the same answer whatever was solved before
+  constexpr int kMost = 200;  // factorizations, pivots or sweeps
+  SolveReport report = solveByIslands(solver, problem_, {.maxIterations = kMost}, solution_);
   if (polished_ && friction) report = polish(problem_, {}, solution_);
   return report;
 }

@@ -108,7 +108,7 @@ bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) co
 }
 
 void Stepping::solveIsland(std::span<const Link> links, double h) {
-  constexpr int kMost = 2000;  // sweeps: more bring little; what is left is in the certificate
+  constexpr int kMost = 4000;  // sweeps: more bring little; what is left is in the certificate
   Certificate& certificate = report_.certificate;
   collectBodies(links);
   if (movers_.empty()) return;
