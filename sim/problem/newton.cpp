@@ -243,8 +243,11 @@ SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, S
     return newton.solve(p, to, answer);
   };
   SolveReport report = alone(problem, settings, solution);
-  if (atRounding(problem, solution, report.residual)) report.status = SolveStatus::Solved;
   if (report.status == SolveStatus::Solved) return report;
+  if (atRounding(problem, solution, report.residual)) {
+    report.status = SolveStatus::Solved;
+    return report;
+  }
   if (islands(problem).size() > 1) {  // those that are easy need not fail with the others
     solution = {};
     return solveByIslands({"newton", "", solveNewton}, problem, settings, solution);
