@@ -39,23 +39,34 @@ Solution finite(const Problem& problem, const Solution& solution) {
   return start;
 }
 
-/// A path from an easy problem, t = 0, to the one that is asked for, t = 1.
+/// A path from an easy problem, t = 0, to the one that is asked for, t = 1: friction grows from
+/// none, while contacts close that have more room at first.
 class Path {
  public:
-  explicit Path(const Problem& problem) : asked_(problem), now_(problem) {}
-  virtual ~Path() = default;
+  /// @param room  [m/s] that contacts have at t = 0 beside their bias
+  Path(const Problem& problem, double room) : asked_(problem), now_(problem), room_(room) {}
 
+  /// Puts the end of the path, if that is reached, in place of the best answer if it is nearer.
   /// @param longest  step of t; the path is another where steps are shorter
   void follow(double longest, const SolveSettings& settings, const NewtonAlone& newton, Best& best);
 
- protected:
+ private:
+  void set(double t);
+  SolveReport step(const SolveSettings& settings, const NewtonAlone& newton, Solution& solution);
+
   const Problem& asked_;
   Problem now_;
-
- private:
-  virtual void set(double t) = 0;
-  SolveReport step(const SolveSettings& settings, const NewtonAlone& newton, Solution& solution);
+  double room_;
 };
+
+void Path::set(double t) {
+  for (std::size_t i = 0; i < now_.cones.size(); ++i) {
+    Cone& cone = now_.cones[i];
+    cone.mu = t * asked_.cones[i].mu;
+    if (cone.kind != ConeKind::Equality)
+      now_.rows[cone.row].bias = asked_.rows[cone.row].bias + (1.0 - t) * room_;
+  }
+}
 
 /// Polishes what the problem before has led to; else starts anew and polishes that.
 SolveReport Path::step(const SolveSettings& settings, const NewtonAlone& newton,
@@ -96,37 +107,15 @@ void Path::follow(double longest, const SolveSettings& settings, const NewtonAlo
   }
 }
 
-/// Friction grows from none.
-class MoreFriction : public Path {
- public:
-  using Path::Path;
-
- protected:
-  void set(double t) override {
-    for (std::size_t i = 0; i < now_.cones.size(); ++i) now_.cones[i].mu = t * asked_.cones[i].mu;
-  }
-};
-
-/// Friction grows while contacts close that all part at first.
-class LessRoom : public MoreFriction {
- public:
-  explicit LessRoom(const Problem& problem) : MoreFriction(problem) {
-    std::vector<double> u(problem.rows.size());
-    rowVelocities(problem, problem.vStar, u);
-    for (const Cone& cone : problem.cones)
-      if (cone.kind != ConeKind::Equality) room_ = std::max(room_, -u[cone.row]);
-  }
-
- private:
-  void set(double t) override {
-    MoreFriction::set(t);
-    for (const Cone& cone : now_.cones)
-      if (cone.kind != ConeKind::Equality)
-        now_.rows[cone.row].bias = asked_.rows[cone.row].bias + (1.0 - t) * room_;
-  }
-
-  double room_ = 0.0;  ///< [m/s] fastest approach
-};
+/// The fastest approach [m/s] of the contacts, if nothing acts.
+double fastestApproach(const Problem& problem) {
+  std::vector<double> u(problem.rows.size());
+  rowVelocities(problem, problem.vStar, u);
+  double fastest = 0.0;
+  for (const Cone& cone : problem.cones)
+    if (cone.kind != ConeKind::Equality) fastest = std::max(fastest, -u[cone.row]);
+  return fastest;
+}
 
 void sweep(const Problem& problem, const SolveSettings& settings, Best& best) {
   constexpr int kWork = 100'000, kLeast = 20, kMost = 4000;  // cones times sweeps; sweeps
@@ -146,10 +135,10 @@ SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
     Solution polished = finite(problem, solution);
     const SolveReport last = polish(problem, settings, polished);
     best.take(last, std::move(polished));
-    for (const double longest : {0.5, 0.15}) {
-      if (!best.solved()) MoreFriction(problem).follow(longest, settings, newton, best);
-      if (!best.solved()) LessRoom(problem).follow(longest, settings, newton, best);
-    }
+    const double rooms[] = {0.0, fastestApproach(problem)};
+    for (const double longest : {0.5, 0.15})
+      for (const double room : rooms)
+        if (!best.solved()) Path(problem, room).follow(longest, settings, newton, best);
   }
   if (!best.solved()) sweep(problem, settings, best);
   solution = best.solution;
