@@ -1,6 +1,7 @@
 // What stays in contact: constant forces that hold it, or a stretch of motion that follows them.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/contact/modes.h"
 #include "sim/contact/rest.h"
@@ -16,7 +17,7 @@ constexpr double kLeft = 100.0;
 /// What parts at less than this part of its weight has just been pushed still.
 constexpr double kSlow = 1e-4;
 /// Residual of contact forces that are no solution.
-constexpr double kUnsolved = 1e-6;
+constexpr double kLawless = 1e-6;
 /// Stretches before closed forms are tried again: the first time, and at most.
 constexpr int kFirst = 1, kMost = 64;
 /// No pull towards zero: flights in contact have no error that grows. [s]
@@ -57,31 +58,46 @@ bool Exact::endsBounces(const Contact& c, double vrel) const {
          0.5 * vrel * vrel < lowest() * weight;
 }
 
-double Exact::solveForces(std::vector<Contact>& resting) {
+namespace {
+
+/// The bodies that contacts hold, numbered anew.
+struct Held {
+  Held(std::span<const RigidBody> all, std::vector<Contact> those);
+
+  std::vector<Contact> contacts;
   std::vector<RigidBody> bodies;
-  std::vector<int> local(state_.bodies.size(), -1), global;
-  const auto place = [&](int i) {
-    if (local[i] < 0) {
-      local[i] = static_cast<int>(bodies.size());
-      global.push_back(i);
-      bodies.push_back(state_.bodies[i]);
-      bodies.back().force = state_.outer[i];
-      bodies.back().torque.setZero();
+  std::vector<int> global;  ///< their numbers among all
+};
+
+Held::Held(std::span<const RigidBody> all, std::vector<Contact> those)
+    : contacts(std::move(those)) {
+  std::vector<int> local(all.size(), -1);
+  for (Contact& c : contacts)
+    for (int* i : {&c.a, &c.b}) {
+      if (local[*i] < 0) {
+        local[*i] = static_cast<int>(bodies.size());
+        global.push_back(*i);
+        bodies.push_back(all[*i]);
+      }
+      *i = local[*i];
     }
-    return local[i];
-  };
-  std::vector<Contact> contacts = resting;
-  for (Contact& c : contacts) {
-    c.a = place(c.a);
-    c.b = place(c.b);
+}
+
+}  // namespace
+
+double Exact::solveForces(std::vector<Contact>& resting) {
+  Held held(state_.bodies, resting);
+  for (std::size_t k = 0; k < held.bodies.size(); ++k) {
+    held.bodies[k].force = state_.outer[held.global[k]];
+    held.bodies[k].torque.setZero();
   }
-  const SolveReport solved = RestForces(kNoPull, true).apply(bodies, contacts);
+  const SolveReport solved = RestForces(kNoPull, true).apply(held.bodies, held.contacts);
   ++report_.certificate.evaluations;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    state_.bodies[global[k]].force = bodies[k].force;
-    state_.bodies[global[k]].torque = bodies[k].torque;
+  for (std::size_t k = 0; k < held.bodies.size(); ++k) {
+    state_.bodies[held.global[k]].force = held.bodies[k].force;
+    state_.bodies[held.global[k]].torque = held.bodies[k].torque;
   }
-  for (std::size_t k = 0; k < resting.size(); ++k) resting[k].force = contacts[k].force;
+  for (std::size_t k = 0; k < resting.size(); ++k) resting[k].force = held.contacts[k].force;
   return solved.residual;
 }
 
@@ -134,21 +150,10 @@ void Exact::stillNormals(const std::vector<Contact>& resting) {
     return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) == 0.0;
   });
   if (still) return;
-  std::vector<RigidBody> bodies;
-  std::vector<int> local(state_.bodies.size(), -1), global;
-  std::vector<Contact> contacts = resting;
-  for (Contact& c : contacts)
-    for (int* i : {&c.a, &c.b}) {
-      if (local[*i] < 0) {
-        local[*i] = static_cast<int>(bodies.size());
-        global.push_back(*i);
-        bodies.push_back(state_.bodies[*i]);
-      }
-      *i = local[*i];
-    }
-  const std::vector<Vec3> impulses = ModeForces().still(bodies, contacts);
-  for (std::size_t k = 0; k < bodies.size(); ++k)
-    if (!bodies[k].fixed()) state_.bodies[global[k]] = bodies[k];
+  Held held(state_.bodies, resting);
+  const std::vector<Vec3> impulses = ModeForces().still(held.bodies, held.contacts);
+  for (std::size_t k = 0; k < held.bodies.size(); ++k)
+    if (!held.bodies[k].fixed()) state_.bodies[held.global[k]] = held.bodies[k];
   for (std::size_t k = 0; k < resting.size(); ++k) {
     if (model_.fixed(resting[k].b)) state_.externalImpulse += impulses[k];
     if (model_.fixed(resting[k].a)) state_.externalImpulse -= impulses[k];
@@ -188,7 +193,7 @@ void Exact::hold(double t, Cluster& cluster) {
   double& worst = report_.certificate.max_complementarity;
   const double residual = findForces(t, cluster, resting);
   worst = std::max(worst, residual);
-  if (residual > kUnsolved)
+  if (residual > kLawless)
     return stop("no forces were found at t = " + digits(t) +
                 " s that obey the laws of contact and friction: what slides may jam there; try "
                 "method \"stepping\", or less friction");
