@@ -4,10 +4,32 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/body/mass_properties.h"
+
 namespace tumble {
 
 bool moves(const BodyDef& body) {
   return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
+}
+
+std::vector<RigidBody> bodiesAt(const WorldDef& world, const Sample& sample) {
+  std::vector<RigidBody> bodies;
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    const BodySample& at = sample.bodies[i];
+    const BodyDef& def = world.bodies[i];
+    if (!moves(def)) {
+      bodies.push_back(makeFixedBody({at.x, at.q}, at.v, at.omega));
+      continue;
+    }
+    const bool particle = std::holds_alternative<Particle>(def.shape);
+    RigidBody& body =
+        bodies.emplace_back(particle ? makeParticle(bodyMass(def)) : makeBody(massOf(def)));
+    body.x = at.x;
+    body.q = at.q;
+    updateDerived(body);
+    setVelocity(body, at.v, at.omega);
+  }
+  return bodies;
 }
 
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body) {

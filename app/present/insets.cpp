@@ -10,7 +10,6 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/palette.h"
-#include "sim/body/mass_properties.h"
 #include "sim/contact/rows.h"
 #include "sim/problem/delassus.h"
 
@@ -21,25 +20,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr Colour kBelow = hex(0x2E6299), kZero = hex(0xF1F0EE), kAbove = hex(0xC4622D);
-
-// A body as it is in a sample, without forces.
-RigidBody bodyAt(const BodyDef& def, const BodySample& sample) {
-  if (!moves(def)) return makeFixedBody({sample.x, sample.q}, sample.v, sample.omega);
-  RigidBody body = std::holds_alternative<Particle>(def.shape) ? makeParticle(bodyMass(def))
-                                                               : makeBody(massOf(def));
-  body.x = sample.x;
-  body.q = sample.q;
-  updateDerived(body);
-  setVelocity(body, sample.v, sample.omega);
-  return body;
-}
-
-std::vector<RigidBody> bodiesAt(const Scene& scene, const Sample& sample) {
-  std::vector<RigidBody> bodies;
-  for (std::size_t i = 0; i < sample.bodies.size(); ++i)
-    bodies.push_back(bodyAt(scene.world.bodies[i], sample.bodies[i]));
-  return bodies;
-}
 
 void addShape(Flat form, const Vector2d& from, const Vector2d& to, double width,
               const Colour& colour, Picture& picture) {
@@ -179,7 +159,7 @@ void addDot(const Axes& axes, const PairState& state, Picture& picture) {
 }  // namespace
 
 MatX contactMatrix(const Scene& scene, const Sample& sample) {
-  const std::vector<RigidBody> bodies = bodiesAt(scene, sample);
+  const std::vector<RigidBody> bodies = bodiesAt(scene.world, sample);
   Problem problem;
   beginAccelerationProblem(bodies, problem);
   for (const ContactSample& c : sample.contacts) {
@@ -190,7 +170,7 @@ MatX contactMatrix(const Scene& scene, const Sample& sample) {
 }
 
 std::vector<double> contactAccelerations(const Scene& scene, const Sample& sample) {
-  std::vector<RigidBody> bodies = bodiesAt(scene, sample);
+  std::vector<RigidBody> bodies = bodiesAt(scene.world, sample);
   sumForces(scene.world.gravity, scene.world.forces, bodies);
   for (const ContactSample& c : sample.contacts) {
     applyForce(bodies[c.a], c.p, c.force);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/claim/free_body.h"
 #include "app/record/recording.h"
 #include "app/report/cost.h"
 #include "sim/contact/rows.h"
@@ -17,29 +18,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostRows = 400;  // a dense solver would take minutes for more
 
-/// Bodies of a model where a sample has them.
-std::vector<RigidBody> bodiesAt(const Model& model, const Sample& sample) {
-  std::vector<RigidBody> bodies;
-  for (int i = 0; i < model.count(); ++i) {
-    const BodySample& at = sample.bodies[i];
-    if (model.fixed(i)) {
-      bodies.push_back(makeFixedBody({at.x, at.q}, at.v, at.omega));
-      continue;
-    }
-    const BodyDef& def = model.def.bodies[i];
-    const bool particle = std::holds_alternative<Particle>(def.shape);
-    RigidBody body = particle ? makeParticle(bodyMass(def)) : makeBody(massOf(def));
-    body.x = at.x;
-    body.q = at.q;
-    updateDerived(body);
-    setVelocity(body, at.v, at.omega);
-    bodies.push_back(body);
-  }
-  return bodies;
-}
-
 Problem stepProblem(const Model& model, const Sample& sample, double h) {
-  const std::vector<RigidBody> bodies = bodiesAt(model, sample);
+  const std::vector<RigidBody> bodies = bodiesAt(model.def, sample);
   Problem problem;
   beginVelocityProblem(bodies, problem);
   for (int i = 0; i < model.count(); ++i)
