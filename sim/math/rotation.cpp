@@ -116,8 +116,7 @@ Quat turnBetween(const Vec3& from, const Vec3& to) {
     return Quat(1.0 + u.dot(v), axis.x(), axis.y(), axis.z()).normalized();
   };
   if (a.dot(b) >= 0.0) return acute(a, b);
-  // Half a turn takes a to −a, from where the way is short. Its axis is cleared of its part along
-  // a.
+  // Half a turn takes a to −a, from where the way is short. Its axis is cleared of what is along a.
   Vec3 across = a.cross(b);
   across -= a * a.dot(across);
   const double size = across.norm();
