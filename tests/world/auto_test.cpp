@@ -11,15 +11,8 @@ using namespace tumble::scenes;
 
 namespace {
 
-WorldDef worldOf(double duration, std::vector<BodyDef> bodies) {
-  WorldDef def;
-  def.duration = duration;
-  def.bodies = std::move(bodies);
-  return def;
-}
-
 WorldDef tower(int n) {
-  WorldDef def = worldOf(1.0, {ground(0.0, 0.5)});
+  WorldDef def = worldOf("auto", 1.0, {ground(0.0, 0.5)});
   for (int i = 0; i < n; ++i)
     def.bodies.push_back(
         box("box" + std::to_string(i), {0.5, 0.5, 0.5}, {0.1, 0.25 + 0.5 * i, -0.3}, 0.0, 0.5));
@@ -28,7 +21,7 @@ WorldDef tower(int n) {
 
 /// Balls that fly about, with or without a floor to fall on.
 WorldDef balls(int n, bool floor) {
-  WorldDef def = worldOf(1.0, {});
+  WorldDef def = worldOf("auto", 1.0, {});
   if (floor) def.bodies.push_back(ground(0.5, 0.3));
   for (int i = 0; i < n; ++i) {
     def.bodies.push_back(ball("ball" + std::to_string(i), 0.1, {0.5 * i, 1.0, 0.0}, 0.5, 0.3));
@@ -38,14 +31,14 @@ WorldDef balls(int n, bool floor) {
 }
 
 WorldDef sprung(bool floor) {
-  WorldDef def = worldOf(1.0, {ball("ball", 0.1, {0.0, 1.0, 0.0})});
+  WorldDef def = worldOf("auto", 1.0, {ball("ball", 0.1, {0.0, 1.0, 0.0})});
   if (floor) def.bodies.push_back(ground());
   def.forces = {Spring{.a = 0, .stiffness = 50.0, .rest = 0.5}};
   return def;
 }
 
 WorldDef pendulums(int n) {
-  WorldDef def = worldOf(1.0, {});
+  WorldDef def = worldOf("auto", 1.0, {});
   for (int i = 0; i < n; ++i) {
     def.bodies.push_back(box("rod" + std::to_string(i), {0.1, 1.0, 0.1}, {2.0 * i, 0.0, 0.0}));
     const Vec3 pin(2.0 * i, 0.5, 0.0);
@@ -61,7 +54,7 @@ WorldDef pendulums(int n) {
 /// Boxes that tumble onto a floor, where each rattles, slides and tips.
 WorldDef tumbling(int n, std::uint64_t seed, double duration) {
   test::Draw draw(seed);
-  WorldDef def = worldOf(duration, {ground(0.2, 0.4)});
+  WorldDef def = worldOf("auto", duration, {ground(0.2, 0.4)});
   for (int i = 0; i < n; ++i) {
     const double y = draw(0.5, 1.5), x = draw(-1.0, 1.0), z = draw(-1.0, 1.0), w = draw(-1.0, 1.0);
     BodyDef b = box("box" + std::to_string(i), {0.2, 0.15, 0.3}, {0.6 * i, y, 0.0}, 0.2, 0.4);
@@ -74,7 +67,7 @@ WorldDef tumbling(int n, std::uint64_t seed, double duration) {
 /// Balls one above the other in a shaft of half a metre's width.
 WorldDef shaft(int n, std::uint64_t seed, double duration) {
   test::Draw draw(seed);
-  WorldDef def = worldOf(duration, {ground(0.2, 0.4)});
+  WorldDef def = worldOf("auto", duration, {ground(0.2, 0.4)});
   for (int k = 0; k < 4; ++k) {
     BodyDef wall = ground(0.2, 0.4);
     wall.name = "wall" + std::to_string(k);
@@ -177,7 +170,7 @@ TEST_CASE("auto goes on by stepping where the exact method gives up") {
 TEST_CASE("where sliding jams at once, exact stops and says so, and auto goes on by stepping") {
   for (const double mu : {2.0, 3.0, 10.0}) {
     CAPTURE(mu);
-    WorldDef def = worldOf(1.0, {ground(0.0, mu)});
+    WorldDef def = worldOf("auto", 1.0, {ground(0.0, mu)});
     def.bodies.push_back(box("cube", {0.2, 0.2, 0.2}, {0.0, 0.1, 0.0}, 0.0, mu));
     def.bodies[1].velocity = {1.0, 0.0, 0.0};
     World either(def);

@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "sim/math/rotation.h"
-#include "sim/world.h"
+#include "tests/world/scenes.h"
 
 namespace {
 
@@ -14,20 +13,13 @@ using namespace tumble;
 enum Kind { Boxes, Balls, Tower };
 
 WorldDef sceneOf(Kind kind, int n) {
-  WorldDef def;
-  def.duration = 0.5;
-  BodyDef floor;
-  floor.name = "floor";
-  floor.shape = HalfSpace{};
-  floor.fixed = true;
-  floor.restitution = 0.2;
-  floor.friction = 0.4;
-  def.bodies = {floor};
+  const double restitution = kind == Tower ? 0.0 : 0.2;
+  WorldDef def = scenes::worldOf("auto", 0.5, {scenes::ground(restitution, 0.4)});
   for (int i = 0; i < n; ++i) {
     BodyDef body;
     body.name = "body." + std::to_string(i);
     body.mass = 1.0;
-    body.restitution = kind == Tower ? 0.0 : 0.2;
+    body.restitution = restitution;
     body.friction = 0.4;
     body.shape = kind == Balls ? Shape(Sphere{0.1}) : Shape(Box{{0.25, 0.25, 0.25}});
     body.position = kind == Tower ? Vec3(0.0, 0.25 + 0.5 * i, 0.0)
@@ -35,7 +27,6 @@ WorldDef sceneOf(Kind kind, int n) {
     if (kind == Boxes) body.orientation = fromAxisAngle({1.0, 0.3 * i, 0.5}, 0.4 + 0.3 * i);
     def.bodies.push_back(body);
   }
-  def.bodies[0].restitution = kind == Tower ? 0.0 : 0.2;
   return def;
 }
 

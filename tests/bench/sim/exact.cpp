@@ -11,7 +11,7 @@
 #include "sim/math/root.h"
 #include "sim/math/rotation.h"
 #include "sim/method/exact/approach.h"
-#include "sim/world.h"
+#include "tests/world/scenes.h"
 
 namespace {
 
@@ -156,15 +156,7 @@ void sampledTouch(benchmark::State& state, bool floor) {
 
 /// 49 elastic balls that fall on a floor, 20 s, the energy read 60 times a second.
 void bouncing(benchmark::State& state) {
-  WorldDef def;
-  def.method = "exact";
-  def.duration = 20.0;
-  BodyDef ground;
-  ground.name = "ground";
-  ground.shape = HalfSpace{};
-  ground.fixed = true;
-  ground.restitution = 1.0;
-  def.bodies = {ground};
+  WorldDef def = scenes::worldOf("exact", 20.0, {scenes::ground(1.0)});
   for (int i = 0; i < 49; ++i) {
     BodyDef ball;
     ball.name = "ball." + std::to_string(i);

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sim/world.h"
+#include "tests/world/scenes.h"
 
 namespace {
 
@@ -19,15 +19,8 @@ constexpr Stack kStacks[] = {
     {1, 10, 1, false}, {6, 6, 6, false}, {6, 6, 6, true}, {10, 10, 10, true}};
 
 WorldDef stackOf(const Stack& stack, double speed) {
-  WorldDef def;
-  def.method = "stepping";
-  def.duration = 1e6;
-  BodyDef ground;
-  ground.name = "ground";
-  ground.shape = HalfSpace{};
-  ground.fixed = true;
-  ground.friction = speed > 0.0 ? 0.0 : 0.5;
-  def.bodies = {ground};
+  const double friction = speed > 0.0 ? 0.0 : 0.5;
+  WorldDef def = scenes::worldOf("stepping", 1e6, {scenes::ground(0.0, friction)});
   for (int y = 0; y < stack.ny; ++y)
     for (int x = 0; x < stack.nx; ++x)
       for (int z = 0; z < stack.nz; ++z) {
