@@ -33,6 +33,16 @@ double along(const Row& row, std::span<const Vec6> v) {
   return u;
 }
 
+/// J v̇ of a row [m/s², rad/s²] while its bodies turn freely: ω̇ = −I⁻¹ (ω × L).
+double rotorRate(std::span<const RigidBody> bodies, const Row& row) {
+  const auto rate = [&](int i, const Vec3& angular) {
+    if (i >= static_cast<int>(bodies.size()) || bodies[i].fixed() || bodies[i].particle) return 0.0;
+    const RigidBody& body = bodies[i];
+    return -angular.dot(body.Iinv * body.omega.cross(body.L));
+  };
+  return rate(row.a, row.angularA) + rate(row.b, row.angularB);
+}
+
 void addRow(const JointRow& found, double bias, int joint, Bonds& bonds) {
   Row row = found.row;
   row.bias = bias;
@@ -64,7 +74,7 @@ void stepBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
   constexpr double kNear = 0.5;  // share of a limit's gap that a step may use up unseen
   bonds.clear();
   forRows(bodies, joints, [&](int joint, const JointRow& row) {
-    const double bias = row.gap / h + 0.5 * h * row.row.bias;
+    const double bias = row.gap / h + 0.5 * h * (row.row.bias + rotorRate(bodies, row.row));
     if (row.limit >= 0 && bias + along(row.row, vStar) > kNear * row.gap / h && row.gap > 0.0)
       return;
     addRow(row, bias, joint, bonds);

@@ -22,9 +22,10 @@ void impactBonds(std::span<const RigidBody> bodies, std::span<const Joint> joint
                  Bonds& bonds);
 
 /// The rows of all joints for a step that moves bodies with the velocities at its end:
-///   gap + h J v⁺ + ½ h² J̇ v = 0,   of a limit ≥ 0
-/// so that after the step gaps are zero but for terms in h³. Limits that no body comes near in the
-/// step are left out.
+///   gap + h J v⁺ + ½ h² (J̇ v + J v̇) = 0,   of a limit ≥ 0
+/// with v̇ of bodies that turn freely, ω̇ = −I⁻¹ (ω × L), so that after the step gaps are zero but
+/// for terms in h³. Velocities should be what the joints allow: a slender body amplifies what they
+/// do not. Limits that no body comes near in the step are left out.
 /// @param vStar  velocities at the end of the step without λ
 void stepBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
                std::span<const Vec6> vStar, double h, Bonds& bonds);

@@ -1,4 +1,10 @@
-// What joints gave to the bodies in a step, for the books and for those who look.
+// Joints in a step: velocities that they allow, how fast they swing, what they gave to the bodies.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/contact/rows.h"
+#include "sim/joint/swing.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -17,6 +23,48 @@ void Stepping::bookJoints(double h) {
     report_.certificate.energy_lost_impact -= bonds_.lambda[i] * rate;
   }
   state_.trail.back().joints = jointForces(state_.trail.back().start, model_.joints, bonds_, h);
+}
+
+const Joint* Stepping::brokenJoint() const {
+  constexpr double kApart = 0.1;  // of the arm of a joint: what its rows no longer close
+  for (const Joint& joint : model_.joints)
+    if (!(largestJointGap(state_.bodies, {&joint, 1}) < kApart * joint.arm)) return &joint;
+  return nullptr;
+}
+
+void Stepping::meetJoints(double h) {
+  if (model_.joints.empty()) return;
+  const double noLimit = -std::numeric_limits<double>::infinity();
+  impactBonds(state_.bodies, model_.joints, noLimit, bonds_);
+  beginVelocityProblem(state_.bodies, problem_);
+  appendBonds(bonds_, problem_);
+  solution_.lambda.clear();
+  solution_.v.clear();
+  solveByIslands(solver_, problem_, {.tolerance = model_.def.stepping.tolerance}, solution_);
+  readBonds(solution_.lambda, 0, bonds_);
+  const OuterBonds outer = outerBonds(bonds_, state_.bodies);
+  state_.externalImpulse += outer.force;
+  report_.certificate.work_of_forces += outer.power;
+  const std::vector<JointForce> forces = jointForces(state_.bodies, model_.joints, bonds_, h);
+  addBondImpulses(bonds_, state_.bodies);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    JointForce& sum = state_.trail.back().joints[k];
+    sum.force += forces[k].force;
+    sum.torque += forces[k].torque;
+  }
+}
+
+void Stepping::divideNext(double h) {
+  constexpr double kSwing = 0.5;  // [rad] of the fastest swing in a part
+  constexpr int kMostParts = 1000;
+  if (model_.joints.empty()) return;
+  const double fastest = fastestSwing(state_.bodies, model_.joints, state_.trail.back().joints,
+                                      solver_, kSwing / h, memory_.swing);
+  memory_.parts =
+      static_cast<int>(std::clamp(std::ceil(h * fastest / kSwing), 1.0, double{kMostParts}));
+  if (memory_.parts > 1)
+    report_.note(
+        "steps were divided: what joints hold swings fast under the loads that they carry");
 }
 
 }  // namespace tumble

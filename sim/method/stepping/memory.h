@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/contact/contact.h"
+#include "sim/joint/swing.h"
 #include "sim/problem/problem.h"
 
 namespace tumble {
@@ -49,6 +50,8 @@ struct SteppingMemory {
   std::vector<PairMemory> pairs;      ///< as State::near
   std::vector<IslandMemory> islands;  ///< by the first of their bodies
   std::vector<Contact> lasting;       ///< the first lasting contact of each pair that has one
+  int parts = 1;                      ///< equal ones that the next step is made in
+  Swing swing;                        ///< the fastest in joints
   long looks = 0;
   long asked = 0;  ///< looks up to which pairs were asked whether they meet at a seam
 };

@@ -40,26 +40,38 @@ bool Stepping::finite() const {
   });
 }
 
-void Stepping::stop() {
+void Stepping::stop(const std::string& what) {
   report_.stopped = true;
-  report_.reason = "the motion left the range of numbers; try a smaller stepping.step";
+  report_.reason = what + "; try a smaller stepping.step";
   state_.bodies = state_.trail.back().start;
   state_.trail.pop_back();
 }
 
 void Stepping::step() {
-  const double t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
-  const double h = lengthTo(t1);
-  beginSegment(t1);
+  const double t0 = state_.t, t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
+  const double whole = lengthTo(t1), h = whole / memory_.parts;
+  for (int k = 1; k <= memory_.parts && !report_.stopped; ++k)
+    stepTo(k == memory_.parts ? t1 : t0 + k * h, h);
+  if (report_.stopped) return;
+  ++state_.gridIndex;
+  divideNext(whole);
+}
 
+void Stepping::stepTo(double t1, double h) {
+  beginSegment(t1);
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
   findTouching(h);
   solveIslands(h);
   applyTwists(h);
   recordEvents(t1);
   moveBodies(h);
-  if (!finite()) return stop();
+  if (!finite()) return stop("the motion left the range of numbers");
   project();
+  if (const Joint* open = brokenJoint()) {
+    const std::string& name = model_.def.joints[open - model_.joints.data()].name;
+    return stop("joint \"" + name + "\" came apart");
+  }
+  meetJoints(h);
   endSegment(t1);
 }
 
@@ -96,7 +108,6 @@ void Stepping::endSegment(double t1) {
   Segment& segment = state_.trail.back();
   segment.end = state_.bodies;
   state_.t = t1;
-  ++state_.gridIndex;
   ++report_.certificate.steps;
   ++report_.certificate.evaluations;
   account(model_, state_, report_);
@@ -122,16 +133,19 @@ void Stepping::applyTwists(double h) {
   books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, state_.bodies));
 }
 
-void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {
-  // The parabola, where the force is constant; a spring must not be met with the mean velocity,
-  // which would feed its oscillation.
+bool Stepping::sprung(const RigidBody& body) const {
   const auto pulls = [&](const Force& force) {
     const Spring* spring = std::get_if<Spring>(&force);
     return spring && (&state_.bodies[spring->a] == &body ||
                       (spring->b != kNoBody && &state_.bodies[spring->b] == &body));
   };
-  const bool sprung = std::any_of(model_.def.forces.begin(), model_.def.forces.end(), pulls);
-  body.x += sprung ? Vec3(h * body.v) : Vec3(0.5 * h * (before + body.v));
+  return std::any_of(model_.def.forces.begin(), model_.def.forces.end(), pulls);
+}
+
+void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {
+  // The parabola, where the force is constant; a spring must not be met with the mean velocity,
+  // which would feed its oscillation.
+  body.x += sprung(body) ? Vec3(h * body.v) : Vec3(0.5 * h * (before + body.v));
   turn(body, body.L - 0.5 * h * body.torque, h);
 }
 
@@ -161,8 +175,8 @@ void Stepping::moveBodies(double h) {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
     } else if (touched_[i]) {  // with the velocity that the contact problem found
-      body.x += h * body.v;
-      turn(body, body.L, h);
+      body.x += h * (body.v - later_[i] * body.invM * body.force);
+      turn(body, body.L - later_[i] * body.torque, h);
     } else {
       coast(body, before_[i].head<3>(), h);
     }

@@ -1,9 +1,12 @@
 // Time stepping after Moreau: each step solves one contact problem for the velocities at its end,
 //   M (v⁺ − v) = h F + Jᵀ λ,   u_n ≥ −separation/h,  λ_n ≥ 0, complementary, Coulomb's cone,
-// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity.
+// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. Bodies that
+// joints alone hold go by RATTLE (Andersen, 1983): half of what forces give comes after the move,
+// and then velocities are what the joints allow.
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sim/joint/joint_bonds.h"
@@ -30,11 +33,12 @@ class Stepping {
   /// of a joint.
   using Link = int;
 
+  void stepTo(double t1, double h);
   double lengthTo(double t1) const;
   void beginSegment(double t1);
   void endSegment(double t1);
   bool finite() const;
-  void stop();
+  void stop(const std::string& what);
 
   // touching.cpp: which pairs are near, and where they touch.
   void findTouching(double h);
@@ -56,6 +60,7 @@ class Stepping {
   Row& bondOf(Link link) { return bonds_.rows[link - state_.near.size()]; }
   void solveIsland(std::span<const Link> links, double h);
   void collectBodies(std::span<const Link> links);
+  void swing(std::span<const Link> links, double h);
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);
@@ -66,10 +71,17 @@ class Stepping {
 
   // joined.cpp
   void bookJoints(double h);
+  /// Takes from the velocities what the joints do not allow where they now are.
+  void meetJoints(double h);
+  /// A joint whose parts lie so far apart that no projection brings them together, or null.
+  const Joint* brokenJoint() const;
+  /// How many parts the next step needs for what swings fast in joints.
+  void divideNext(double h);
 
   // stepping.cpp: the bodies.
   void applyTwists(double h);
   void moveBodies(double h);
+  bool sprung(const RigidBody& body) const;
   /// Free flight of one body through a step; `before` is its velocity [m/s] at the start.
   void coast(RigidBody& body, const Vec3& before, double h) const;
   /// Turns a body for h seconds with the angular momentum L [kg m²/s].
@@ -112,6 +124,8 @@ class Stepping {
   std::vector<Vec6> before_, star_, after_;  ///< per body: twists at both ends of the step, and
                                              ///< what they would be without contacts
   std::vector<char> touched_;                ///< per body: a contact pushed it in this step
+  std::vector<double> later_;                ///< per body that was pushed: the time [s] for which
+                                             ///< forces act after it has moved
   std::vector<Contact> lasting_;
   bool allKept_ = false;
 };

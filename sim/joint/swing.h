@@ -1,0 +1,30 @@
+// Chapter 8, joint: how fast what joints hold can swing under the forces that they carry.
+#pragma once
+
+#include "sim/joint/joint.h"
+#include "sim/problem/problem.h"
+
+namespace tumble {
+
+/// What was found of the fastest swing when it was last looked for.
+struct Swing {
+  double bound = 0.0;   ///< [1/s²] its square is no higher, whatever holds the bodies; 0: never
+  double square = 0.0;  ///< [1/s²]
+};
+
+/// The highest frequency [rad/s] at which jointed bodies swing, or fall over, while the forces of
+/// their joints keep their sizes and directions:
+///   ω² = max |vᵀ K v| / vᵀ M v  over all v with J v = 0
+/// where K is the geometric stiffness, (f·r) 1 − (f rᵀ + r fᵀ)/2 for the turn of a body under a
+/// force f at r from its centre, and tension/length across a rod or rope. Andrews, Teichmann and
+/// Kry, Geometric stiffness for real-time constrained multibody dynamics (2017), §3. Departures:
+/// torques of joints are left out, and the frequency alone is used. By power iteration, whose
+/// values come from below.
+/// @param forces   of the joints now
+/// @param atLeast  [rad/s] a frequency that is surely lower is told as 0
+/// @param last     what was found before: where stiffness has hardly changed since, it is scaled
+double fastestSwing(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                    std::span<const JointForce> forces, const Solver& solver, double atLeast,
+                    Swing& last);
+
+}  // namespace tumble
