@@ -5,6 +5,7 @@
 
 #include "sim/problem/last_resort.h"
 #include "sim/problem/newton_system.h"
+#include "sim/problem/single.h"
 #include "sim/problem/solvers.h"
 
 namespace tumble {
@@ -238,6 +239,7 @@ void Newton::takeLambda(const Problem& problem, Solution& solution, SolveReport&
 }  // namespace
 
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution) {
+  if (const auto single = solveSingle(problem, settings.tolerance, solution)) return *single;
   thread_local Newton newton;  // keeps its memory from call to call
   const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {
     return newton.solve(p, to, answer);
