@@ -64,12 +64,15 @@ double gridTime(const Model& model, long k, double h) {
 }
 
 void trimTrail(State& state, double t) {
-  const auto gone = std::stable_partition(state.trail.begin(), state.trail.end(),
-                                          [&](const Segment& s) { return s.t1 >= t; });
   constexpr std::size_t kSpare = 64;
-  for (auto s = gone; s != state.trail.end() && state.spareTrail.size() < kSpare; ++s)
-    state.spareTrail.push_back(std::move(*s));
-  state.trail.erase(gone, state.trail.end());
+  std::size_t kept = 0;
+  for (Segment& segment : state.trail) {
+    if (segment.t1 >= t)
+      std::swap(state.trail[kept++], segment);
+    else if (state.spareTrail.size() < kSpare)
+      state.spareTrail.push_back(std::move(segment));
+  }
+  state.trail.resize(kept);
 }
 
 void account(const Model& model, State& state, Report& report) {

@@ -64,7 +64,7 @@ void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
 void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pair<int, int> pair,
                   double margin, std::vector<Contact>& contacts) {
   const auto [b, a] = pair;
-  Manifold manifold;
+  thread_local Manifold manifold;  // keeps its storage from call to call
   collide(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose(), margin, manifold);
   const Surface surface = model.surface(a, b);
   for (const ContactPoint& point : manifold) {

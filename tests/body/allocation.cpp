@@ -1,32 +1,11 @@
-// A step allocates nothing once warm. This program counts its allocations.
-#include <cstdlib>
-#include <new>
+// A step allocates nothing once warm.
 #include <vector>
 
 #include "sim/body/body_system.h"
 #include "sim/ode/integrator.h"
+#include "tests/allocations.h"
 #include "tests/body/bodies.h"
 #include "tests/catch.h"
-
-namespace {
-long allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 using namespace tumble;
 using namespace tumble::test;
@@ -48,9 +27,9 @@ TEST_CASE("no integrator allocates in a step once warm") {
     system.toArray(y);
     stepper->step(system, 0.0, 0.1, y);
     system.toArray(y);
-    const long before = allocations;
+    const long before = test::allocations;
     stepper->step(system, 0.0, 0.1, y);
-    const long after = allocations;
+    const long after = test::allocations;
     CAPTURE(row.name);
     CHECK(after == before);
   }

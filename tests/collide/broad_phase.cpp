@@ -1,30 +1,11 @@
 // Chapter 5, collide: every row of the table of broad phases against looking at every pair.
 #include "sim/collide/broad_phase.h"
 
-#include <cstdlib>
 #include <limits>
-#include <new>
 
+#include "tests/allocations.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
-
-namespace {
-long allocations = 0;
-}
-
-// This program counts its allocations. GCC 12 takes the free of an inlined delete for a mismatch.
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 namespace tumble {
 namespace {
@@ -320,12 +301,12 @@ TEST_CASE("no broad phase allocates once warm") {
     broadPhase.update(again.now);
     swarm = again;
     broadPhase.update(swarm.now);
-    const long before = allocations;
+    const long before = test::allocations;
     for (int k = 0; k < 50; ++k) {
       swarm.step();
       broadPhase.update(swarm.now);
     }
-    CHECK(allocations == before);
+    CHECK(test::allocations == before);
   }
 }
 

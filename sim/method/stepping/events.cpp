@@ -41,7 +41,7 @@ void Stepping::recordImpact(double t, const PairMemory& pair) {
 void Stepping::recordEvents(double t) {
   Segment& segment = state_.trail.back();
   const std::size_t firstEvent = report_.events.size();
-  lasting_.clear();
+  work_.lasting.clear();
   segment.contacts.clear();
   for (PairMemory& pair : memory_.pairs) {
     const Contact* lasting = nullptr;
@@ -59,11 +59,11 @@ void Stepping::recordEvents(double t) {
       touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
       touch.arrivalSpeed = arriving ? touch.approach : 0.0;
     }
-    if (lasting && !rebounds) lasting_.push_back(*lasting);
+    if (lasting && !rebounds) work_.lasting.push_back(*lasting);
   }
   if (allKept_) return;
-  std::swap(lasting_, memory_.lasting);
-  recordLasting(lasting_, t);
+  std::swap(work_.lasting, memory_.lasting);
+  recordLasting(work_.lasting, t);
   sortEvents(report_, firstEvent);
 }
 

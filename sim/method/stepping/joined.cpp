@@ -10,19 +10,20 @@
 namespace tumble {
 
 void Stepping::bookJoints(double h) {
-  const OuterBonds outer = outerBonds(bonds_, state_.bodies);
+  const OuterBonds outer = outerBonds(work_.bonds, state_.bodies);
   state_.externalImpulse += outer.force;
   report_.certificate.work_of_forces += outer.power;
-  for (std::size_t i = 0; i < bonds_.rows.size(); ++i) {
-    const Row& row = bonds_.rows[i];
-    if (bonds_.kinds[i] != ConeKind::Push) continue;
+  for (std::size_t i = 0; i < work_.bonds.rows.size(); ++i) {
+    const Row& row = work_.bonds.rows[i];
+    if (work_.bonds.kinds[i] != ConeKind::Push) continue;
     // A limit takes λ times the mean of the rates before and after.
     double rate = 0.0;
-    for (const std::vector<Vec6>* v : {&before_, &after_})
+    for (const std::vector<Vec6>* v : {&work_.before, &work_.after})
       rate += 0.5 * rowSpeed(row, (*v)[row.a], (*v)[row.b]);
-    report_.certificate.energy_lost_impact -= bonds_.lambda[i] * rate;
+    report_.certificate.energy_lost_impact -= work_.bonds.lambda[i] * rate;
   }
-  state_.trail.back().joints = jointForces(state_.trail.back().start, model_.joints, bonds_, h);
+  state_.trail.back().joints =
+      jointForces(state_.trail.back().start, model_.joints, work_.bonds, h);
 }
 
 const Joint* Stepping::brokenJoint() const {
@@ -35,18 +36,19 @@ const Joint* Stepping::brokenJoint() const {
 void Stepping::meetJoints(double h) {
   if (model_.joints.empty()) return;
   const double noLimit = -std::numeric_limits<double>::infinity();
-  impactBonds(state_.bodies, model_.joints, noLimit, bonds_);
-  beginVelocityProblem(state_.bodies, problem_);
-  appendBonds(bonds_, problem_);
-  solution_.lambda.clear();
-  solution_.v.clear();
-  solveByIslands(solver_, problem_, {.tolerance = model_.def.stepping.tolerance}, solution_);
-  readBonds(solution_.lambda, 0, bonds_);
-  const OuterBonds outer = outerBonds(bonds_, state_.bodies);
+  impactBonds(state_.bodies, model_.joints, noLimit, work_.bonds);
+  beginVelocityProblem(state_.bodies, work_.problem);
+  appendBonds(work_.bonds, work_.problem);
+  work_.solution.lambda.clear();
+  work_.solution.v.clear();
+  solveByIslands(solver_, work_.problem, {.tolerance = model_.def.stepping.tolerance},
+                 work_.solution);
+  readBonds(work_.solution.lambda, 0, work_.bonds);
+  const OuterBonds outer = outerBonds(work_.bonds, state_.bodies);
   state_.externalImpulse += outer.force;
   report_.certificate.work_of_forces += outer.power;
-  const std::vector<JointForce> forces = jointForces(state_.bodies, model_.joints, bonds_, h);
-  addBondImpulses(bonds_, state_.bodies);
+  const std::vector<JointForce> forces = jointForces(state_.bodies, model_.joints, work_.bonds, h);
+  addBondImpulses(work_.bonds, state_.bodies);
   for (std::size_t k = 0; k < forces.size(); ++k) {
     JointForce& sum = state_.trail.back().joints[k];
     sum.force += forces[k].force;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/contact/bonds.h"
 #include "sim/contact/contact.h"
 #include "sim/joint/swing.h"
 #include "sim/problem/problem.h"
@@ -46,12 +47,34 @@ struct IslandMemory {
   IslandBooks books;
 };
 
+/// What a step works with and then forgets; kept for the sake of its storage.
+struct SteppingWork {
+  std::vector<Aabb> boxes;
+  std::vector<std::pair<int, int>> near;
+  std::vector<PairMemory> passed;
+  std::vector<Contact> found;
+  std::vector<int> crossing;              ///< pairs that may meet at a seam
+  std::vector<std::vector<int>> holders;  ///< per body: the pairs that touch and may hold it
+  Bonds bonds;                            ///< rows of joints
+  std::vector<int> root, order, begin;    ///< of islands: forest of bodies; links by island
+  std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
+  std::vector<int> movers;
+  Problem problem;
+  Solution solution;
+  /// Per body: twists at both ends of the step, and what they would be without contacts.
+  std::vector<Vec6> before, star, after;
+  std::vector<char> touched;  ///< per body: a contact pushed it in this step
+  std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
+  std::vector<Contact> lasting;
+};
+
 struct SteppingMemory {
   std::vector<PairMemory> pairs;      ///< as State::near
   std::vector<IslandMemory> islands;  ///< by the first of their bodies
   std::vector<Contact> lasting;       ///< the first lasting contact of each pair that has one
   int parts = 1;                      ///< equal ones that the next step is made in
   Swing swing;                        ///< the fastest in joints
+  SteppingWork work;
   long looks = 0;
   long asked = 0;  ///< looks up to which pairs were asked whether they meet at a seam
 };

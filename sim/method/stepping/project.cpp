@@ -38,31 +38,32 @@ void Stepping::lift() {
   // Displacements obey the problem of the velocities with the gap as bias:
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
-  beginVelocityProblem(state_.bodies, problem_);
-  for (Vec6& v : problem_.vStar) v.setZero();
+  beginVelocityProblem(state_.bodies, work_.problem);
+  for (Vec6& v : work_.problem.vStar) v.setZero();
   for (const PairMemory& pair : memory_.pairs) {
     for (const Touch& touch : pair.touches) {
       const Contact& c = touch.contact;
-      problem_.cones.push_back(
-          {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size())});
-      problem_.rows.push_back(
+      work_.problem.cones.push_back(
+          {.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});
+      work_.problem.rows.push_back(
           pointRow(state_.bodies, c.a, c.b, c.point.p, c.point.n, c.point.separation));
     }
   }
-  liftBonds(state_.bodies, model_.joints, bonds_);
-  appendBonds(bonds_, problem_);
-  solution_.lambda.clear();
-  solution_.v.clear();
-  solveByIslands(solver_, problem_, {.tolerance = kTolerance, .maxIterations = 200}, solution_);
+  liftBonds(state_.bodies, model_.joints, work_.bonds);
+  appendBonds(work_.bonds, work_.problem);
+  work_.solution.lambda.clear();
+  work_.solution.v.clear();
+  solveByIslands(solver_, work_.problem, {.tolerance = kTolerance, .maxIterations = 200},
+                 work_.solution);
 
   // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
   constexpr double kLargestTurn = 0.1;  // [rad]
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
-    if (body.fixed() || solution_.v[i].isZero(0.0)) continue;
-    Vec3 turn = solution_.v[i].tail<3>();
+    if (body.fixed() || work_.solution.v[i].isZero(0.0)) continue;
+    Vec3 turn = work_.solution.v[i].tail<3>();
     if (turn.norm() > kLargestTurn) turn *= kLargestTurn / turn.norm();
-    body.x += solution_.v[i].head<3>();
+    body.x += work_.solution.v[i].head<3>();
     body.q = rotated(body.q, turn).normalized();
     updateDerived(body);
   }

@@ -17,23 +17,24 @@ bool Stepping::closed(const Touch& touch) const {
 void Stepping::leaveSeams() {
   constexpr int kFace = 3;  // closed points
   const auto isClosed = [&](const Touch& touch) { return closed(touch); };
-  crossing_.clear();
+  work_.crossing.clear();
   for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
     if (memory_.pairs[k].look <= memory_.asked || touches.empty()) continue;
-    if (std::count_if(touches.begin(), touches.end(), isClosed) < kFace) crossing_.push_back(k);
+    if (std::count_if(touches.begin(), touches.end(), isClosed) < kFace)
+      work_.crossing.push_back(k);
   }
   memory_.asked = memory_.looks;
-  if (crossing_.empty()) return;
+  if (work_.crossing.empty()) return;
 
-  holders_.assign(state_.bodies.size(), {});
+  work_.holders.assign(state_.bodies.size(), {});
   for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
     if (std::none_of(touches.begin(), touches.end(), isClosed)) continue;
     for (const int i : {state_.near[k].first, state_.near[k].second})
-      if (!model_.fixed(i)) holders_[i].push_back(k);
+      if (!model_.fixed(i)) work_.holders[i].push_back(k);
   }
-  for (const int k : crossing_)
+  for (const int k : work_.crossing)
     if (keptApart(k, state_.near[k].first) || keptApart(k, state_.near[k].second))
       memory_.pairs[k].touches.clear();
 }
@@ -45,7 +46,7 @@ bool Stepping::keptApart(int pair, int body) const {
   const int other = a == body ? b : a;
   if (std::holds_alternative<HalfSpace>(model_.shapes[other])) return false;  // it has no edge
   const Vec3& n = memory_.pairs[pair].touches.front().contact.point.n;
-  return std::any_of(holders_[body].begin(), holders_[body].end(), [&](int k) {
+  return std::any_of(work_.holders[body].begin(), work_.holders[body].end(), [&](int k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
     if (k == pair || touches.empty()) return false;
     const Vec3 m = state_.near[k].second == body ? touches.front().contact.point.n

@@ -30,6 +30,7 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       state_(state),
       report_(report),
       memory_(state.stepping),
+      work_(state.stepping.work),
       tolerance_(ContactTolerance::forSize(model.size)),
       solver_(*findSolver(model.def.stepping.solver)) {}
 
@@ -97,11 +98,11 @@ void Stepping::beginSegment(double t1) {
   segment.start = state_.bodies;
 
   const std::size_t n = state_.bodies.size();
-  before_.resize(n + 1);  // the last is the world, for joints
-  star_.resize(n + 1);
-  before_[n].setZero();
-  star_[n].setZero();
-  for (std::size_t i = 0; i < n; ++i) before_[i] << state_.bodies[i].v, state_.bodies[i].omega;
+  work_.before.resize(n + 1);  // the last is the world, for joints
+  work_.star.resize(n + 1);
+  work_.before[n].setZero();
+  work_.star[n].setZero();
+  for (std::size_t i = 0; i < n; ++i) work_.before[i] << state_.bodies[i].v, state_.bodies[i].omega;
 }
 
 void Stepping::endSegment(double t1) {
@@ -123,8 +124,8 @@ void Stepping::applyTwists(double h) {
     body.P += h * body.force;
     body.L += h * body.torque;
     state_.externalImpulse += h * body.force;
-    if (touched_[i]) {
-      const Vec6 change = after_[i] - star_[i];
+    if (work_.touched[i]) {
+      const Vec6 change = work_.after[i] - work_.star[i];
       body.P += body.M * change.head<3>();
       if (!body.particle) body.L += body.R * (body.Ibody * (body.R.transpose() * change.tail<3>()));
     }
@@ -174,11 +175,11 @@ void Stepping::moveBodies(double h) {
     if (body.fixed()) {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
-    } else if (touched_[i]) {  // with the velocity that the contact problem found
-      body.x += h * (body.v - later_[i] * body.invM * body.force);
-      turn(body, body.L - later_[i] * body.torque, h);
+    } else if (work_.touched[i]) {  // with the velocity that the contact problem found
+      body.x += h * (body.v - work_.later[i] * body.invM * body.force);
+      turn(body, body.L - work_.later[i] * body.torque, h);
     } else {
-      coast(body, before_[i].head<3>(), h);
+      coast(body, work_.before[i].head<3>(), h);
     }
     body.q.normalize();
     updateDerived(body);

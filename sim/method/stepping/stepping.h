@@ -57,7 +57,7 @@ class Stepping {
   void groupLinks();
   std::pair<int, int> ends(Link link) const;
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
-  Row& bondOf(Link link) { return bonds_.rows[link - state_.near.size()]; }
+  Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }
   void solveIsland(std::span<const Link> links, double h);
   void collectBodies(std::span<const Link> links);
   void swing(std::span<const Link> links, double h);
@@ -105,28 +105,10 @@ class Stepping {
   State& state_;
   Report& report_;
   SteppingMemory& memory_;
+  SteppingWork& work_;  ///< empty of meaning between steps
   ContactTolerance tolerance_;
   const Solver& solver_;
 
-  // Scratch of a step.
-  std::vector<Aabb> boxes_;
-  std::vector<std::pair<int, int>> near_;
-  std::vector<PairMemory> passed_;
-  std::vector<Contact> found_;
-  std::vector<int> crossing_;              ///< pairs that may meet at a seam
-  std::vector<std::vector<int>> holders_;  ///< per body: the pairs that touch and may hold it
-  Bonds bonds_;                            ///< rows of joints
-  std::vector<int> root_, order_, begin_;  ///< of islands: forest of bodies; links by island
-  std::vector<int> local_, bodies_;        ///< of one island: numbers in its problem, and back
-  std::vector<int> movers_;
-  Problem problem_;
-  Solution solution_;
-  std::vector<Vec6> before_, star_, after_;  ///< per body: twists at both ends of the step, and
-                                             ///< what they would be without contacts
-  std::vector<char> touched_;                ///< per body: a contact pushed it in this step
-  std::vector<double> later_;                ///< per body that was pushed: the time [s] for which
-                                             ///< forces act after it has moved
-  std::vector<Contact> lasting_;
   bool allKept_ = false;
 };
 

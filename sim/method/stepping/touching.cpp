@@ -24,28 +24,28 @@ void Stepping::findTouching(double h) {
 }
 
 void Stepping::findNear(double h) {
-  sweptBoxes(model_, state_.bodies, h, model_.def.gravity.norm(), tolerance_.touch, boxes_);
-  state_.broadPhase.update(boxes_);
-  near_.clear();
+  sweptBoxes(model_, state_.bodies, h, model_.def.gravity.norm(), tolerance_.touch, work_.boxes);
+  state_.broadPhase.update(work_.boxes);
+  work_.near.clear();
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];
-    if (model_.mayTouch(a, b)) near_.emplace_back(b, a);
+    if (model_.mayTouch(a, b)) work_.near.emplace_back(b, a);
   }
-  if (near_ == state_.near && memory_.pairs.size() == near_.size()) return;
+  if (work_.near == state_.near && memory_.pairs.size() == work_.near.size()) return;
 
   // What is known of pairs that stay goes with them. Both lists are sorted.
-  passed_.clear();
-  passed_.resize(near_.size());
-  std::vector<Witness> witnesses(near_.size());
+  work_.passed.clear();
+  work_.passed.resize(work_.near.size());
+  std::vector<Witness> witnesses(work_.near.size());
   std::size_t old = 0;
-  for (std::size_t k = 0; k < near_.size(); ++k) {
-    while (old < memory_.pairs.size() && state_.near[old] < near_[k]) ++old;
-    if (old == memory_.pairs.size() || state_.near[old] != near_[k]) continue;
-    passed_[k] = std::move(memory_.pairs[old]);
+  for (std::size_t k = 0; k < work_.near.size(); ++k) {
+    while (old < memory_.pairs.size() && state_.near[old] < work_.near[k]) ++old;
+    if (old == memory_.pairs.size() || state_.near[old] != work_.near[k]) continue;
+    work_.passed[k] = std::move(memory_.pairs[old]);
     witnesses[k] = state_.witnesses[old];
   }
-  std::swap(state_.near, near_);
-  std::swap(memory_.pairs, passed_);
+  std::swap(state_.near, work_.near);
+  std::swap(memory_.pairs, work_.passed);
   std::swap(state_.witnesses, witnesses);
 }
 
@@ -73,14 +73,14 @@ void Stepping::look(std::size_t pair, double margin) {
   if (memory.margin == margin && samePose(memory.poseA, poseA, model_.size) &&
       samePose(memory.poseB, poseB, model_.size))
     return;
-  found_.clear();
-  findNearContacts(model_, state_, pair, margin, found_, report_);
+  work_.found.clear();
+  findNearContacts(model_, state_, pair, margin, work_.found, report_);
   const bool hadNone = memory.touches.empty() && memory.margin >= 0.0;
   memory.poseA = poseA;
   memory.poseB = poseB;
   memory.margin = margin;
   memory.deepest = 0.0;
-  if (found_.empty() && hadNone) return;  // still nothing
+  if (work_.found.empty() && hadNone) return;  // still nothing
 
   // Hits under way go on where the same features touch.
   thread_local std::vector<Touch> old;
@@ -88,10 +88,10 @@ void Stepping::look(std::size_t pair, double margin) {
   for (const Touch& touch : memory.touches)
     if (touch.arrivalSpeed > 0.0) old.push_back(touch);
   memory.look = ++memory_.looks;
-  memory.touches.assign(found_.size(), Touch{});
-  for (std::size_t i = 0; i < found_.size(); ++i) {
+  memory.touches.assign(work_.found.size(), Touch{});
+  for (std::size_t i = 0; i < work_.found.size(); ++i) {
     Touch& touch = memory.touches[i];
-    touch.contact = found_[i];
+    touch.contact = work_.found[i];
     touch.contact.anchor = anchorOf(a, b, touch.contact.point);
     memory.deepest = std::max(memory.deepest, -touch.contact.point.separation);
     for (const Touch& before : old) {
