@@ -75,7 +75,8 @@ using Shape =
 struct Aabb {
   Vec3 lo = Vec3::Zero(), hi = Vec3::Zero();
   bool overlaps(const Aabb& o) const {
-    return (lo.array() <= o.hi.array()).all() && (o.lo.array() <= hi.array()).all();
+    return lo.x() <= o.hi.x() && lo.y() <= o.hi.y() && lo.z() <= o.hi.z() && o.lo.x() <= hi.x() &&
+           o.lo.y() <= hi.y() && o.lo.z() <= hi.z();
   }
 };
 
