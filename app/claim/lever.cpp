@@ -5,6 +5,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/claim/rows.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

@@ -4,6 +4,7 @@
 
 #include "app/claim/free_body.h"
 #include "sim/collide/collide.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 

@@ -4,6 +4,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/palette.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

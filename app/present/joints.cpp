@@ -7,6 +7,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/palette.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

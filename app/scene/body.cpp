@@ -5,6 +5,7 @@
 #include "app/scene/choices.h"
 #include "app/scene/settings.h"
 #include "app/scene/shape.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/body/mass_surface.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/collide/pairs.h"
+#include "sim/math/frames.h"
 
 namespace tumble::pairs {
 

@@ -9,6 +9,7 @@
 
 #include "sim/collide/features.h"
 #include "sim/collide/pairs.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 

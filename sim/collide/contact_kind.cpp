@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/collide/core.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 namespace {

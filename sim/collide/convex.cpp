@@ -5,6 +5,7 @@
 
 #include "sim/collide/facet.h"
 #include "sim/collide/pairs.h"
+#include "sim/math/frames.h"
 
 namespace tumble::pairs {
 namespace {

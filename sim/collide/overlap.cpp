@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/collide/gjk.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

@@ -2,6 +2,7 @@
 // ball.
 #include "sim/collide/features.h"
 #include "sim/collide/pairs.h"
+#include "sim/math/frames.h"
 
 namespace tumble::pairs {
 

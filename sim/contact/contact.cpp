@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/math/frames.h"
+
 namespace tumble {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/joint/joint_rows.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 namespace {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstring>
 
+#include "sim/math/frames.h"
 #include "tests/body/bodies.h"
 #include "tests/catch.h"
 

@@ -5,6 +5,7 @@
 
 #include "sim/collide/collide.h"
 #include "sim/collide/features.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"

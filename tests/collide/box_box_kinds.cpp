@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/collide/contact_kind.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/boxes.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/collide/features.h"
+#include "sim/math/frames.h"
 #include "tests/catch.h"
 #include "tests/collide/boxes.h"
 

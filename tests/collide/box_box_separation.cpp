@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/collide/collide.h"
+#include "sim/math/frames.h"
 #include "tests/catch.h"
 #include "tests/collide/boxes.h"
 #include "tests/collide/exact_sat.h"

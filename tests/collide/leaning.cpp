@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "sim/collide/collide.h"
+#include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"

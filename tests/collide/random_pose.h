@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <random>
 
+#include "sim/math/frames.h"
 #include "sim/math/vec.h"
 #include "sim/shape/shape.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/body/body_system.h"
+#include "sim/math/frames.h"
 #include "sim/ode/integrator.h"
 #include "tests/body/bodies.h"
 #include "tests/catch.h"

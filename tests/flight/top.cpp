@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/body/body_system.h"
+#include "sim/math/frames.h"
 #include "sim/ode/integrator.h"
 #include "tests/body/bodies.h"
 #include "tests/catch.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/math/frames.h"
 #include "sim/shape/convex_hull.h"
 #include "tests/catch.h"
 

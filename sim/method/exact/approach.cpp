@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/collide/collide.h"
+#include "sim/math/frames.h"
 #include "sim/method/exact/quadratic.h"
 
 namespace tumble {

@@ -5,6 +5,7 @@
 
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
+#include "sim/math/frames.h"
 #include "sim/method/exact/exact.h"
 #include "sim/method/exact/rims.h"
 

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "sim/collide/collide.h"
+#include "sim/math/frames.h"
 #include "sim/method/exact/approach.h"
 #include "sim/method/exact/exact.h"
 
