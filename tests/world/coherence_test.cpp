@@ -69,5 +69,10 @@ void compare(const WorldDef& def, const char* name) {
 // Oracle: two ways agree, bit by bit.
 TEST_CASE("a world that remembers planes moves as one that searches every pair anew", "[figures]") {
   compare(shower("stepping", 12, 2.0), "stepping");
+  compare(shower("course", 4, 0.45), "course");
+}
+
+TEST_CASE("a world that remembers planes moves as one that searches anew, until it rests",
+          "[long]") {
   compare(shower("course", 4, 0.8), "course");
 }
