@@ -8,6 +8,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/claim/rows.h"
+#include "sim/math/least_squares.h"
 
 namespace tumble {
 
@@ -18,7 +19,7 @@ double coneDistance(const MatX& generators, const VecX& w) {
   const auto solved = [&] {
     MatX G(generators.rows(), used.size());
     for (std::size_t k = 0; k < used.size(); ++k) G.col(k) = generators.col(used[k]);
-    return VecX(G.colPivHouseholderQr().solve(w));
+    return leastSquares(G, w);
   };
   for (int round = 0; round < most; ++round) {
     // The generator that promises most comes in, unless it is there.
