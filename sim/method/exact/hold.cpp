@@ -190,13 +190,13 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
 
 void Exact::hold(double t, Cluster& cluster) {
   std::vector<Contact> resting;
-  double& worst = report_.certificate.max_complementarity;
   const double residual = findForces(t, cluster, resting);
-  worst = std::max(worst, residual);
   if (residual > kLawless)
     return stop("no forces were found at t = " + digits(t) +
                 " s that obey the laws of contact and friction: what slides may jam there; try "
                 "method \"stepping\", or less friction");
+  double& worst = report_.certificate.max_complementarity;
+  worst = std::max(worst, residual);
   const bool slowly = letGo(resting);
   if (!resting.empty()) stillNormals(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
