@@ -230,7 +230,7 @@ void World::Parts::build(const WorldDef& def) {
   model.runs = method->name;
   if (def.method == "auto") {
     model.runs = chooseMethod(model, state.bodies);
-    model.mostStretches = mostStretches(model);
+    if (model.runs == "exact") state.effort.most = mostEffort(model);
   }
   if (model.runs == "exact" && !model.joints.empty()) {
     // Where the closed forms end, the most accurate steps that there are.

@@ -9,12 +9,12 @@
 namespace tumble {
 namespace {
 
-/// A stretch of motion in contact costs the exact method 2 to 4 ms a body, where a step of stepping
-/// costs 13 µs a body. At this many, shared by the bodies, and this many in a second of the scene,
-/// its accuracy costs about as much time as the motion lasts. This and what follows was measured by
-/// `tests/bench/sim/auto.cpp`.
-constexpr long kMostStretches = 500;
-constexpr double kStretchesPerSecond = 100.0;
+/// Evaluations of the forces on one body that the exact method may spend, and in a second of the
+/// scene: each costs 3 to 6 µs, in contact and with joints, so that its accuracy costs a few
+/// seconds, or about as much time as the motion lasts. A step of stepping costs 13 µs a body. This
+/// and what follows was measured by `tests/bench/sim/auto.cpp`.
+constexpr long kMostEffort = 1'000'000;
+constexpr double kEffortPerSecond = 300'000.0;
 /// Bodies other than balls that can come to lie on each other. Half a second of four boxes that
 /// tumble costs the exact method 1.1 s, of eight 5.6 s; stepping 15 and 21 ms.
 constexpr int kMostSolids = 4;
@@ -97,10 +97,9 @@ std::string_view chooseMethod(const Model& model, std::span<const RigidBody> bod
   return serves(exact, model, bodies) ? "exact" : "course";
 }
 
-long mostStretches(const Model& model) {
-  const Counts counts = countsOf(model);
-  const long most = std::max(kMostStretches, std::lround(kStretchesPerSecond * model.def.duration));
-  return most / std::max(1, counts.balls + counts.solids);
+long mostEffort(const Model& model) {
+  constexpr double kMost = 1e18;  // that a count can hold
+  return std::max(kMostEffort, std::lround(std::min(kMost, kEffortPerSecond * model.def.duration)));
 }
 
 void checkAuto(const Model& model, std::span<const RigidBody> bodies) {

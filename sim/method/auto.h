@@ -14,12 +14,12 @@ namespace tumble {
 /// The row that runs a scene whose method is "auto", by what the scene holds, never by a clock:
 ///   `exact`, where its closed forms hold and few bodies can come to lie on each other;
 ///   else `stepping`, where bodies can touch, and `course`, where they cannot.
-/// Joints and forces may leave no choice. With `exact` goes a count of stretches in contact after
-/// which it gives up (kMostStretches in auto.cpp).
+/// Joints and forces may leave no choice. With `exact` goes a count of evaluations after which it
+/// gives up (kMostEffort in auto.cpp).
 std::string_view chooseMethod(const Model& model, std::span<const RigidBody> bodies);
 
-/// How many stretches in contact the exact method may follow in such a scene.
-long mostStretches(const Model& model);
+/// How much work the exact method may do in such a scene; see Effort.
+long mostEffort(const Model& model);
 
 /// @throws Refusal as the method that was chosen
 void checkAuto(const Model& model, std::span<const RigidBody> bodies);

@@ -63,6 +63,11 @@ double gridTime(const Model& model, long k, double h) {
   return next > end - 1e-9 * h ? end : next;  // no sliver of a step is left before the end
 }
 
+std::string spentBy(const State& state) {
+  return "the exact method had found the forces on a body " + std::to_string(state.effort.done) +
+         " times";
+}
+
 void trimTrail(State& state, double t) {
   constexpr std::size_t kSpare = 64;
   std::size_t kept = 0;

@@ -127,7 +127,6 @@ struct Model {
   std::vector<Joint> joints;                  ///< as in the definition
   std::vector<std::pair<int, int>> partners;  ///< bodies that a joint keeps from touching, sorted
   std::string_view runs;                      ///< def.method, or what "auto" chose
-  long mostStretches = std::numeric_limits<long>::max();  ///< after which `exact` gives up
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }

@@ -15,6 +15,7 @@
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
 #include "sim/joint/joint_bonds.h"
+#include "sim/method/effort.h"
 #include "sim/method/exact/pace.h"
 #include "sim/method/report.h"
 #include "sim/method/stepping/memory.h"
@@ -116,8 +117,8 @@ struct State {
   int stretchesLeft = 0;    ///< until closed forms are tried again,
   int patience = 0;         ///< and how many the next time
   Pace pace;                ///< of its events
-  long stretches = 0;       ///< so far
 
+  Effort effort;  ///< of the exact method
   /// What `auto` remembers: how the exact method left things, where it gave up.
   std::shared_ptr<const State> before;
 };

@@ -33,6 +33,7 @@ void Course::move() {
   state_.trail.back().limits = state_.limits;
 
   system_.begin(state_.lasting, state_.limits);
+  system_.effort = state_.effort;
   if (steppers_.stands(system_))
     report_.note("while contacts last, rk4 stands in for an integrator that cannot have them");
   y0_.resize(system_.size());
@@ -134,9 +135,12 @@ double Course::backUp(double span, double tooFar) {
 
 void Course::commit(double t1) {
   Certificate& books = report_.certificate;
+  state_.effort = system_.effort;
   if (!allFinite(y_)) {
     report_.stopped = true;
-    report_.reason = "the motion left the range of numbers; try a smaller course.step";
+    report_.reason = state_.effort.spent()
+                         ? spentBy(state_)
+                         : "the motion left the range of numbers; try a smaller course.step";
     state_.trail.pop_back();
     return;
   }

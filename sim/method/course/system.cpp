@@ -1,6 +1,7 @@
 #include "sim/method/course/system.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -25,6 +26,7 @@ CourseSystem::CourseSystem(const Model& model, std::span<const RigidBody> bodies
       bodies_(model.def.gravity, model.def.forces, {bodies.begin(), bodies.end()}, model.pivots,
               model.def.course.attitude == "matrix" ? Attitude::Matrix : Attitude::Quaternion),
       work_(bodies.begin(), bodies.end()),
+      moving_(countMoving(bodies)),
       contacts_(findContactModel(model.def.course.contact)->make(model)) {}
 
 void CourseSystem::begin(const std::vector<Contact>& contacts, const std::vector<Limit>& limits) {
@@ -59,7 +61,9 @@ void CourseSystem::load(std::span<const double> y) const {
   unpack(y, work_);
   const SolveReport solved = findForces(work_);
   residual_ = std::max(residual_, solved.residual);
-  unsolved_ = unsolved_ || solved.status != SolveStatus::Solved;
+  const bool unsolved = solved.status != SolveStatus::Solved;
+  unsolved_ = unsolved_ || unsolved;
+  effort.done += moving_ * std::max(1, solved.iterations) + (unsolved ? Effort::kUnsolved : 0);
 }
 
 Ledger CourseSystem::contactRates() const {
@@ -84,6 +88,10 @@ Ledger CourseSystem::contactRates() const {
 
 void CourseSystem::derivative(double /*t*/, std::span<const double> y,
                               std::span<double> ydot) const {
+  if (effort.spent()) {
+    std::fill(ydot.begin(), ydot.end(), std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   load(y);
   bodies_.rates(work_, withoutLedger(ydot));
   Ledger rates = contactRates();

@@ -6,6 +6,7 @@
 
 #include "sim/body/body_system.h"
 #include "sim/method/course/contact_model.h"
+#include "sim/method/effort.h"
 
 namespace tumble {
 
@@ -60,6 +61,8 @@ class CourseSystem : public System {
   /// Worst residual of the contact problems of this stretch, and whether one was left unsolved.
   double residual() const { return residual_; }
   bool unsolved() const { return unsolved_; }
+  /// Where it is spent, nothing more is computed: rates are NaN.
+  mutable Effort effort;
   /// Evaluations of all forces since the system was made.
   long evaluations() const { return bodies_.evaluations(); }
 
@@ -74,6 +77,7 @@ class CourseSystem : public System {
   const Model& model_;
   BodySystem bodies_;
   mutable std::vector<RigidBody> work_;
+  long moving_;                       ///< bodies that are not fixed
   mutable std::vector<double> half_;  ///< Y half-way through a drift
   std::unique_ptr<ContactForces> contacts_;
   mutable Vec3 outerForce_ = Vec3::Zero();

@@ -55,11 +55,10 @@ std::string crowdedAt(double t) {
 namespace {
 
 /// Stops where the scene may go on by another method and that would be the better one.
-void giveUp(const Model& model, const State& state, Report& report) {
-  if (model.mostStretches == std::numeric_limits<long>::max()) return;
-  if (state.stretches >= model.mostStretches) {
-    report.reason = "the exact method had followed " + std::to_string(state.stretches) +
-                    " stretches of motion in contact";
+void giveUp(const State& state, Report& report) {
+  if (state.effort.most == std::numeric_limits<long>::max()) return;
+  if (state.effort.spent()) {
+    report.reason = spentBy(state);
   } else if (state.pace.level > 0) {
     report.reason = "the exact method met more events than it could follow closely";
   } else {
@@ -106,7 +105,7 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
     } else {
       if (!sustained) sustained.emplace(model, state, report);
       sustained->next();
-      if (!report.stopped) giveUp(model, state, report);
+      if (!report.stopped) giveUp(state, report);
     }
   }
   state.lookedAt = t_end;

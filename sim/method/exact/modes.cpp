@@ -41,7 +41,10 @@ double Sustained::forceScale(const Contact& c) const {
 SolveReport Sustained::solveCones(std::vector<RigidBody>& bodies,
                                   std::vector<Contact>& contacts) const {
   system_.outerForces(bodies);
-  return RestForces(kNoPull, true).apply(bodies, contacts);
+  const SolveReport solved = RestForces(kNoPull, true).apply(bodies, contacts);
+  system_.effort.done += Effort::kPolished * countMoving(bodies);
+  if (solved.status != SolveStatus::Solved) system_.effort.done += Effort::kUnsolved;
+  return solved;
 }
 
 void Sustained::chooseModes() {

@@ -54,6 +54,7 @@ Sustained::Sustained(const Model& model, State& state, Report& report)
       trial_(state.bodies) {}
 
 void Sustained::next() {
+  system_.effort = state_.effort;
   chooseModes();
   system_.begin(state_.lasting);
   system_.pack(state_.bodies, y0_);
@@ -78,6 +79,7 @@ void Sustained::next() {
     event = false;
   }
   commit(h);
+  state_.effort = system_.effort;
   keepPace(event || h < kShort);
   if (event || blind_ || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
 }
@@ -97,6 +99,10 @@ bool Sustained::findEvent(double& h) {
   h = 0.0;
   if (!(before.allowed > 0.0)) return true;
   while (before.s < most_) {
+    if (system_.effort.spent()) {
+      h = before.s;
+      return true;
+    }
     if (!path_.grow(system_, integrator_, most_)) {  // forces change faster and faster
       h = 0.9 * before.s;
       state_.jammed = h < kInstant;
@@ -237,7 +243,11 @@ void Sustained::commit(double h) {
   Certificate& books = report_.certificate;
   if (!allFinite(y_)) {
     report_.stopped = true;
-    report_.reason = "the motion left the range of numbers at t = " + shortNumber(state_.t) + " s";
+    state_.effort = system_.effort;
+    report_.reason =
+        state_.effort.spent()
+            ? spentBy(state_)
+            : "the motion left the range of numbers at t = " + shortNumber(state_.t) + " s";
     return;
   }
   const double t1 = h < model_.def.duration - state_.t ? state_.t + h : model_.def.duration;
@@ -259,7 +269,6 @@ void Sustained::commit(double h) {
   counted_ = system_.evaluations();
   state_.t = t1;
   ++books.steps;
-  ++state_.stretches;
   account(model_, state_, report_);
 }
 

@@ -1,6 +1,7 @@
 #include "sim/method/exact/sustained_system.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -34,6 +35,7 @@ SustainedSystem::SustainedSystem(const Model& model, std::span<const RigidBody> 
       bodies_(model.def.gravity, model.def.forces, {bodies.begin(), bodies.end()}, model.pivots),
       unit_(unitsOf(bodies, kBooks)),
       work_(bodies.begin(), bodies.end()),
+      moving_(countMoving(bodies)),
       plain_(unit_.size()) {}
 
 void SustainedSystem::pack(std::span<const RigidBody> bodies, std::span<double> y) const {
@@ -61,6 +63,7 @@ void SustainedSystem::findForces(std::span<RigidBody> bodies) const {
     if (!body.fixed()) outerForce_ += body.force;
   for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
   modes_.apply(bodies, contacts_);
+  effort.done += moving_;
 }
 
 SustainedSystem::Books SustainedSystem::rates() const {
@@ -82,6 +85,10 @@ SustainedSystem::Books SustainedSystem::rates() const {
 
 void SustainedSystem::derivative(double /*t*/, std::span<const double> y,
                                  std::span<double> ydot) const {
+  if (effort.spent()) {
+    std::fill(ydot.begin(), ydot.end(), std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   unpack(y, work_);
   findForces(work_);
   bodies_.rates(work_, bodiesOf(ydot, kBooks));

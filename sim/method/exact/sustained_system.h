@@ -6,6 +6,7 @@
 
 #include "sim/body/body_system.h"
 #include "sim/contact/modes.h"
+#include "sim/method/effort.h"
 #include "sim/method/model.h"
 
 namespace tumble {
@@ -46,6 +47,9 @@ class SustainedSystem : public System {
   const std::vector<Contact>& contacts() const { return contacts_; }
   long evaluations() const { return bodies_.evaluations(); }
 
+  /// Where it is spent, nothing more is computed: rates are NaN.
+  mutable Effort effort;
+
  private:
   static constexpr int kBooks = 5;
   Books rates() const;
@@ -54,6 +58,7 @@ class SustainedSystem : public System {
   BodySystem bodies_;
   std::vector<double> unit_;  ///< of each number of Y
   mutable std::vector<RigidBody> work_;
+  long moving_;                        ///< bodies that are not fixed
   mutable std::vector<double> plain_;  ///< Y in SI units
   mutable std::vector<Contact> contacts_;
   mutable ModeForces modes_;

@@ -1,0 +1,30 @@
+// Chapter 9, method: what following a motion closely costs, counted, and what it may cost.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "sim/body/rigid_body.h"
+
+namespace tumble {
+
+/// Counted in evaluations of the forces on one body, about 4 µs each; see
+/// `tests/bench/sim/auto.cpp`.
+struct Effort {
+  /// What a contact problem to the last digits costs in these, a body; and one that none of the
+  /// solvers solves, whatever its size.
+  static constexpr long kPolished = 20, kUnsolved = 500;
+
+  long most = std::numeric_limits<long>::max();  ///< after which a better method is looked for
+  long done = 0;
+
+  bool spent() const { return done >= most; }
+};
+
+inline long countMoving(std::span<const RigidBody> bodies) {
+  return std::count_if(bodies.begin(), bodies.end(),
+                       [](const RigidBody& body) { return !body.fixed(); });
+}
+
+}  // namespace tumble
