@@ -122,11 +122,12 @@ void ModeForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts)
   give(bodies, contacts);
 }
 
-// Secants, as many as always, so that the answer is as smooth as the motion.
+// Secants, as many as always, so that the answer is as smooth as the motion. Two places that are one
+// but for rounding show no slope.
 void ModeForces::findGrowth(std::span<const RigidBody> bodies, std::span<Contact> contacts,
                             std::size_t k) {
   constexpr int kSecants = 4;
-  constexpr double kFirst = 1e-2;
+  constexpr double kFirst = 1e-2, kSame = 1e-7;
   Contact& c = contacts[k];
   const double onset = c.onset;
   Vec3 t1, t2;
@@ -140,10 +141,11 @@ void ModeForces::findGrowth(std::span<const RigidBody> bodies, std::span<Contact
     return rate.dot(t2) - tangent * rate.dot(t1);
   };
   c.onset = std::numeric_limits<double>::infinity();
-  double last = 0.0, now = kFirst, offLast = across(last);
+  double last = 0.0, now = kFirst, offLast = across(last), slope = 0.0;
   for (int secant = 0; secant < kSecants; ++secant) {
     const double off = across(now);
-    const double next = off == offLast ? now : now - off * (now - last) / (off - offLast);
+    if (std::abs(now - last) > kSame) slope = (off - offLast) / (now - last);
+    const double next = slope == 0.0 ? now : now - off / slope;
     last = now, offLast = off, now = next;
   }
   turn(now);
