@@ -122,8 +122,8 @@ void ModeForces::apply(std::span<RigidBody> bodies, std::span<Contact> contacts)
   give(bodies, contacts);
 }
 
-// Secants, as many as always, so that the answer is as smooth as the motion. Two places that are one
-// but for rounding show no slope.
+// Secants, as many as always, so that the answer is as smooth as the motion. Two places that are
+// one but for rounding show no slope.
 void ModeForces::findGrowth(std::span<const RigidBody> bodies, std::span<Contact> contacts,
                             std::size_t k) {
   constexpr int kSecants = 4;

@@ -33,6 +33,7 @@ struct Segment {
   std::vector<Limit> limits = {};       ///< of joints, that hold
   std::vector<JointForce> joints = {};  ///< of `stepping`: the forces of the step
   double tolerance = 0.0;               ///< of `exact`: of the integrator
+  bool still = false;                   ///< of `course`: nothing moves in it
 };
 
 /// Time, bodies, and what a method remembers from step to step.

@@ -31,7 +31,7 @@ void lookCourse(const Model& model, const State& state, double t, std::vector<Ri
   bodies = now ? state.bodies : segment->start;
   CourseSystem system(model, bodies);
   system.begin(now ? state.lasting : segment->contacts, now ? state.limits : segment->limits);
-  if (!now && t > segment->t0) {
+  if (!now && t > segment->t0 && !segment->still) {
     std::vector<double> y(system.size());
     system.pack(bodies, y);
     CourseSteppers(model, system).of(system).step(system, segment->t0, t - segment->t0, y);

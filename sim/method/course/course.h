@@ -108,6 +108,8 @@ class Course {
   double allowance(double h);
   /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
   /// @param tooFar  `allowance` of the whole span, < 0
+  /// Whether nothing moves, and all forces cancel.
+  bool rests();
   double backUp(double span, double tooFar);
   void commit(double t1);
 

@@ -40,6 +40,12 @@ void Course::move() {
   y_.resize(system_.size());
   system_.pack(state_.bodies, y0_);
 
+  if (rests()) {
+    y_ = y0_;
+    state_.trail.back().still = true;
+    return commit(grid);
+  }
+
   // Try as much of the step as can be foreseen; if something collides, or a slip ends, back up to
   // that instant.
   setFloors();
