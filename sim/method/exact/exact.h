@@ -93,6 +93,8 @@ class Exact {
   bool letGo(std::vector<Contact>& resting) const;
   /// Gives the bodies of a cluster flights under the forces that they carry.
   void flyOn(double t, const Cluster& cluster);
+  /// Whether two bodies would accelerate into each other without contact forces.
+  bool presses(const Contact& contact) const;
   /// @return the residual of the contact problem
   double solveForces(std::vector<Contact>& resting);
   void stillNormals(const std::vector<Contact>& resting);

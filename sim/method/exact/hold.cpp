@@ -12,6 +12,8 @@ namespace {
 
 /// Forces and accelerations below this part of the largest are rounding.
 constexpr double kRounding = 1e-10;
+/// Accelerations together below this part of the weights are that of bodies that fall as one.
+constexpr double kWeightless = 1e-13;
 /// Approach that a law of impact may leave, in speeds of rest.
 constexpr double kLeft = 100.0;
 /// What parts at less than this part of its weight has just been pushed still.
@@ -85,7 +87,18 @@ Held::Held(std::span<const RigidBody> all, std::vector<Contact> those)
 
 }  // namespace
 
+// Where nothing presses, as in a stack that falls, there is nothing to be found but rounding.
+bool Exact::presses(const Contact& c) const {
+  const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+  const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+  return normalAcceleration(a, b, c.point) < -kWeightless * weight;
+}
+
 double Exact::solveForces(std::vector<Contact>& resting) {
+  if (std::none_of(resting.begin(), resting.end(), [&](const Contact& c) { return presses(c); })) {
+    for (Contact& c : resting) c.force.setZero();
+    return 0.0;
+  }
   Held held(state_.bodies, resting);
   for (std::size_t k = 0; k < held.bodies.size(); ++k) {
     held.bodies[k].force = state_.outer[held.global[k]];
