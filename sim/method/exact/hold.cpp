@@ -87,8 +87,8 @@ Held::Held(std::span<const RigidBody> all, std::vector<Contact> those)
 
 }  // namespace
 
-// Where nothing presses, as in a stack that falls, there is nothing to be found but rounding. Without
-// weights there is no measure for it.
+// Where nothing presses, as in a stack that falls, there is nothing to be found but rounding.
+// Without weights there is no measure for it.
 bool Exact::presses(const Contact& c) const {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();

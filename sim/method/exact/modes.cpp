@@ -56,6 +56,11 @@ void Sustained::chooseModes() {
   for (Contact& c : lasting) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     follow(a, b, c);
+    // A slip that has grown beyond its onset has a direction of its own, however far from the one
+    // in which it was expected.
+    const Vec3 slip = slipVelocity(a, b, c.point);
+    const bool grown = c.sliding && c.onset > 0.0 && slip.norm() >= c.onset;
+    if (grown && slip.dot(c.slipDirection) < 0.5 * slip.norm()) c.slipDirection = slip.normalized();
     c.creeping = false;
     c.onset = 0.0;
     if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
