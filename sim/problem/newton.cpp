@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/problem/direct.h"
 #include "sim/problem/last_resort.h"
 #include "sim/problem/newton_system.h"
-#include "sim/problem/single.h"
 #include "sim/problem/solvers.h"
 
 namespace tumble {
@@ -239,7 +239,7 @@ void Newton::takeLambda(const Problem& problem, Solution& solution, SolveReport&
 }  // namespace
 
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution) {
-  if (const auto single = solveSingle(problem, settings.tolerance, solution)) return *single;
+  if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
   thread_local Newton newton;  // keeps its memory from call to call
   const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {
     return newton.solve(p, to, answer);

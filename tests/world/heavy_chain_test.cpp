@@ -37,29 +37,32 @@ constexpr double kLevel = 0.5 * std::numbers::pi;
 
 }  // namespace
 
-// Oracle: conservation. Nothing drives the chain, so that its energy stays at that of the start or
-// below, and its end within its length. Measured: at most 16 % of the energy lost, none won; ends
-// 2e-6 of the length beyond it, allowed 1e-3.
+// Oracle: conservation. The links swing faster than the step can follow, so that it is divided;
+// without that they fly apart within a second. Measured: the energy strays by 2.9e-2 of the load
+// times the length, of two links that whip, and by 4.9e-3 of more; allowed 5e-2. The end stays
+// within its length.
 TEST_CASE("stepping: a chain with a load of up to a million links swings and stays whole") {
-  const int links = GENERATE(3, 8);
-  const double ratio = GENERATE(1e3, 1e4, 1e5, 1e6);
+  const int links = GENERATE(2, 3, 8);
+  const double ratio = GENERATE(10.0, 1e3, 1e6);
   World world(chain("stepping", links, ratio, kLevel));
-  double farthest = 0.0;
-  for (int k = 1; k <= 40; ++k) {
+  const double scale = ratio * 9.81 * links * kLink;
+  double farthest = 0.0, energy = 0.0;
+  for (int k = 1; k <= 40 && !world.report().stopped; ++k) {
     world.advance(0.05 * k);
-    farthest = std::max(farthest, world.sample(0.05 * k).bodies.back().x.norm());
+    const Sample sample = world.sample(0.05 * k);
+    farthest = std::max(farthest, sample.bodies.back().x.norm() / (links * kLink));
+    energy = std::max(energy, std::abs(sample.kinetic + sample.potential) / scale);
   }
   const Report& report = world.report();
-  CAPTURE(links, ratio, report.reason, farthest, report.certificate.energy_end);
+  CAPTURE(links, ratio, report.reason, farthest, energy);
   CHECK_FALSE(report.stopped);
-  CHECK(farthest < links * kLink * (1.0 + 1e-3));
-  const double scale = ratio * 9.81 * links * kLink;
-  CHECK(report.certificate.energy_end < 1e-3 * scale);
-  CHECK(report.certificate.energy_end > -0.25 * scale);
+  CHECK(farthest < 1.0 + 1e-9);
+  CHECK(energy < 5e-2);
+  CHECK(report.certificate.max_joint_gap < 1e-9);
 }
 
 // Oracle: two methods agree. The end falls 0.6 m; after 0.45 s at 240 steps a second it is
-// 6.8e-3 m beside the exact one, allowed 2e-2.
+// 3.2e-5 m beside the exact one, allowed 1e-3.
 TEST_CASE("stepping: a heavy chain swings as in the exact method") {
   World steps(chain("stepping", 3, 1e3, kLevel)), exact(chain("exact", 3, 1e3, kLevel));
   steps.advance(0.45);
@@ -67,7 +70,7 @@ TEST_CASE("stepping: a heavy chain swings as in the exact method") {
   const double off =
       (steps.sample(0.45).bodies.back().x - exact.sample(0.45).bodies.back().x).norm();
   CAPTURE(off);
-  CHECK(off < 2e-2);
+  CHECK(off < 1e-3);
 }
 
 // Oracle: statics, g m on each pin of all that hangs below it. Nothing moves, to the bit, and a

@@ -57,7 +57,7 @@ void Stepping::meetJoints(double h) {
 }
 
 void Stepping::divideNext(double h) {
-  constexpr double kSwing = 0.5;  // [rad] of the fastest swing in a part
+  constexpr double kSwing = 1.0;  // [rad] of the fastest swing in a part; at 2 it would grow
   constexpr int kMostParts = 1000;
   if (model_.joints.empty()) return;
   const double fastest = fastestSwing(state_.bodies, model_.joints, state_.trail.back().joints,

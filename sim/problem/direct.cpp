@@ -1,0 +1,90 @@
+#include "sim/problem/direct.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
+
+#include "sim/problem/cone.h"
+#include "sim/problem/delassus.h"
+#include "sim/problem/friction_block.h"
+
+namespace tumble {
+namespace {
+
+/// M⁻¹ Jᵀ of one row, for both bodies.
+std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
+  Vec6 a, b;
+  a << problem.invM[row.a] * row.linear, problem.Iinv[row.a] * row.angularA;
+  b << -problem.invM[row.b] * row.linear, problem.Iinv[row.b] * row.angularB;
+  return {a, b};
+}
+
+/// λ of one contact: solveFrictionBlock finds it.
+std::vector<double> ofContact(const Problem& problem) {
+  const Cone& cone = problem.cones[0];
+  const int rows = coneRows(cone.kind);
+  Mat3 W = Mat3::Identity();
+  Vec3 c = Vec3::Zero();
+  for (int j = 0; j < rows; ++j) {
+    const Row& row = problem.rows[cone.row + j];
+    const auto [a, b] = yieldTo(problem, row);
+    for (int i = 0; i < rows; ++i) W(i, j) = rowSpeed(problem.rows[cone.row + i], a, b);
+    c[j] = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]) + row.bias;
+  }
+  const double mu = cone.kind == ConeKind::Friction ? cone.mu : 0.0;
+  const Vec3 lambda = solveFrictionBlock(W, c, mu, Vec3::Zero());
+  return {lambda.data(), lambda.data() + rows};
+}
+
+/// λ of equalities: A λ + b = 0 by Cholesky, and what rounding left of it twice again. Empty if A
+/// is singular.
+std::vector<double> ofEqualities(const Problem& problem) {
+  constexpr int kAgain = 2;
+  const Delassus d = delassus(problem);
+  const Eigen::LLT<MatX> factor(d.A);
+  const auto pivots = factor.matrixLLT().diagonal().array();
+  constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
+  if (factor.info() != Eigen::Success ||
+      !(pivots > kSingular * d.A.diagonal().array().sqrt()).all())
+    return {};
+  VecX lambda = VecX::Zero(d.b.size()), u = d.b;
+  std::vector<Vec6> v(problem.vStar.size());
+  for (int k = 0; k <= kAgain; ++k) {
+    lambda -= factor.solve(u);
+    velocitiesFromLambda(problem, {lambda.data(), problem.rows.size()}, v);
+    rowVelocities(problem, v, {u.data(), problem.rows.size()});
+  }
+  return {lambda.data(), lambda.data() + lambda.size()};
+}
+
+std::vector<double> forcesOf(const Problem& problem) {
+  constexpr std::size_t kMostRows = 300;  // sparse factors are faster beyond
+  const auto is = [&](ConeKind kind) {
+    return std::all_of(problem.cones.begin(), problem.cones.end(),
+                       [&](const Cone& cone) { return cone.kind == kind; });
+  };
+  if (problem.cones.size() == 1 && (is(ConeKind::Push) || is(ConeKind::Friction)))
+    return ofContact(problem);
+  if (!problem.cones.empty() && problem.rows.size() <= kMostRows && is(ConeKind::Equality))
+    return ofEqualities(problem);
+  return {};
+}
+
+}  // namespace
+
+std::optional<SolveReport> solveDirect(const Problem& problem, double tolerance,
+                                       Solution& solution) {
+  Solution found;
+  found.lambda = forcesOf(problem);
+  if (found.lambda.empty()) return std::nullopt;
+  found.v.resize(problem.vStar.size());
+  velocitiesFromLambda(problem, found.lambda, found.v);
+  SolveReport report;
+  report.residual = naturalResidual(problem, found);
+  if (!(report.residual <= tolerance) && !atRounding(problem, found, report.residual))
+    return std::nullopt;
+  solution = std::move(found);
+  return report;
+}
+
+}  // namespace tumble
