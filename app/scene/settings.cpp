@@ -1,5 +1,6 @@
 #include "app/scene/settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/scene/choices.h"
@@ -12,6 +13,17 @@ namespace {
 constexpr double kLongest = 1e6;  // [s] of a run
 
 constexpr Range kStep{0.0, kLongest, true, "s"};
+
+/// One of the methods; whoever names an integrator instead is told where that belongs.
+void readMethod(Section& section, std::string& method) {
+  const std::vector<std::string> integrators = integratorChoices();
+  const Node* node = section.find("method");
+  const std::string* word = node ? node->as<std::string>() : nullptr;
+  if (!word || std::find(integrators.begin(), integrators.end(), *word) == integrators.end())
+    return section.read("method", method, methodChoices());
+  section.complain("method", "'" + *word + "' is an integrator: set world.method = 'course' and " +
+                                 "course.integrator = '" + *word + "'");
+}
 
 }  // namespace
 
@@ -29,7 +41,7 @@ void readWorld(Section& root, Scene& scene) {
   WorldDef& world = scene.world;
   Section section(*node, "world", root.findings(), "");
   section.read("gravity", world.gravity, any("m/s²"));
-  section.read("method", world.method, methodChoices());
+  readMethod(section, world.method);
   section.read("impact", world.impact, impactChoices());
   section.read("duration", world.duration, {0.0, kLongest, true, "s"});
   if (const Node* seed = section.find("seed")) {

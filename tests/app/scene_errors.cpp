@@ -305,6 +305,8 @@ TEST_CASE("a wrong world, or none, is named") {
       {"[world]\nmethod = \"magic\"\n" + body, "2:10",
        "world.method: unknown value 'magic'; valid: auto, course, exact, stepping"},
       {"[world]\nmethod = \"steping\"\n" + body, "2:10", "did you mean 'stepping'?"},
+      {"[world]\nmethod = \"rk4\"\n" + body, "2:10",
+       "'rk4' is an integrator: set world.method = 'course' and course.integrator = 'rk4'"},
       {"[world]\nimpact = \"bouncy\"\n" + body, "2:10",
        "valid: reflections, simultaneous, sequential, poisson"},
       {"[world]\nduration = 0\n" + body, "2:12",
