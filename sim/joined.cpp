@@ -58,7 +58,8 @@ void checkNumbers(const JointDef& def, std::size_t k) {
   need(row.limits || !limits, pathOf(k), "a joint of this kind has no limits");
   need(def.lo <= def.hi, pathOf(k, ".min"), "the lower limit lies above the upper one");
   need(!limits || def.lo < def.hi, pathOf(k, ".min"),
-       "two limits that are one leave nothing free: take a joint that holds it");
+       "two limits that are one leave nothing free: leave them out of a distance, which is then "
+       "rigid, or take a joint that holds it");
   if (def.kind == JointKind::Hinge) {
     need(!std::isfinite(def.lo) || def.lo > -kTurn, pathOf(k, ".min"),
          "a hinge tells turns from -180 to 180 degrees");

@@ -20,6 +20,14 @@ double rowMobility(const Problem& problem, const Row& row) {
          row.angularB.dot(problem.Iinv[row.b] * row.angularB);
 }
 
+/// Sum of the sizes of all terms of J v + bias of one row.
+double termsOf(const Row& row, std::span<const Vec6> v) {
+  const Vec6 a = v[row.a].cwiseAbs(), b = v[row.b].cwiseAbs();
+  return row.linear.cwiseAbs().dot(a.head<3>() + b.head<3>()) +
+         row.angularA.cwiseAbs().dot(a.tail<3>()) + row.angularB.cwiseAbs().dot(b.tail<3>()) +
+         std::abs(row.bias);
+}
+
 }  // namespace
 
 void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<double> u) {
@@ -45,9 +53,13 @@ void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda
 }
 
 double velocityScale(const Problem& problem) {
-  double largest = 0.0;
-  for (const Row& row : problem.rows)
+  constexpr double kNothing = 1e8 * std::numeric_limits<double>::epsilon();
+  double largest = 0.0, terms = 0.0;
+  for (const Row& row : problem.rows) {
     largest = std::max(largest, std::abs(rowVelocity(row, problem.vStar)));
+    terms = std::max(terms, termsOf(row, problem.vStar));
+  }
+  largest = std::max(largest, kNothing * terms);
   return largest > 0.0 ? largest : 1.0;
 }
 
@@ -86,12 +98,7 @@ double roundingFloor(const Problem& problem, const Solution& solution) {
     v[body] += problem.vStar[body].cwiseAbs();
   }
   double largest = 0.0;
-  for (const Row& row : problem.rows) {
-    const double sum = row.linear.cwiseAbs().dot(v[row.a].head<3>() + v[row.b].head<3>()) +
-                       row.angularA.cwiseAbs().dot(v[row.a].tail<3>()) +
-                       row.angularB.cwiseAbs().dot(v[row.b].tail<3>()) + std::abs(row.bias);
-    largest = std::max(largest, sum);
-  }
+  for (const Row& row : problem.rows) largest = std::max(largest, termsOf(row, v));
   return std::numeric_limits<double>::epsilon() * largest / velocityScale(problem);
 }
 

@@ -105,3 +105,38 @@ TEST_CASE("stepping: a joint that comes apart ends the run with its name") {
   REQUIRE(world.report().stopped);
   CHECK(world.report().reason.find("joint \"hinge\" came apart") == 0);
 }
+
+// Oracle: free fall. A chain in free flight has nothing in its joints; a rope that is slack has no
+// row at all. Measured 3e-16 m and 1e-14 N; allowed 1e-12 m and 1e-9 N.
+TEST_CASE("stepping: what joints hold falls freely where nothing pulls on them") {
+  WorldDef def = worldOf("stepping", 0.5, {});
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 x = k * Vec3(0.2, 0.13, -0.07);
+    def.bodies.push_back(ball("ball." + std::to_string(k), 0.05, x));
+    def.bodies.back().mass = 1.0 + k;
+    const Vec3 pin = x - Vec3(0.1, 0.065, -0.035);
+    if (k > 0)
+      def.joints.push_back({.name = "pin." + std::to_string(k),
+                            .kind = JointKind::Ball,
+                            .a = k,
+                            .b = k - 1,
+                            .anchorA = pin,
+                            .anchorB = pin});
+  }
+  WorldDef roped = worldOf("stepping", 0.5, {ball("bob", 0.05, Vec3::Zero())});
+  roped.joints = {
+      {.name = "rope", .kind = JointKind::Distance, .a = 0, .anchorB = {0.0, 0.5, 0.0}, .hi = 3.0}};
+  for (const WorldDef& falling : {def, roped}) {
+    World world(falling);
+    world.advance(0.5);
+    const Sample end = world.sample(0.5);
+    REQUIRE_FALSE(world.report().stopped);
+    CHECK(world.report().notes.empty());
+    CHECK(world.report().certificate.max_complementarity < 1e-6);
+    for (std::size_t k = 0; k < end.bodies.size(); ++k) {
+      const Vec3 fall(0.0, -0.5 * 9.81 * 0.25, 0.0);
+      CHECK((end.bodies[k].x - falling.bodies[k].position - fall).norm() < 1e-12);
+    }
+    for (const JointForce& joint : end.joints) CHECK(joint.force.norm() < 1e-9);
+  }
+}

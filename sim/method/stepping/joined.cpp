@@ -58,12 +58,19 @@ void Stepping::meetJoints(double h) {
 
 void Stepping::divideNext(double h) {
   constexpr double kSwing = 1.0;  // [rad] of the fastest swing in a part; at 2 it would grow
+  constexpr double kTurn = 0.1;   // [rad] by which a body in a joint may turn in a part
   constexpr int kMostParts = 1000;
   if (model_.joints.empty()) return;
-  const double fastest = fastestSwing(state_.bodies, model_.joints, state_.trail.back().joints,
-                                      solver_, kSwing / h, memory_.swing);
-  memory_.parts =
-      static_cast<int>(std::clamp(std::ceil(h * fastest / kSwing), 1.0, double{kMostParts}));
+  double rate = fastestSwing(state_.bodies, model_.joints, state_.trail.back().joints, solver_,
+                             kSwing / h, memory_.swing) /
+                kSwing;
+  for (const Joint& joint : model_.joints) {
+    for (const int i : {joint.a, joint.b}) {
+      const RigidBody& body = partner(state_.bodies, i);
+      if (!body.fixed()) rate = std::max(rate, body.omega.norm() / kTurn);
+    }
+  }
+  memory_.parts = static_cast<int>(std::clamp(std::ceil(h * rate), 1.0, double{kMostParts}));
   if (memory_.parts > 1)
     report_.note(
         "steps were divided: what joints hold swings fast under the loads that they carry");
