@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/math/least_squares.h"
 #include "sim/problem/cone.h"
 #include "sim/problem/delassus.h"
 #include "sim/problem/friction_block.h"
@@ -36,21 +37,22 @@ std::vector<double> ofContact(const Problem& problem) {
   return {lambda.data(), lambda.data() + rows};
 }
 
-/// λ of equalities: A λ + b = 0 by Cholesky, and what rounding left of it twice again. Empty if A
-/// is singular.
+/// λ of equalities: A λ + b = 0 by Cholesky, or the smallest λ by least squares where rows depend
+/// on each other; and what rounding left of it twice again. Empty where that would take too long.
 std::vector<double> ofEqualities(const Problem& problem) {
   constexpr int kAgain = 2;
+  constexpr std::size_t kMostDependent = 60;
+  constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
   const Delassus d = delassus(problem);
   const Eigen::LLT<MatX> factor(d.A);
   const auto pivots = factor.matrixLLT().diagonal().array();
-  constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
-  if (factor.info() != Eigen::Success ||
-      !(pivots > kSingular * d.A.diagonal().array().sqrt()).all())
-    return {};
+  const bool regular =
+      factor.info() == Eigen::Success && (pivots > kSingular * d.A.diagonal().array().sqrt()).all();
+  if (!regular && problem.rows.size() > kMostDependent) return {};
   VecX lambda = VecX::Zero(d.b.size()), u = d.b;
   std::vector<Vec6> v(problem.vStar.size());
   for (int k = 0; k <= kAgain; ++k) {
-    lambda -= factor.solve(u);
+    lambda -= regular ? VecX(factor.solve(u)) : leastSquares(d.A, u);
     velocitiesFromLambda(problem, {lambda.data(), problem.rows.size()}, v);
     rowVelocities(problem, v, {u.data(), problem.rows.size()});
   }

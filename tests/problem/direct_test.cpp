@@ -87,16 +87,23 @@ TEST_CASE("equalities alone are solved as they are beside a contact") {
   CHECK(worst < 1e-7);
 }
 
-TEST_CASE("what needs a search, and what repeats itself, is left to others") {
-  Solution untouched;
-  CHECK_FALSE(solveDirect(test::tower({1.0}, 0.5), 1e-12, untouched));
+// Oracle: symmetry. A row that is told twice is held by two equal forces, the smallest that do.
+TEST_CASE("rows that repeat each other share what they hold") {
   Problem twice;
-  test::addCube(twice, 1.0, 1.0, Vec3::UnitX());
+  test::addCube(twice, 2.0, 1.0, Vec3::UnitX());
   test::addCube(twice, 0.0, 1.0, Vec3::Zero());
   for (int row : {0, 1}) {
     twice.cones.push_back({ConeKind::Equality, row, 0.0});
     twice.rows.push_back(test::pointRow(0, 1, Vec3::Zero(), Vec3::Zero(), Vec3::UnitX()));
   }
-  CHECK_FALSE(solveDirect(twice, 1e-12, untouched));
+  Solution shared;
+  REQUIRE(solveDirect(twice, 1e-12, shared));
+  for (const double lambda : shared.lambda) CHECK(lambda == Approx(-1.0).epsilon(1e-14));
+  CHECK(shared.v[0].norm() < 1e-15);
+}
+
+TEST_CASE("what needs a search is left to others") {
+  Solution untouched;
+  CHECK_FALSE(solveDirect(test::tower({1.0}, 0.5), 1e-12, untouched));
   CHECK(untouched.v.empty());
 }
