@@ -108,9 +108,9 @@ class Course {
   double allowance(double h);
   /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
   /// @param tooFar  `allowance` of the whole span, < 0
-  /// Whether nothing moves, and all forces cancel.
-  bool rests();
   double backUp(double span, double tooFar);
+  /// equilibrium.cpp: whether nothing moves in the joints, and all forces cancel.
+  bool rests();
   void commit(double t1);
 
   const Model& model_;
