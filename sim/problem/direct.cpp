@@ -21,7 +21,7 @@ std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
 }
 
 /// λ of one contact: solveFrictionBlock finds it.
-std::vector<double> ofContact(const Problem& problem) {
+void solveContact(const Problem& problem, std::vector<double>& found) {
   const Cone& cone = problem.cones[0];
   const int rows = coneRows(cone.kind);
   Mat3 W = Mat3::Identity();
@@ -34,12 +34,12 @@ std::vector<double> ofContact(const Problem& problem) {
   }
   const double mu = cone.kind == ConeKind::Friction ? cone.mu : 0.0;
   const Vec3 lambda = solveFrictionBlock(W, c, mu, Vec3::Zero());
-  return {lambda.data(), lambda.data() + rows};
+  found.assign(lambda.data(), lambda.data() + rows);
 }
 
 /// λ of equalities: A λ + b = 0 by Cholesky, or the smallest λ by least squares where rows depend
-/// on each other; and what rounding left of it twice again. Empty where that would take too long.
-std::vector<double> ofEqualities(const Problem& problem) {
+/// on each other; and what rounding left of it twice again. False where that would take too long.
+bool solveEqualities(const Problem& problem, std::vector<double>& found) {
   constexpr int kAgain = 2;
   constexpr std::size_t kMostDependent = 60;
   constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
@@ -48,7 +48,7 @@ std::vector<double> ofEqualities(const Problem& problem) {
   const auto pivots = factor.matrixLLT().diagonal().array();
   const bool regular =
       factor.info() == Eigen::Success && (pivots > kSingular * d.A.diagonal().array().sqrt()).all();
-  if (!regular && problem.rows.size() > kMostDependent) return {};
+  if (!regular && problem.rows.size() > kMostDependent) return false;
   VecX lambda = VecX::Zero(d.b.size()), u = d.b;
   std::vector<Vec6> v(problem.vStar.size());
   for (int k = 0; k <= kAgain; ++k) {
@@ -56,36 +56,38 @@ std::vector<double> ofEqualities(const Problem& problem) {
     velocitiesFromLambda(problem, {lambda.data(), problem.rows.size()}, v);
     rowVelocities(problem, v, {u.data(), problem.rows.size()});
   }
-  return {lambda.data(), lambda.data() + lambda.size()};
+  found.assign(lambda.data(), lambda.data() + lambda.size());
+  return true;
 }
 
-std::vector<double> forcesOf(const Problem& problem) {
+/// λ, where the problem is one of those that need no search.
+bool findForces(const Problem& problem, std::vector<double>& found) {
   constexpr std::size_t kMostRows = 300;  // sparse factors are faster beyond
   const auto is = [&](ConeKind kind) {
     return std::all_of(problem.cones.begin(), problem.cones.end(),
                        [&](const Cone& cone) { return cone.kind == kind; });
   };
-  if (problem.cones.size() == 1 && (is(ConeKind::Push) || is(ConeKind::Friction)))
-    return ofContact(problem);
-  if (!problem.cones.empty() && problem.rows.size() <= kMostRows && is(ConeKind::Equality))
-    return ofEqualities(problem);
-  return {};
+  if (problem.cones.size() == 1 && (is(ConeKind::Push) || is(ConeKind::Friction))) {
+    solveContact(problem, found);
+    return true;
+  }
+  const bool few = !problem.cones.empty() && problem.rows.size() <= kMostRows;
+  return few && is(ConeKind::Equality) && solveEqualities(problem, found);
 }
 
 }  // namespace
 
 std::optional<SolveReport> solveDirect(const Problem& problem, double tolerance,
                                        Solution& solution) {
-  Solution found;
-  found.lambda = forcesOf(problem);
-  if (found.lambda.empty()) return std::nullopt;
+  thread_local Solution found;  // keeps its storage from call to call
+  if (!findForces(problem, found.lambda)) return std::nullopt;
   found.v.resize(problem.vStar.size());
   velocitiesFromLambda(problem, found.lambda, found.v);
   SolveReport report;
   report.residual = naturalResidual(problem, found);
   if (!(report.residual <= tolerance) && !atRounding(problem, found, report.residual))
     return std::nullopt;
-  solution = std::move(found);
+  std::swap(solution, found);
   return report;
 }
 
