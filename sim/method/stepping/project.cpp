@@ -8,21 +8,24 @@
 
 namespace tumble {
 
-void Stepping::project() {
+bool Stepping::project() {
   constexpr int kRounds = 10;
   double deepest = deepestOverlap();
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
   };
-  const auto open = [&] { return deepest > tolerance_.drift || largestGap() > tolerance_.drift; };
-  const bool lifts = open();
+  const auto isOpen = [&] { return deepest > tolerance_.drift || largestGap() > tolerance_.drift; };
+  bool open = isOpen();
+  const bool lifts = open;
   const double before = lifts ? potential() : 0.0;
-  for (int round = 0; round < kRounds && open(); ++round) {
+  for (int round = 0; round < kRounds && open; ++round) {
     lift();
     deepest = deepestOverlap();
+    open = isOpen();
   }
   if (lifts) report_.certificate.energy_added_repair += potential() - before;
   report_.certificate.max_penetration = std::max(report_.certificate.max_penetration, deepest);
+  return !open;
 }
 
 double Stepping::deepestOverlap() {

@@ -67,10 +67,11 @@ void Stepping::stepTo(double t1, double h) {
   recordEvents(t1);
   moveBodies(h);
   if (!finite()) return stop("the motion left the range of numbers");
-  project();
-  if (const Joint* open = brokenJoint()) {
-    const std::string& name = model_.def.joints[open - model_.joints.data()].name;
-    return stop("joint \"" + name + "\" came apart");
+  if (!project()) {
+    if (const Joint* open = brokenJoint()) {
+      const std::string& name = model_.def.joints[open - model_.joints.data()].name;
+      return stop("joint \"" + name + "\" came apart");
+    }
   }
   meetJoints(h);
   endSegment(t1);

@@ -88,7 +88,8 @@ class Stepping {
   void turn(RigidBody& body, const Vec3& L, double h) const;
 
   // project.cpp
-  void project();
+  /// @return whether all that overlapped or gaped is closed
+  bool project();
   double deepestOverlap();
   double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
   void lift();
