@@ -1,7 +1,9 @@
 #include "sim/joint/joint_bonds.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "sim/contact/rows.h"
 #include "sim/joint/joint_rows.h"
 #include "sim/math/frames.h"
 
@@ -68,6 +70,13 @@ void impactBonds(std::span<const RigidBody> bodies, std::span<const Joint> joint
     if (row.limit >= 0 && row.arm * row.gap > touch) return;
     addRow(row, 0.0, joint, bonds);
   });
+}
+
+void beginAllowedVelocities(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                            Bonds& bonds, Problem& problem) {
+  impactBonds(bodies, joints, -std::numeric_limits<double>::infinity(), bonds);
+  beginVelocityProblem(bodies, problem);
+  appendBonds(bonds, problem);
 }
 
 void stepBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,

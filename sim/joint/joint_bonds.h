@@ -21,6 +21,11 @@ void restBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
 void impactBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints, double touch,
                  Bonds& bonds);
 
+/// The problem of the velocities next to those of the bodies, by their masses, that all joints
+/// allow: J v = 0. Limits are left out.
+void beginAllowedVelocities(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                            Bonds& bonds, Problem& problem);
+
 /// The rows of all joints for a step that moves bodies with the velocities at its end:
 ///   gap + h J v⁺ + ½ h² (J̇ v + J v̇) = 0,   of a limit ≥ 0
 /// with v̇ of bodies that turn freely, ω̇ = −I⁻¹ (ω × L), so that after the step gaps are zero but

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
-#include "sim/contact/rows.h"
 #include "sim/joint/joint_bonds.h"
 
 namespace tumble {
@@ -122,9 +120,7 @@ class Allowed {
   Allowed(std::span<const RigidBody> bodies, std::span<const Joint> joints, const Solver& solver)
       : solver_(solver) {
     Bonds bonds;
-    impactBonds(bodies, joints, -std::numeric_limits<double>::infinity(), bonds);  // no limits
-    beginVelocityProblem(bodies, problem_);
-    appendBonds(bonds, problem_);
+    beginAllowedVelocities(bodies, joints, bonds, problem_);
   }
 
   std::vector<Vec6> of(std::vector<Vec6> v) {

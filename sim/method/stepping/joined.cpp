@@ -1,18 +1,20 @@
 // Joints in a step: velocities that they allow, how fast they swing, what they gave to the bodies.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "sim/contact/rows.h"
 #include "sim/joint/swing.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
 
-void Stepping::bookJoints(double h) {
+void Stepping::bookOuter() {
   const OuterBonds outer = outerBonds(work_.bonds, state_.bodies);
   state_.externalImpulse += outer.force;
   report_.certificate.work_of_forces += outer.power;
+}
+
+void Stepping::bookJoints(double h) {
+  bookOuter();
   for (std::size_t i = 0; i < work_.bonds.rows.size(); ++i) {
     const Row& row = work_.bonds.rows[i];
     if (work_.bonds.kinds[i] != ConeKind::Push) continue;
@@ -35,18 +37,13 @@ const Joint* Stepping::brokenJoint() const {
 
 void Stepping::meetJoints(double h) {
   if (model_.joints.empty()) return;
-  const double noLimit = -std::numeric_limits<double>::infinity();
-  impactBonds(state_.bodies, model_.joints, noLimit, work_.bonds);
-  beginVelocityProblem(state_.bodies, work_.problem);
-  appendBonds(work_.bonds, work_.problem);
+  beginAllowedVelocities(state_.bodies, model_.joints, work_.bonds, work_.problem);
   work_.solution.lambda.clear();
   work_.solution.v.clear();
   solveByIslands(solver_, work_.problem, {.tolerance = model_.def.stepping.tolerance},
                  work_.solution);
   readBonds(work_.solution.lambda, 0, work_.bonds);
-  const OuterBonds outer = outerBonds(work_.bonds, state_.bodies);
-  state_.externalImpulse += outer.force;
-  report_.certificate.work_of_forces += outer.power;
+  bookOuter();
   const std::vector<JointForce> forces = jointForces(state_.bodies, model_.joints, work_.bonds, h);
   addBondImpulses(work_.bonds, state_.bodies);
   for (std::size_t k = 0; k < forces.size(); ++k) {

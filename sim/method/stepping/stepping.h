@@ -71,6 +71,8 @@ class Stepping {
 
   // joined.cpp
   void bookJoints(double h);
+  /// What the rows of joints as they stand take from the world and from fixed bodies.
+  void bookOuter();
   /// Takes from the velocities what the joints do not allow where they now are.
   void meetJoints(double h);
   /// A joint whose parts lie so far apart that no projection brings them together, or null.
