@@ -2,7 +2,6 @@
 // close.
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "tests/catch.h"
 #include "tests/world/scenes.h"
@@ -14,9 +13,7 @@ namespace {
 
 WorldDef bouncingStack() {
   WorldDef def = worldOf("auto", 1.5, {ground(0.5, 0.3)});
-  for (int i = 0; i < 4; ++i)
-    def.bodies.push_back(
-        box("box" + std::to_string(i), {0.4, 0.4, 0.4}, {0.0, 0.4 * (i + 1), 0.0}, 0.5, 0.3));
+  addColumn(def, 4, 0.4, {0.0, 0.4, 0.0}, 0.5, 0.3);
   return def;
 }
 
@@ -34,9 +31,7 @@ WorldDef rim() {
 /// A box a hundred times as heavy as each of the others falls on a tower.
 WorldDef hammer() {
   WorldDef def = worldOf("auto", 1.5, {ground(0.1, 0.5)});
-  for (int i = 0; i < 5; ++i)
-    def.bodies.push_back(
-        box("box" + std::to_string(i), {0.4, 0.4, 0.4}, {0.0, 0.2 + 0.4 * i, 0.0}, 0.1, 0.5));
+  addColumn(def, 5, 0.4, {0.0, 0.2, 0.0}, 0.1, 0.5);
   BodyDef heavy = box("heavy", {0.6, 0.6, 0.6}, {0.1, 3.2, 0.05}, 0.1, 0.5);
   heavy.mass = 6400.0;
   heavy.orientation = fromAxisAngle(Vec3(1.0, 0.3, 0.5).normalized(), 0.5);
@@ -47,9 +42,7 @@ WorldDef hammer() {
 /// Two cubes of which the lower one is pushed; friction is more than sliding has forces for.
 WorldDef pushed() {
   WorldDef def = worldOf("auto", 1.5, {ground(0.0, 3.0)});
-  for (int i = 0; i < 2; ++i)
-    def.bodies.push_back(
-        box("box" + std::to_string(i), {0.2, 0.2, 0.2}, {0.0, 0.1 + 0.2 * i, 0.0}, 0.0, 3.0));
+  addColumn(def, 2, 0.2, {0.0, 0.1, 0.0}, 0.0, 3.0);
   def.bodies[1].velocity = {1.0, 0.0, 0.0};
   return def;
 }

@@ -13,9 +13,7 @@ namespace {
 
 WorldDef tower(int n) {
   WorldDef def = worldOf("auto", 1.0, {ground(0.0, 0.5)});
-  for (int i = 0; i < n; ++i)
-    def.bodies.push_back(
-        box("box" + std::to_string(i), {0.5, 0.5, 0.5}, {0.1, 0.25 + 0.5 * i, -0.3}, 0.0, 0.5));
+  addColumn(def, n, 0.5, {0.1, 0.25, -0.3}, 0.0, 0.5);
   return def;
 }
 

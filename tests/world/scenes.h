@@ -55,6 +55,31 @@ inline WorldDef worldOf(const char* method, double duration, std::vector<BodyDef
   return def;
 }
 
+/// Cubes one above the other, the first of them here; their names end in their numbers.
+inline void addColumn(WorldDef& def, int n, double edge, const Vec3& first, double e, double mu) {
+  for (int i = 0; i < n; ++i)
+    def.bodies.push_back(box("box" + std::to_string(i), {edge, edge, edge},
+                             {first.x(), first.y() + edge * i, first.z()}, e, mu));
+}
+
+/// Half-metre cubes of 1 kg in so many columns along x and z and layers, at rest, or drifting along
+/// a smooth floor. Columns stand apart; bonded, every other layer is shifted, and cubes stand on
+/// two.
+inline WorldDef stackOf(int wide, int high, int deep, bool bonded, double speed) {
+  WorldDef def = worldOf("stepping", 1e6, {ground(0.0, speed > 0.0 ? 0.0 : 0.5)});
+  for (int y = 0; y < high; ++y)
+    for (int x = 0; x < wide; ++x)
+      for (int z = 0; z < deep; ++z) {
+        const double aside = bonded && y % 2 ? 0.24 : 0.0;
+        def.bodies.push_back(box("box." + std::to_string(def.bodies.size()), {0.5, 0.5, 0.5},
+                                 {0.5 * x + aside + 0.01 * x, 0.25 + 0.5 * y, 0.6 * z}, 0.0, 0.5));
+        def.bodies.back().density.reset();
+        def.bodies.back().mass = 1.0;
+        def.bodies.back().velocity = {speed, 0.0, 0.0};
+      }
+  return def;
+}
+
 /// A plank at 60 degrees, its lower corner on the floor, its upper against a smooth wall.
 /// @param side  of the least friction that holds it
 inline WorldDef leaningPlank(const char* method, double side) {

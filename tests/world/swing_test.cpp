@@ -46,9 +46,8 @@ double strayed(World& world) {
 }  // namespace
 
 // Oracle: conservation, and symmetry: turned about the vertical a scene does the same. A bar of
-// 1 cm passes the vertical at 54 rad/s, a quarter of a radian a step: of its fall 5.4e-2 are lost,
-// measured; allowed 0.1. Between azimuths measured 1.2e-9 of the length, allowed 1e-6.
-
+// 1 cm passes the vertical at 54 rad/s, for which steps are divided: of its fall 1.6e-2 are lost,
+// measured; allowed 5e-2. Between azimuths measured 1.2e-9 of the length, allowed 1e-6.
 TEST_CASE("stepping: slender pendulums swing, whatever their azimuth") {
   for (const double length : {0.01, 0.1, 1.0})
     for (const double slender : {0.1, 0.01, 0.001}) {
@@ -60,7 +59,7 @@ TEST_CASE("stepping: slender pendulums swing, whatever their azimuth") {
         CAPTURE(length, slender, azimuth);
         REQUIRE_FALSE(world.report().stopped);
         const double fall = bodyMass(def.bodies[0]) * 9.81 * 0.5 * length;
-        CHECK(energy < 0.1 * fall);
+        CHECK(energy < 0.05 * fall);
         const Quat back = fromAxisAngle(Vec3::UnitY(), -azimuth * kDegree);
         const Vec3 end = back * world.sample(1.0).bodies[0].x;
         if (azimuth == 0.0) straight = end;
