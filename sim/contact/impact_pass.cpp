@@ -11,6 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr int kSweeps = 500;
+constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is for
 
 /// The contacts that take part, and their rows.
 struct Strike {
@@ -73,9 +74,20 @@ SolveReport solvePass(const Impact& impact, Strike& strike, Solution& solution,
   const bool friction = strike.problem.rows.size() > strike.problem.cones.size();
   const std::size_t firstBond = strike.problem.rows.size();
   if (impact.bound()) appendBonds(*impact.bonds, strike.problem);
-  const bool sweeps = friction && !impact.bound();
-  const SolveReport solved = solveByIslands(*findSolver(sweeps ? "pgs" : "pivoting"),
-                                            strike.problem, {.maxIterations = kSweeps}, solution);
+  const char* first = friction && !impact.bound()            ? "pgs"
+                      : strike.problem.rows.size() <= kDense ? "pivoting"
+                                                             : "newton";
+  const SolveSettings settings{.maxIterations = kSweeps};
+  SolveReport solved = solveByIslands(*findSolver(first), strike.problem, settings, solution);
+  if (solved.status != SolveStatus::Solved) {
+    Solution other;
+    const SolveReport again =
+        solveByIslands(*findSolver("newton"), strike.problem, settings, other);
+    if (again.residual < solved.residual) {
+      solved = again;
+      solution = std::move(other);
+    }
+  }
   report.residual = std::max(report.residual, solved.residual);
   if (impact.bound()) {
     const ImpulseEnergy energy = giveBonds(impact, solution, firstBond);

@@ -75,9 +75,6 @@ class Course {
   void recordBonds(const Bonds& bonds);
   /// One event for each pair and normal; per contact: vrel [m/s] before, impulse [N·s] on a.
   void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
-  /// That of the contacts in [first, end) that share the normal of the first.
-  void recordImpact(std::size_t first, std::size_t end, std::span<const double> vrel,
-                    std::span<const Vec3> impulse);
   void chooseLasting();
   /// The contacts that are springs now; tells when they began and ended.
   void chooseSprings();

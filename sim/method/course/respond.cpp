@@ -5,6 +5,7 @@
 #include "sim/contact/impact.h"
 #include "sim/joint/joint_bonds.h"
 #include "sim/method/course/course.h"
+#include "sim/method/impacts.h"
 
 namespace tumble {
 namespace {
@@ -24,17 +25,6 @@ constexpr double kNoise = 10.0;
 constexpr double kCreep = 4.0;
 // Ends of slips that are located within one step.
 constexpr int kSticksInStep = 20;
-
-// Normals that differ by less are one: what rounding leaves of a shared face. [1]
-constexpr double kOneNormal = 1e-9;
-
-bool samePair(const Contact& c, const Contact& d) {
-  return c.a == d.a && c.b == d.b;
-}
-
-bool sameNormal(const ContactPoint& c, const ContactPoint& d) {
-  return (c.n - d.n).squaredNorm() < kOneNormal * kOneNormal;
-}
 
 }  // namespace
 
@@ -79,13 +69,7 @@ void Course::respond() {
                                            .impulse = impulse,
                                            .tolerance = tolerance_,
                                            .bonds = &bonds});
-  Certificate& books = report_.certificate;
-  books.energy_lost_impact += impact.lostNormal;
-  books.energy_lost_friction += impact.lostFriction;
-  books.work_of_forces += impact.work;
-  books.max_complementarity = std::max(books.max_complementarity, impact.residual);
-  if (impact.finishedInelastic)
-    report_.note("impacts that did not come to an end were finished without rebound");
+  bookImpact(impact, report_);
   recordImpacts(vrel, impulse);
   recordBonds(bonds);
 }
@@ -95,43 +79,14 @@ void Course::recordBonds(const Bonds& bonds) {
 }
 
 void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse) {
-  // Contacts of one pair stand together; those that share a normal are one impact.
-  for (std::size_t i = 0; i < touching_.size();) {
-    std::size_t end = i;
-    while (end < touching_.size() && samePair(touching_[end], touching_[i])) ++end;
-    const std::size_t before = report_.events.size();
-    for (std::size_t k = i; k < end; ++k) {
-      const bool first =
-          std::none_of(touching_.begin() + i, touching_.begin() + k,
-                       [&](const Contact& c) { return sameNormal(c.point, touching_[k].point); });
-      if (first) recordImpact(k, end, vrel, impulse);
-    }
-    if (report_.events.size() > before) ++state_.recentImpacts[{touching_[i].a, touching_[i].b}];
-    i = end;
+  std::pair<int, int> hit{-1, -1};
+  for (const Event& event : impactEvents(model_, state_, state_.t, touching_, vrel, impulse)) {
+    if (wasLasting(event.a, event.b) && leansOn(event, state_.bodies, tolerance_.keep)) continue;
+    report_.events.push_back(event);
+    const std::pair<int, int> pair(event.a, event.b);
+    if (pair != hit) ++state_.recentImpacts[pair];
+    hit = pair;
   }
-}
-
-void Course::recordImpact(std::size_t first, std::size_t end, std::span<const double> vrel,
-                          std::span<const Vec3> impulse) {
-  const Contact& c = touching_[first];
-  Event event{.t = state_.t, .kind = EventKind::Impact, .a = c.a, .b = c.b};
-  event.n = c.point.n;
-  event.p.setZero();
-  for (std::size_t k = first; k < end; ++k) {
-    if (!sameNormal(touching_[k].point, c.point)) continue;
-    const double j = impulse[k].dot(event.n);
-    event.p += j * touching_[k].point.p;
-    event.j += j;
-    event.vrel = std::min(event.vrel, vrel[k]);
-    if (state_.bodies[c.b].fixed()) state_.externalImpulse += impulse[k];
-    if (state_.bodies[c.a].fixed()) state_.externalImpulse -= impulse[k];
-  }
-  if (event.j <= 0.0) return;
-  // A contact that lasts and gets no more than rounding only leans on.
-  const double kick = event.j * (state_.bodies[c.a].invM + state_.bodies[c.b].invM);
-  if (wasLasting(c.a, c.b) && event.vrel > -tolerance_.keep && kick < tolerance_.keep) return;
-  event.p /= event.j;
-  report_.events.push_back(event);
 }
 
 void Course::chooseLasting() {

@@ -8,6 +8,7 @@
 #include "sim/math/frames.h"
 #include "sim/method/exact/exact.h"
 #include "sim/method/exact/rims.h"
+#include "sim/method/impacts.h"
 
 namespace tumble {
 namespace {
@@ -244,43 +245,15 @@ void Exact::respond(double t, const Cluster& cluster) {
     if (!model_.fixed(i)) state_.bodies[i] = bodies[local[i]];
   }
   state_.kineticMax = std::max(state_.kineticMax, kinetic);
-  Certificate& books = report_.certificate;
-  books.energy_lost_impact += impact.lostNormal;
-  books.energy_lost_friction += impact.lostFriction;
-  books.work_of_forces += impact.work;
-  books.max_complementarity = std::max(books.max_complementarity, impact.residual);
-  if (impact.finishedInelastic)
-    report_.note("impacts that did not come to an end were finished without rebound");
+  bookImpact(impact, report_);
   recordImpacts(t, cluster, vrel, impulse);
 }
 
 void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,
                           std::span<const Vec3> impulse) {
-  // Contacts of one pair and one normal stand together.
-  const std::vector<Contact>& contacts = cluster.contacts;
-  for (std::size_t i = 0; i < contacts.size();) {
-    const Contact& first = contacts[i];
-    Event event{.t = t, .kind = EventKind::Impact, .a = first.a, .b = first.b};
-    event.n = first.point.n;
-    event.p.setZero();
-    for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b &&
-           contacts[i].point.n == event.n;
-         ++i) {
-      const double j = impulse[i].dot(event.n);
-      event.p += j * contacts[i].point.p;
-      event.j += j;
-      event.vrel = std::min(event.vrel, vrel[i]);
-      if (model_.fixed(first.b)) state_.externalImpulse += impulse[i];
-      if (model_.fixed(first.a)) state_.externalImpulse -= impulse[i];
-    }
-    if (event.j <= 0.0) continue;
-    // A contact that lasts and gets no more than rounding only leans on.
-    const double kick = event.j * (state_.bodies[event.a].invM + state_.bodies[event.b].invM);
-    if (lasts(event.a, event.b) && event.vrel > -tolerance_.keep && kick < tolerance_.keep)
-      continue;
-    event.p /= event.j;
-    report_.events.push_back(event);
-  }
+  for (const Event& event : impactEvents(model_, state_, t, cluster.contacts, vrel, impulse))
+    if (!lasts(event.a, event.b) || !leansOn(event, state_.bodies, tolerance_.keep))
+      report_.events.push_back(event);
 }
 
 }  // namespace tumble

@@ -45,21 +45,19 @@ void Stepping::recordEvents(double t) {
   segment.contacts.clear();
   for (PairMemory& pair : memory_.pairs) {
     const Contact* lasting = nullptr;
-    bool rebounds = false;
     if (!allKept_) recordImpact(t, pair);
     for (Touch& touch : pair.touches) {
       const double j = touch.impulse.dot(touch.contact.point.n);
       if (j > 0.0) {
         segment.contacts.push_back(touch.contact);
         if (!lasting && touch.contact.lasting) lasting = &touch.contact;
-        rebounds |= touch.rebounds;
       }
-      // A hit that closes its gap in this step rebounds in the next.
+      // What a hit that closes its gap in this step still gets comes in the next.
       const bool arriving = j > 0.0 && arrives(touch);
       touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
       touch.arrivalSpeed = arriving ? touch.approach : 0.0;
     }
-    if (lasting && !rebounds) work_.lasting.push_back(*lasting);
+    if (lasting) work_.lasting.push_back(*lasting);
   }
   if (allKept_) return;
   std::swap(work_.lasting, memory_.lasting);

@@ -32,7 +32,7 @@ void Stepping::solveIslands(double h) {
   work_.later.assign(n, 0.0);
   memory_.islands.resize(n);
   allKept_ = true;
-  groupLinks();
+  groupLinks(h);
   for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i)
     solveIsland(std::span(work_.order).subspan(work_.begin[i], work_.begin[i + 1] - work_.begin[i]),
                 h);
@@ -40,11 +40,14 @@ void Stepping::solveIslands(double h) {
 }
 
 /// Deals what joins bodies out to islands, in the order of their first links.
-void Stepping::groupLinks() {
+void Stepping::groupLinks(double h) {
   const int count = static_cast<int>(state_.near.size() + work_.bonds.rows.size());
   const int world = static_cast<int>(state_.bodies.size());
   const auto joins = [&](Link link) {
-    return !isPair(link) || !memory_.pairs[link].touches.empty();
+    if (!isPair(link)) return true;
+    const std::vector<Touch>& touches = memory_.pairs[link].touches;
+    return std::any_of(touches.begin(), touches.end(),
+                       [&](const Touch& touch) { return !flies(touch, h); });
   };
   const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
   work_.root.resize(world);
@@ -106,8 +109,41 @@ bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) co
       return false;
   for (const Link link : links)
     for (const Touch& touch : memory_.pairs[link].touches)
-      if (touch.arrivalSpeed > 0.0 || touch.rebounds) return false;
+      if (touch.arrivalSpeed > 0.0) return false;
   return true;
+}
+
+/// Whether an island that was at rest is asked for a step of another length: its forces stay.
+bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, double h) const {
+  if (memory.length == h || memory.bodies != work_.movers || memory.forms.size() != links.size())
+    return false;
+  for (std::size_t k = 0; k < links.size(); ++k)
+    if (!isPair(links[k]) || memory.forms[k] != memory_.pairs[links[k]].form) return false;
+  const double s = h / memory.length, still = tolerance_.rest;
+  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
+    const Vec6 &star = work_.star[work_.movers[i]], &before = work_.before[work_.movers[i]];
+    const Vec6 asked = before + s * (memory.vStar[i] - memory.v[i]);
+    for (const Vec6& v : {before, memory.v[i], Vec6(star - asked)})
+      if (!(v.lpNorm<Eigen::Infinity>() <= still)) return false;
+  }
+  return true;
+}
+
+/// Gives the answer of an island at rest to a step of another length.
+void Stepping::stretch(IslandMemory& memory, std::span<const Link> links, double h) {
+  const double s = h / memory.length;
+  memory.length = h;
+  memory.books = {};
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    memory.looks[k] = memory_.pairs[links[k]].look;
+    for (Touch& touch : memory_.pairs[links[k]].touches) touch.impulse *= s;
+  }
+  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
+    memory.vStar[i] = work_.star[work_.movers[i]];
+    memory.v[i] = work_.before[work_.movers[i]];
+    memory.books.external +=
+        state_.bodies[work_.movers[i]].M * (memory.v[i] - memory.vStar[i]).head<3>();
+  }
 }
 
 /// Bodies that joints alone hold take half of what forces give before they move, half after: their
@@ -131,7 +167,9 @@ void Stepping::solveIsland(std::span<const Link> links, double h) {
   if (work_.movers.empty()) return;
   swing(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
-  if (!keeps(memory, links)) {
+  if (rests(memory, links, h)) {
+    stretch(memory, links, h);
+  } else if (!keeps(memory, links)) {
     allKept_ = false;
     build(links, h);
     const SolveReport solved = solver_.solve(
@@ -181,7 +219,8 @@ void Stepping::build(std::span<const Link> links, double h) {
       std::vector<Touch>& touches = memory_.pairs[link].touches;
       const bool allClosed = std::all_of(touches.begin(), touches.end(),
                                          [&](const Touch& touch) { return closed(touch); });
-      for (Touch& touch : touches) addTouch(touch, allClosed, h);
+      for (Touch& touch : touches)
+        if (!flies(touch, h)) addTouch(touch, allClosed, h);
       continue;
     }
     work_.problem.cones.push_back({.kind = work_.bonds.kinds[link - state_.near.size()],
@@ -202,19 +241,13 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const ContactPoint& c = contact.point;
   Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
 
-  // A gap may be closed by the end of the step and no further. The step after, on the surface, the
-  // hit rebounds with the speed at which it came: so a bounce starts where it should and gains no
-  // height.
+  // A gap may be closed by the end of the step and no further. Gaps of one face go together: all
+  // are as found, or, where all touch, none is left of them.
   const double vrel = rowSpeed(normal, work_.before[contact.a], work_.before[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
-  const bool arrived = closed(touch);
-  const bool hits =
-      c.separation + h * rowSpeed(normal, work_.star[contact.a], work_.star[contact.b]) < 0.0;
-  const bool rebounds = arrived && hits && touch.approach > 0.0 && contact.restitution > 0.0;
-  // Gaps of one face go together: all are as found, or, where all touch, none is left of them.
   const double gap = allClosed ? 0.0 : std::max(c.separation, -tolerance_.root);
-  normal.bias = rebounds ? -contact.restitution * touch.approach : gap / h;
-  touch.rebounds = rebounds && normal.bias < landingSpeed();
+  // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
+  normal.bias = gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
 
   Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())};
   addRow(normal);
@@ -233,19 +266,23 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
 void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
   memory.bodies = work_.movers;
   memory.looks.clear();
+  memory.forms.clear();
   memory.books = {};
+  memory.length = h;
   memory.scale = velocityScale(work_.problem);
   std::size_t cone = 0;
   for (const Link link : links) {
     if (!isPair(link)) {
       memory.looks.push_back(0);
+      memory.forms.push_back(0);
       work_.bonds.lambda[link - state_.near.size()] =
           work_.solution.lambda[work_.problem.cones[cone++].row];
       continue;
     }
     memory.looks.push_back(memory_.pairs[link].look);
+    memory.forms.push_back(memory_.pairs[link].form);
     for (Touch& touch : memory_.pairs[link].touches)
-      shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
+      if (!flies(touch, h)) shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
   }
   memory.vStar.clear();
   memory.v.clear();
@@ -287,7 +324,7 @@ void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, do
   contact.sliding = contact.friction > 0.0 &&
                     tangential.norm() >= contact.friction * j * (1.0 - 1e-9) &&
                     slip.norm() > tolerance_.stick;
-  contact.lasting = !arrives(touch) && !touch.rebounds;
+  contact.lasting = !arrives(touch);
 }
 
 }  // namespace tumble

@@ -16,8 +16,9 @@ namespace tumble {
 struct Touch {
   Contact contact;              ///< as found; with the force of the step
   Vec3 impulse = Vec3::Zero();  ///< [N·s] on a
+  bool rebounds = false;        ///< when it is struck
+  double due = 0.0;             ///< [s] until it is struck or, of free bodies, until they meet
   double approach = 0.0;        ///< [m/s] how fast it came
-  bool rebounds = false;        ///< leaves with e times its approach
   double arrivalSpeed = 0.0;    ///< [m/s] of a hit that closed its gap in the step before
   double arrivalImpulse = 0.0;  ///< [N·s] that it got so far
 };
@@ -27,7 +28,9 @@ struct PairMemory {
   Pose poseA, poseB;
   double margin = -1.0;  ///< [m] up to which points were looked for; < 0: never looked at
   long look = 0;         ///< number of the look that found them: the same number, the same points
+  long form = 0;         ///< number of the look that found these features first, in a row
   double deepest = 0.0;  ///< [m] largest overlap
+  bool bounces = false;  ///< it has restitution
   std::vector<Touch> touches;
 };
 
@@ -41,7 +44,9 @@ struct IslandBooks {
 struct IslandMemory {
   std::vector<int> bodies;     ///< that move, in order of their first contact
   std::vector<long> looks;     ///< of its pairs
+  std::vector<long> forms;     ///< the same
   std::vector<Vec6> vStar, v;  ///< per body
+  double length = 0.0;         ///< [s] of the step
   double scale = 1.0;          ///< [m/s] velocityScale of the problem
   double residual = 0.0;
   IslandBooks books;
@@ -57,6 +62,7 @@ struct SteppingWork {
   std::vector<std::vector<int>> holders;  ///< per body: the pairs that touch and may hold it
   Bonds bonds;                            ///< rows of joints
   std::vector<int> root, order, begin;    ///< of islands: forest of bodies; links by island
+  std::vector<char> open;                 ///< per root: an overlap in its island
   std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
   std::vector<int> movers;
   Problem problem;
@@ -64,6 +70,7 @@ struct SteppingWork {
   /// Per body: twists at both ends of the step, and what they would be without contacts.
   std::vector<Vec6> before, star, after;
   std::vector<char> touched;  ///< per body: a contact pushed it in this step
+  std::vector<char> held;     ///< per body: it moves, and a contact or joint acts on it
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
   std::vector<Contact> lasting;
 };

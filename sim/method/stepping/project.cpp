@@ -1,5 +1,6 @@
 // Position projection: the least displacement, weighed by mass, that lifts what overlaps.
 #include <algorithm>
+#include <numeric>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
@@ -37,14 +38,39 @@ double Stepping::deepestOverlap() {
   return deepest;
 }
 
+/// Joins to islands what touches or is near, and marks the roots of those with an overlap.
+void Stepping::findOverlapping() {
+  const int n = static_cast<int>(state_.bodies.size());
+  work_.root.resize(n);
+  std::iota(work_.root.begin(), work_.root.end(), 0);
+  const auto join = [&](int a, int b) {
+    if (b == n || model_.fixed(a) || model_.fixed(b)) return;
+    const int p = islandRoot(work_.root, a), q = islandRoot(work_.root, b);
+    work_.root[std::max(p, q)] = std::min(p, q);
+  };
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    if (!memory_.pairs[k].touches.empty()) join(state_.near[k].second, state_.near[k].first);
+  for (const Joint& joint : model_.joints) join(joint.a, joint.b);
+  work_.open.assign(n, 0);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    if (memory_.pairs[k].deepest > tolerance_.drift) work_.open[rootOf(k)] = 1;
+}
+
+int Stepping::rootOf(std::size_t pair) {
+  const auto [b, a] = state_.near[pair];
+  return islandRoot(work_.root, model_.fixed(a) ? b : a);
+}
+
 void Stepping::lift() {
   // Displacements obey the problem of the velocities with the gap as bias:
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
   beginVelocityProblem(state_.bodies, work_.problem);
   for (Vec6& v : work_.problem.vStar) v.setZero();
-  for (const PairMemory& pair : memory_.pairs) {
-    for (const Touch& touch : pair.touches) {
+  findOverlapping();
+  for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
+    if (memory_.pairs[k].touches.empty() || !work_.open[rootOf(k)]) continue;
+    for (const Touch& touch : memory_.pairs[k].touches) {
       const Contact& c = touch.contact;
       work_.problem.cones.push_back(
           {.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});

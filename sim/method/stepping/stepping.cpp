@@ -58,10 +58,19 @@ void Stepping::step() {
   divideNext(whole);
 }
 
+/// In as many parts as impacts ask for.
 void Stepping::stepTo(double t1, double h) {
+  constexpr int kFew = 2, kMany = 16, kBodies = 64;
+  int divisions = std::clamp(kBodies / model_.count(), kFew, kMany);
+  for (double part = meet(h, true); part < h && !report_.stopped; part = meet(h, --divisions > 0)) {
+    moveTo(state_.t + part, part);
+    h -= part;
+  }
+  if (!report_.stopped) moveTo(t1, h);
+}
+
+void Stepping::moveTo(double t1, double h) {
   beginSegment(t1);
-  sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
-  findTouching(h);
   solveIslands(h);
   applyTwists(h);
   recordEvents(t1);

@@ -1,8 +1,9 @@
 // Time stepping after Moreau: each step solves one contact problem for the velocities at its end,
 //   M (v⁺ − v) = h F + Jᵀ λ,   u_n ≥ −separation/h,  λ_n ≥ 0, complementary, Coulomb's cone,
-// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. Bodies that
-// joints alone hold go by RATTLE (Andersen, 1983): half of what forces give comes after the move,
-// and then velocities are what the joints allow.
+// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. What
+// rebounds is struck where it meets, by the scene's law of impact: a step is divided there. Bodies
+// that joints alone hold go by RATTLE (Andersen, 1983): half of what forces give comes after the
+// move, and then velocities are what the joints allow.
 #pragma once
 
 #include <span>
@@ -34,6 +35,7 @@ class Stepping {
   using Link = int;
 
   void stepTo(double t1, double h);
+  void moveTo(double t1, double h);
   double lengthTo(double t1) const;
   void beginSegment(double t1);
   void endSegment(double t1);
@@ -46,15 +48,34 @@ class Stepping {
   double marginOf(std::size_t pair, double h) const;
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
+  void matchFeatures(PairMemory& memory);
 
   // seams.cpp: what a third body keeps apart.
   bool closed(const Touch& touch) const;
   void leaveSeams();
   bool keptApart(int pair, int body) const;
 
+  // rebounds.cpp: impacts with restitution.
+  /// Strikes what is due, and @return how long [s], at most h, the bodies go until the next hit.
+  double meet(double h, bool mayDivide);
+  /// The first hit [s] after `soon` and before h, else h.
+  double untilHit(double soon, double h);
+  void findHeld();
+  void foresee(Touch& touch) const;
+  /// The body under all that acted on it in the step before.
+  RigidBody underWay(int body) const;
+  bool anyHit(double within) const;
+  /// Applies the law of impact to what touches, and to what is due within that time [s].
+  bool strike(double within);
+  /// Whether a touch is left out of the contact problem of a step, being struck at its end or
+  /// later.
+  bool flies(const Touch& touch, double h) const {
+    return touch.due >= h && !work_.held[touch.contact.a] && !work_.held[touch.contact.b];
+  }
+
   // island.cpp: the contact problem of each island.
   void solveIslands(double h);
-  void groupLinks();
+  void groupLinks(double h);
   std::pair<int, int> ends(Link link) const;
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
   Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }
@@ -62,6 +83,8 @@ class Stepping {
   void collectBodies(std::span<const Link> links);
   void swing(std::span<const Link> links, double h);
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
+  bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
+  void stretch(IslandMemory& memory, std::span<const Link> links, double h);
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);
   void addRow(Row row);
@@ -94,6 +117,8 @@ class Stepping {
   bool project();
   double deepestOverlap();
   double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
+  void findOverlapping();
+  int rootOf(std::size_t pair);
   void lift();
 
   // events.cpp

@@ -82,22 +82,42 @@ void Stepping::look(std::size_t pair, double margin) {
   memory.deepest = 0.0;
   if (work_.found.empty() && hadNone) return;  // still nothing
 
-  // Hits under way go on where the same features touch.
+  memory.look = ++memory_.looks;
+  memory.bounces = !work_.found.empty() && work_.found.front().restitution > 0.0;
+  const bool sameForm =
+      std::equal(memory.touches.begin(), memory.touches.end(), work_.found.begin(),
+                 work_.found.end(), [&](const Touch& touch, const Contact& contact) {
+                   return touch.contact.point.feature == contact.point.feature &&
+                          closed(touch) == (contact.point.separation <= tolerance_.touch);
+                 });
+  if (!sameForm) {
+    memory.form = memory.look;
+    matchFeatures(memory);
+  }
+  for (std::size_t i = 0; i < work_.found.size(); ++i) {
+    Contact contact = work_.found[i];
+    const Contact& before = memory.touches[i].contact;
+    contact.anchor = anchorOf(a, b, contact.point);
+    contact.force = before.force;
+    contact.lasting = before.lasting;
+    contact.sliding = before.sliding;
+    memory.touches[i].contact = contact;
+    memory.deepest = std::max(memory.deepest, -contact.point.separation);
+  }
+}
+
+/// Makes as many touches as were found. Hits under way go on where the same features touch.
+void Stepping::matchFeatures(PairMemory& memory) {
   thread_local std::vector<Touch> old;
   old.clear();
   for (const Touch& touch : memory.touches)
     if (touch.arrivalSpeed > 0.0) old.push_back(touch);
-  memory.look = ++memory_.looks;
   memory.touches.assign(work_.found.size(), Touch{});
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
-    Touch& touch = memory.touches[i];
-    touch.contact = work_.found[i];
-    touch.contact.anchor = anchorOf(a, b, touch.contact.point);
-    memory.deepest = std::max(memory.deepest, -touch.contact.point.separation);
     for (const Touch& before : old) {
-      if (before.contact.point.feature != touch.contact.point.feature) continue;
-      touch.arrivalSpeed = before.arrivalSpeed;
-      touch.arrivalImpulse = before.arrivalImpulse;
+      if (before.contact.point.feature != work_.found[i].point.feature) continue;
+      memory.touches[i].arrivalSpeed = before.arrivalSpeed;
+      memory.touches[i].arrivalImpulse = before.arrivalImpulse;
     }
   }
 }
