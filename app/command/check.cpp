@@ -22,8 +22,9 @@ void printTable(const Verdict& verdict) {
 }
 
 // Whether the scene's claims hold; a run that stopped on the way throws none, but fails as
-// kPhysics.
+// kPhysics. A scene without claims need not run, but has to be one that could.
 int checkScene(const Scene& scene) {
+  makeWorld(scene);
   fmt::print("{}: {}\n", scene.name, scene.claim.empty() ? scene.title : scene.claim);
   if (scene.checks.empty()) {
     fmt::print("  no checks\n");

@@ -88,6 +88,19 @@ TEST_CASE("a scene that cannot be is refused with its place, what is wrong and w
   CHECK_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+TEST_CASE("a scene that is refused is refused by check too, with claims and without") {
+  const std::string checks = GENERATE("", "checks = [\"rest-time\"]\n");
+  const std::string wrong = GENERATE(as<std::string>(), "[0, 0.06, 0]", "[0, nan, 0]");
+  const Scratch scratch;
+  scratch.file("scene.toml", checks + spoilt("[0, 2, 0]", wrong));
+  const Outcome outcome = tumbleRun(scratch, "check scene.toml");
+  CAPTURE(checks, wrong, outcome.err);
+  CHECK(outcome.code == kScene);
+  CHECK(outcome.lines() == 1);
+  CHECK(outcome.says(checks.empty() ? "scene.toml:10:" : "scene.toml:11:"));
+  CHECK(outcome.out.empty());
+}
+
 TEST_CASE("several mistakes of one file are told together, first first") {
   const Scratch scratch;
   std::string text = spoilt("mass = 1.0", "mass = -1.0");
