@@ -72,7 +72,6 @@ void expand(Section& section, const std::string& name, Generator& generator, Nod
       variation.apply(*body.as<Table>(), i, generator.count);
     Section copy(body, section.path("body"), findings, bodies.nextPath());
     BodyEntry entry = readBody(copy, name + "." + std::to_string(i), materials);
-    copy.finish();
     if (!copy.good()) return;
     const std::string wrong = generator.place(i, entry.def);
     if (!wrong.empty()) return section.complain("body", wrong);

@@ -52,6 +52,19 @@ void readMotion(Section& section, BodyDef& def) {
   def.angularVelocity = def.orientation * omega_B;
 }
 
+// Whether it is known what a body weighs, or does not matter.
+bool weighs(const BodyDef& def) {
+  return def.fixed || def.mass || (def.density && !std::get_if<Particle>(&def.shape));
+}
+
+void requireMass(Section& section, const BodyDef& def) {
+  if (weighs(def)) return;
+  section.complain("mass", std::get_if<Particle>(&def.shape)
+                               ? "missing; a particle needs a mass"
+                               : "missing; a moving body needs a mass, or a density of its own or "
+                                 "its material's");
+}
+
 // kick = { impulse = [x, y, z], point = [x, y, z] }: the world-frame impulse that the body gets at
 // a point of its own frame before time begins, on top of its velocities.
 void readKick(Section& section, BodyDef& def) {
@@ -62,7 +75,7 @@ void readKick(Section& section, BodyDef& def) {
   kick.read("impulse", impulse, any("N s"));
   kick.read("point", point_B, any("m"));
   kick.finish();
-  if (!section.good()) return;
+  if (!section.good() || !weighs(def)) return;
   if (def.fixed) return section.complain("kick", "the body is fixed");
   RigidBody body;
   try {
@@ -87,9 +100,8 @@ void checkPlane(Section& section, BodyDef& def) {
       section.complain(key, "a plane stands where its [nx, ny, nz, d] says; leave this out");
 }
 
-// A particle has a mass and no inertia, and it does not turn.
-void checkParticle(Section& section, const BodyDef& def) {
-  if (!def.mass && !def.fixed) section.complain("mass", "missing; a particle needs a mass");
+// A particle has no inertia, and it does not turn.
+void checkParticle(Section& section) {
   for (const char* key : {"inertia", "orientation", "angular_velocity", "angular_velocity_body"})
     if (section.find(key))
       section.complain(key, "a particle has no inertia and does not turn; leave this out");
@@ -109,8 +121,10 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   if (row != materials.end())
     surface = row->second;
   else if (section.find("material"))
-    section.complain("material", "unknown material " + inQuotes(def.material) +
-                                     hint(def.material, namesOf(materials)));
+    section.complain(
+        "material", "unknown material " + inQuotes(def.material) +
+                        (materials.empty() ? "; there is no [materials." + plain(def.material) + "]"
+                                           : hint(def.material, namesOf(materials))));
   surface.read(section);
   def.density = surface.density;
   def.restitution = surface.restitution;
@@ -125,17 +139,17 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   readMass(section, def);
   readInertiaMethod(section, def);
   readMotion(section, def);
-  if (const std::optional<Shape> shape = readShape(section)) {
-    def.shape = *shape;
-    if (std::get_if<HalfSpace>(&def.shape)) checkPlane(section, def);
-    if (std::get_if<Particle>(&def.shape)) checkParticle(section, def);
-    if (section.good() && !def.fixed && !def.mass && !def.density)
-      section.complain("mass",
-                       "missing; a moving body needs a mass, or a density of its own or its "
-                       "material's");
-    if (section.good()) centre(section, def);
-    readKick(section, def);
-  }
+  const std::optional<Shape> shape = readShape(section);
+  section.find("kick");
+  section.finish();
+  if (!shape) return entry;
+  def.shape = *shape;
+  if (std::get_if<HalfSpace>(&def.shape)) checkPlane(section, def);
+  if (std::get_if<Particle>(&def.shape)) checkParticle(section);
+  // A key that is misspelt or wrong may be the very one that seems to be missing.
+  if (section.good() && surface.sound) requireMass(section, def);
+  if (section.good()) centre(section, def);
+  readKick(section, def);
   return entry;
 }
 
@@ -218,7 +232,6 @@ void readBodies(Section& root, const Materials& materials, BodyList& bodies) {
     std::string text = "body." + index;
     section.read("name", text);
     BodyEntry entry = readBody(section, text, materials);
-    section.finish();
     bodies.add(std::move(entry), given ? given->node.spot : node.spot, section);
   }
 }

@@ -26,8 +26,10 @@ Materials readMaterials(Section& root) {
     if (!isName(entry.key))
       root.findings().complain(entry.spot, key, "a name is made of A-Z a-z 0-9 _ and .");
     Section section(entry.node, key, root.findings());
-    materials[entry.key].read(section);
+    Material& material = materials[entry.key];
+    material.read(section);
     section.finish();
+    material.sound = section.good();
   }
   return materials;
 }

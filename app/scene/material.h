@@ -13,6 +13,7 @@ struct Material {
   double restitution = 0.0, friction = 0.0;
   std::optional<Rgb> colour;
   std::optional<Rgb> back;  ///< of the half with z < 0 in the body frame
+  bool sound = true;        ///< nothing was wrong with its table
 
   /// Reads the keys that a material has and that a body may have too.
   void read(Section& section);

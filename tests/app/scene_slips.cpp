@@ -1,0 +1,67 @@
+// One slip, one complaint, where it was made: no second one that only follows from the first.
+#include "app/claim/verdict.h"
+#include "app/record/recording.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+// A right scene of nine lines but for what is put in for line 9.
+const std::string kStart =
+    "[world]\n"
+    "[materials.rubber]\n"
+    "density = 1000\n"
+    "[materials.air]\n"
+    "friction = 0.1\n"
+    "[[body]]\n"
+    "name = \"ball\"\n"
+    "shape = { sphere = 0.1 }\n";
+
+// What the scene is told at the first thing that refuses it; "" if nothing does.
+std::string told(const std::string& text) {
+  try {
+    const Scene scene = parseScene(text, "s.toml");
+    requireKnownChecks(scene);
+    makeWorld(scene);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("whoever misspells what a body weighs is not told that it weighs nothing") {
+  struct Slip {
+    std::string text, says;
+  };
+  const Slip table[] = {
+      {"densty = 1000\n", "s.toml:9:1: error: body.ball.densty: unknown key, did you mean"},
+      {"masss = 1\n", "s.toml:9:1: error: body.ball.masss: unknown key, did you mean 'mass'?"},
+      {"density = \"heavy\"\n", "s.toml:9:11: error: body.ball.density: expected a number"},
+      {"material = \"ruber\"\n", "s.toml:9:12: error: body.ball.material: unknown material"},
+      {"material = \"oak\"\n[materials.oak]\ndensty = 700\n",
+       "s.toml:11:1: error: materials.oak.densty: unknown key, did you mean 'density'?"},
+      {"material = \"oak\"\nkick = { impulse = [1, 0, 0] }\n[materials.oak]\ndensity = \"x\"\n",
+       "s.toml:12:11: error: materials.oak.density: expected a number"},
+      {"[[array]]\nname = \"row\"\nkind = \"row\"\ncount = 2\nstep = [1, 0, 0]\n"
+       "body = { shape = \"particle\", mas = 1 }\n",
+       "s.toml:15:30: error: array.row.body.mas: unknown key, did you mean 'mass'?"},
+  };
+  for (const Slip& slip : table) {
+    const bool array = slip.text.starts_with("[[");
+    const std::string line = told(kStart + (array ? "mass = 1\n" : "") + slip.text);
+    INFO(line);
+    CHECK(line.find('\n') == std::string::npos);
+    CHECK(line.starts_with(slip.says));
+  }
+  // Without a slip it is missing indeed.
+  CHECK(told(kStart).starts_with("s.toml:6:1: error: body.ball.mass: missing"));
+  CHECK(told(kStart + "material = \"air\"\n").starts_with("s.toml:6:1: error: body.ball.mass"));
+  CHECK(told(kStart + "material = \"rubber\"\n").empty());
+  const std::string none = told("[world]\n[[body]]\nshape = { sphere = 1 }\nmaterial = \"oak\"\n");
+  CHECK(none ==
+        "s.toml:4:12: error: body.0.material: unknown material 'oak'; there is no "
+        "[materials.oak]");
+}
