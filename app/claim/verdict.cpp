@@ -27,15 +27,19 @@ void requireKnownChecks(const Scene& scene) {
   std::vector<std::string> known;
   for (const Check& check : checks()) known.emplace_back(check.name);
   std::vector<Diagnostic> diagnostics;
-  const auto require = [&](const std::string& name, const std::string& where) {
+  const auto require = [&](const std::string& name, const std::string& key,
+                           const std::string& where) {
     if (findCheck(name)) return;
     const auto place = scene.places.find(where);
     diagnostics.push_back({place != scene.places.end() ? place->second : Place{scene.file},
-                           where + ": unknown check '" + name + "'" + hint(name, known)});
+                           key + ": unknown check " + inQuotes(name) + hint(name, known)});
   };
-  for (const std::string& name : scene.checks) require(name, "checks");
-  for (std::size_t i = 0; i < scene.charts.size(); ++i)
-    require(scene.charts[i].error, "chart[" + std::to_string(i) + "].error");
+  for (std::size_t i = 0; i < scene.checks.size(); ++i)
+    require(scene.checks[i], "checks", "checks[" + std::to_string(i) + "]");
+  for (std::size_t i = 0; i < scene.charts.size(); ++i) {
+    const std::string index = std::to_string(i);
+    require(scene.charts[i].error, "chart." + index + ".error", "chart[" + index + "].error");
+  }
   if (!diagnostics.empty()) throw SceneError(std::move(diagnostics));
 }
 

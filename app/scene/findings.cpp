@@ -9,7 +9,7 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t kMostComplaints = 100;
-constexpr std::size_t kMostListed = 16;   // names in a hint
+constexpr std::size_t kMostListed = 32;   // names in a hint
 constexpr std::size_t kLongestWord = 64;  // a slip of the finger happens in shorter words
 
 int slips(std::string_view a, std::string_view b) {

@@ -33,6 +33,10 @@ void readTexts(Section& root, Scene& scene) {
   root.read("chapter", scene.chapter);
   root.read("claim", scene.claim);
   root.read("checks", scene.checks);
+  const Node* checks = root.find("checks");
+  const Array* names = checks ? checks->as<Array>() : nullptr;
+  for (std::size_t i = 0; names && i < names->size(); ++i)
+    root.findings().note("checks[" + std::to_string(i) + "]", (*names)[i].spot);
 }
 
 void readWorld(Section& root, Scene& scene) {

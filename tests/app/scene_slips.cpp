@@ -65,3 +65,18 @@ TEST_CASE("whoever misspells what a body weighs is not told that it weighs nothi
         "s.toml:4:12: error: body.0.material: unknown material 'oak'; there is no "
         "[materials.oak]");
 }
+
+TEST_CASE(
+    "a check that is none is refused where it stands, with the nearest one and all there are") {
+  const std::string ball = kStart + "mass = 1\n";
+  const std::string line = told("checks = [\"books\", \"setled\"]\n" + ball);
+  INFO(line);
+  CHECK(
+      line.starts_with("s.toml:1:20: error: checks: unknown check 'setled', did you mean "
+                       "'settled'? Valid: "));
+  for (const Check& check : checks()) {
+    CAPTURE(check.name);
+    CHECK(line.find(std::string(check.name)) != std::string::npos);
+  }
+  CHECK(told("checks = [\"books\"]\n" + ball).empty());
+}
