@@ -20,10 +20,20 @@ std::string pathOf(std::size_t k, const char* field = "") {
   return "joints[" + std::to_string(k) + "]" + field;
 }
 
+/// `joint "arm" of "plank" and the world`
+std::string titleOf(const WorldDef& def, const JointDef& joint) {
+  const auto end = [&](int body) -> std::string {
+    if (body == kNoBody) return "the world";
+    const bool there = body >= 0 && body < static_cast<int>(def.bodies.size());
+    return there ? "\"" + def.bodies[body].name + "\"" : "no body";
+  };
+  return "joint \"" + joint.name + "\" of " + end(joint.a) + " and " + end(joint.b);
+}
+
 /// The bodies of a joint, and what of a joint they can have.
 void checkBodies(const Model& model, std::span<const RigidBody> bodies, std::size_t k) {
   const JointDef& def = model.def.joints[k];
-  const std::string name = "\"" + def.name + "\"";
+  const std::string name = titleOf(model.def, def);
   const int count = model.count();
   need(def.a >= 0 && def.a < count, pathOf(k, ".a"), name + " names a body that is not there");
   need(def.b >= kNoBody && def.b < count, pathOf(k, ".b"),
@@ -34,7 +44,7 @@ void checkBodies(const Model& model, std::span<const RigidBody> bodies, std::siz
   for (const int body : {def.a, def.b}) {
     if (body == kNoBody) continue;
     const char* field = body == def.a ? ".a" : ".b";
-    const std::string who = "\"" + model.def.bodies[body].name + "\"";
+    const std::string who = name + ": \"" + model.def.bodies[body].name + "\"";
     need(!model.def.bodies[body].pivot_B, pathOf(k, field),
          who + " has a pivot; leave it out, a ball joint to the world holds the same point");
     if (!bodies[body].particle) continue;
@@ -48,35 +58,39 @@ void checkBodies(const Model& model, std::span<const RigidBody> bodies, std::siz
 }
 
 /// Anchors, axis and limits are numbers that make a joint.
-void checkNumbers(const JointDef& def, std::size_t k) {
+void checkNumbers(const Model& model, std::size_t k) {
+  const JointDef& def = model.def.joints[k];
+  const std::string name = titleOf(model.def, def) + ": ";
   const JointName& row = jointName(def.kind);
   need(def.anchorA.allFinite() && def.anchorB.allFinite(), pathOf(k, ".anchor"),
-       "an anchor must be a finite point");
+       name + "an anchor must be a finite point");
   need(def.axis.allFinite() && (!row.axis || def.axis.norm() > 0.0), pathOf(k, ".axis"),
-       "an axis must be three numbers that are not all zero");
+       name + "an axis must be three numbers that are not all zero");
   const bool limits = std::isfinite(def.lo) || std::isfinite(def.hi);
-  need(row.limits || !limits, pathOf(k), "a joint of this kind has no limits");
-  need(def.lo <= def.hi, pathOf(k, ".min"), "the lower limit lies above the upper one");
-  need(!limits || def.lo < def.hi, pathOf(k, ".min"),
-       "two limits that are one leave nothing free: leave them out of a distance, which is then "
-       "rigid, or take a joint that holds it");
+  need(row.limits || !limits, pathOf(k), name + "a joint of this kind has no limits");
+  need(def.lo <= def.hi, pathOf(k, ".min"), name + "the lower limit lies above the upper one");
+  need(
+      !limits || def.lo < def.hi, pathOf(k, ".min"),
+      name +
+          "two limits that are one leave nothing free: leave them out of a distance, which is then "
+          "rigid, or take a joint that holds it");
   if (def.kind == JointKind::Hinge) {
     need(!std::isfinite(def.lo) || def.lo > -kTurn, pathOf(k, ".min"),
-         "a hinge tells turns from -180 to 180 degrees");
+         name + "a hinge tells turns from -180 to 180 degrees");
     need(!std::isfinite(def.hi) || def.hi < kTurn, pathOf(k, ".max"),
-         "a hinge tells turns from -180 to 180 degrees");
+         name + "a hinge tells turns from -180 to 180 degrees");
   }
   const double apart = (def.anchorA - def.anchorB).norm();
   need(def.kind == JointKind::Distance || apart == 0.0, pathOf(k, ".anchor"),
-       "both bodies of such a joint share one anchor");
+       name + "both bodies of such a joint share one anchor");
   need(def.kind != JointKind::Distance || limits || apart > 0.0, pathOf(k, ".anchor"),
-       "a rod needs two anchors apart; for one point take \"ball\"");
+       name + "a rod needs two anchors apart; for one point take \"ball\"");
 }
 
 /// Nothing at the start is beyond a limit, or moves as a joint does not let it.
 void checkStart(const Model& model, std::span<const RigidBody> bodies, std::size_t k) {
   constexpr double kRounding = 1e-9;  // [m], [m/s], and of the speeds
-  const std::string name = "\"" + model.def.joints[k].name + "\"";
+  const std::string name = titleOf(model.def, model.def.joints[k]);
   const Joint& joint = model.joints[k];
   const double touch = ContactTolerance::forSize(model.size).touch;
   double speed = 1.0;
@@ -115,7 +129,7 @@ void joinBodies(Model& model, std::span<const RigidBody> bodies) {
   const std::vector<JointDef>& defs = model.def.joints;
   for (std::size_t k = 0; k < defs.size(); ++k) {
     checkBodies(model, bodies, k);
-    checkNumbers(defs[k], k);
+    checkNumbers(model, k);
     model.joints.push_back(makeJoint(defs[k], bodies, armOf(model, bodies, defs[k])));
     checkStart(model, bodies, k);
     if (!defs[k].collide && defs[k].b != kNoBody)

@@ -80,3 +80,27 @@ TEST_CASE(
   }
   CHECK(told("checks = [\"books\"]\n" + ball).empty());
 }
+
+TEST_CASE("what is wrong with a joint names it, or the bodies that it joins") {
+  struct Slip {
+    std::string text, says;
+  };
+  const std::string hinge = "[[joint]]\nname = \"arm\"\nkind = \"hinge\"\na = \"ball\"\n";
+  const Slip table[] = {
+      {hinge + "anchor = [0, 1, 0]\n", "s.toml:10:1: error: joint.arm.axis: missing"},
+      {hinge + "anchor = [0, 1, 0]\naxis = [0, 0, 1]\nmin = 10\nmax = 5\n",
+       "s.toml:16:7: error: joint \"arm\" of \"ball\" and the world: the lower limit lies above"},
+      {hinge + "anchor = [0, 1, 0]\naxis = [0, 0, 1]\nmin = 5\n",
+       "s.toml:16:7: error: joint \"arm\" of \"ball\" and the world begins beyond its lower limit"},
+      {"[[joint]]\nkind = \"ball\"\na = \"ball\"\nanchor = [0, 1, 0]\n[[joint]]\nkind = "
+       "\"distance\"\n"
+       "a = \"ball\"\nanchor = [0, 1, 0]\nanchor_b = [0, 1, 0]\n",
+       "s.toml:17:10: error: joint \"joint.1\" of \"ball\" and the world: a rod needs two anchors"},
+  };
+  for (const Slip& slip : table) {
+    const std::string line = told(kStart + "mass = 1\n" + slip.text);
+    INFO(line);
+    CHECK(line.starts_with(slip.says));
+    CHECK(line.find('\n') == std::string::npos);
+  }
+}
