@@ -175,13 +175,15 @@ const Array& Section::tables(std::string_view key) {
   return none;
 }
 
-void Section::finish() {
+void Section::finish(const Elsewhere& elsewhere) {
   if (!table_) return;
   const std::vector<std::string> known(asked_.begin(), asked_.end());
   for (const Entry& entry : table_->entries) {
+    const auto other = elsewhere.find(entry.key);
     if (std::find(asked_.begin(), asked_.end(), entry.key) == asked_.end())
       findings_.complain(entry.spot, path(plain(entry.key)),
-                         "unknown key" + hint(entry.key, known));
+                         "unknown key" + (other == elsewhere.end() ? hint(entry.key, known)
+                                                                   : " here; " + other->second));
     else if (where_)
       findings_.note((where_->empty() ? "" : *where_ + ".") + entry.key, entry.node.spot);
   }

@@ -1,6 +1,7 @@
 // Reads one table of a scene key by key.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ inline constexpr Range notNegative(std::string_view unit) {
   return {0.0, 1e30, false, unit};
 }
 inline constexpr Range kShare{0.0, 1.0, false, {}};  ///< [0, 1]
+
+/// What to say of a key that is unknown here, and has its place elsewhere.
+using Elsewhere = std::map<std::string, std::string, std::less<>>;
 
 /// A table of a scene: each key is asked for once; a key that nobody asked for is unknown.
 /// A reader sets `out` only if the key is there and right, and complains if it is there and wrong.
@@ -67,7 +71,7 @@ class Section {
   const Array& tables(std::string_view key);
 
   /// Complains about each key that was not asked for.
-  void finish();
+  void finish(const Elsewhere& elsewhere = {});
 
   void complain(std::string_view key, const std::string& what);
   /// True if nothing was wrong with this table since it was opened.
@@ -77,6 +81,8 @@ class Section {
   std::string path(std::string_view key) const;
   const std::string& key() const { return key_; }
   Findings& findings() { return findings_; }
+  /// The keys that were asked for.
+  const std::vector<std::string_view>& asked() const { return asked_; }
 
  private:
   template <class T>

@@ -14,6 +14,40 @@ constexpr double kLongest = 1e6;  // [s] of a run
 
 constexpr Range kStep{0.0, kLongest, true, "s"};
 
+void readKeys(Section& section, CourseSettings& course) {
+  section.read("integrator", course.integrator, integratorChoices());
+  section.read("order", course.order, 1, kHighestOrder);
+  section.read("tolerance", course.tolerance, {kLeastTolerance, 1.0, false, {}});
+  section.read("attitude", course.attitude, attitudeChoices());
+  section.read("step", course.step, kStep);
+  section.read("plan", course.plan, planChoices());
+  section.read("repair_steps", course.repairSteps, 1, 1'000'000);
+  section.read("contact", course.contact, contactChoices());
+  section.read("stiffness", course.stiffness, positive("N/m"));
+  section.read("damping", course.damping, notNegative("N s/m"));
+}
+
+void readKeys(Section& section, SteppingSettings& stepping) {
+  section.read("step", stepping.step, kStep);
+  section.read("solver", stepping.solver, solverChoices());
+  section.read("tolerance", stepping.tolerance, {0.0, 1.0, true, {}});
+}
+
+/// Notes for each key of a method's table that it stands there.
+template <class Settings>
+void noteKeys(const std::string& table, Elsewhere& elsewhere) {
+  const Node empty{{}, Table{}};
+  Findings unheard({""});
+  Section section(empty, table, unheard);
+  Settings ignored;
+  readKeys(section, ignored);
+  for (const std::string_view key : section.asked()) {
+    std::string& advice = elsewhere[std::string(key)];
+    advice +=
+        (advice.empty() ? "set " : ", or ") + section.path(key) + " for method '" + table + "'";
+  }
+}
+
 /// One of the methods; whoever names an integrator instead is told where that belongs.
 void readMethod(Section& section, std::string& method) {
   const std::vector<std::string> integrators = integratorChoices();
@@ -55,23 +89,17 @@ void readWorld(Section& root, Scene& scene) {
     else
       section.complain("seed", "expected a whole number >= 0, found " + describe(*seed));
   }
-  section.finish();
+  Elsewhere methods;
+  noteKeys<CourseSettings>("course", methods);
+  noteKeys<SteppingSettings>("stepping", methods);
+  section.finish(methods);
 }
 
 void readCourse(Section& root, CourseSettings& course) {
   const Node* node = root.find("course");
   if (!node) return;
   Section section(*node, "course", root.findings(), "course");
-  section.read("integrator", course.integrator, integratorChoices());
-  section.read("order", course.order, 1, kHighestOrder);
-  section.read("tolerance", course.tolerance, {kLeastTolerance, 1.0, false, {}});
-  section.read("attitude", course.attitude, attitudeChoices());
-  section.read("step", course.step, kStep);
-  section.read("plan", course.plan, planChoices());
-  section.read("repair_steps", course.repairSteps, 1, 1'000'000);
-  section.read("contact", course.contact, contactChoices());
-  section.read("stiffness", course.stiffness, positive("N/m"));
-  section.read("damping", course.damping, notNegative("N s/m"));
+  readKeys(section, course);
   section.finish();
 }
 
@@ -79,9 +107,7 @@ void readStepping(Section& root, SteppingSettings& stepping) {
   const Node* node = root.find("stepping");
   if (!node) return;
   Section section(*node, "stepping", root.findings(), "stepping");
-  section.read("step", stepping.step, kStep);
-  section.read("solver", stepping.solver, solverChoices());
-  section.read("tolerance", stepping.tolerance, {0.0, 1.0, true, {}});
+  readKeys(section, stepping);
   section.finish();
 }
 

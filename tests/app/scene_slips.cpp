@@ -104,3 +104,16 @@ TEST_CASE("what is wrong with a joint names it, or the bodies that it joins") {
     CHECK(line.find('\n') == std::string::npos);
   }
 }
+
+TEST_CASE("a method's own key in [world] is told which tables take it") {
+  const std::string body = "[[body]]\nshape = { sphere = 1 }\nmass = 1\n";
+  CHECK(told("[world]\nstep = 0.01\n" + body) ==
+        "s.toml:2:1: error: world.step: unknown key here; set course.step for method 'course', or "
+        "stepping.step for method 'stepping'");
+  CHECK(told("[world]\nsolver = \"pgs\"\n" + body) ==
+        "s.toml:2:1: error: world.solver: unknown key here; set stepping.solver for method "
+        "'stepping'");
+  CHECK(
+      told("[world]\nstp = 0.01\n" + body) ==
+      "s.toml:2:1: error: world.stp: unknown key; valid: gravity, method, impact, duration, seed");
+}
