@@ -74,14 +74,16 @@ const Check* findCheck(std::string_view name) {
 }
 
 WorstRow::WorstRow(std::string label, double allowed)
-    : row_{std::move(label), 0.0, 0.0, std::numeric_limits<double>::infinity(), allowed} {}
+    : label_(std::move(label)),
+      row_{label_, 0.0, 0.0, std::numeric_limits<double>::infinity(), allowed} {}
 
-void WorstRow::see(double measured, double exact, double error) {
+void WorstRow::see(double measured, double exact, double error, const std::string& where) {
   if (seen_ && (std::isnan(row_.error) || error <= row_.error)) return;
   seen_ = true;
   row_.measured = measured;
   row_.exact = exact;
   row_.error = error;
+  row_.label = where.empty() ? label_ : label_ + ", worst at " + where;
 }
 
 ClaimRow emptyClaim(const std::string& what) {

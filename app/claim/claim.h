@@ -25,10 +25,12 @@ struct ClaimRow {
 class WorstRow {
  public:
   WorstRow(std::string label, double allowed);
-  void see(double measured, double exact, double error);
+  /// @param where  which of the comparisons it is, for the label of the worst: "t = 1 s"
+  void see(double measured, double exact, double error, const std::string& where = {});
   const ClaimRow& row() const { return row_; }
 
  private:
+  std::string label_;
   ClaimRow row_;
   bool seen_ = false;
 };

@@ -1,4 +1,6 @@
 // A ball at rest between two walls: neither alone can hold it, and each gives its share.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/claim/free_body.h"
@@ -69,7 +71,8 @@ std::vector<ClaimRow> grooveRows(const Scene& scene, const Recording& recording)
           if (s.a == ball && s.b == walls[k]) force += s.force;
           if (s.b == ball && s.a == walls[k]) force -= s.force;
         }
-        row.see(force.norm(), lambda[k], (force - lambda[k] * normal[k]).norm() / lambda[k]);
+        row.see(force.norm(), lambda[k], (force - lambda[k] * normal[k]).norm() / lambda[k],
+                fmt::format("t = {:.4g} s", sample->t));
       }
       rows.push_back(row.row());
     }

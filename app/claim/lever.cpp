@@ -1,4 +1,6 @@
 // Bodies held by a hinge and a prop: which of the two pushes, and which pulls.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -85,6 +87,11 @@ Balance balanceOf(const Scene& scene, const Lever& lever, double t) {
   return balance;
 }
 
+// "d = 0.6 m, t = 1 s"
+std::string instantOf(const Sample& sample, const Balance& balance) {
+  return fmt::format("d = {:.4g} m, t = {:.4g} s", std::abs(balance.propArm), sample.t);
+}
+
 Vec3 contactForce(const Sample& sample, const Lever& lever) {
   Vec3 sum = Vec3::Zero();
   for (const ContactSample& c : sample.contacts) {
@@ -106,8 +113,10 @@ void addHeld(const Scene& scene, const Recording& recording, const Lever& lever,
     const Balance balance = balanceOf(scene, lever, sample.t);
     const double f = balance.needed(), rest = balance.weight - balance.pushes - f;
     const Vec3 found = contactForce(sample, lever), held = sample.joints[lever.joint].force;
-    push.see(found.y(), f, (found - Vec3(0.0, f, 0.0)).norm() / f);
-    hinge.see(held.y(), rest, (held - Vec3(0.0, rest, 0.0)).norm() / std::max(f, balance.weight));
+    const std::string where = instantOf(sample, balance);
+    push.see(found.y(), f, (found - Vec3(0.0, f, 0.0)).norm() / f, where);
+    hinge.see(held.y(), rest, (held - Vec3(0.0, rest, 0.0)).norm() / std::max(f, balance.weight),
+              where);
   }
   rows.push_back(push.row());
   rows.push_back(hinge.row());
@@ -118,8 +127,11 @@ void addHeld(const Scene& scene, const Recording& recording, const Lever& lever,
 void addLifted(const Scene& scene, const Recording& recording, const Lever& lever,
                std::vector<ClaimRow>& rows) {
   const BodyDef& body = scene.world.bodies[lever.body];
-  const double f = contactForce(recording.samples.front(), lever).norm();
-  rows.push_back({body.name + ": force of the prop while another lifts / N", f, 0.0, f, 1e-12});
+  const Sample& start = recording.samples.front();
+  const double f = contactForce(start, lever).norm();
+  rows.push_back({body.name + ": force of the prop while another lifts / N, at " +
+                      instantOf(start, balanceOf(scene, lever, start.t)),
+                  f, 0.0, f, 1e-12});
   double risen = 0.0;
   for (const Sample& sample : recording.samples)
     risen = std::max(risen, sample.bodies[lever.body].x.y() - body.position.y());
@@ -168,7 +180,9 @@ void addRemainder(const Scene& scene, const Recording& recording, const Lever& l
     const Vec3 turn = moment.dot(axis) / inertia * axis;
     const Vec3 exact = mass * (turn.cross(r) + now.omega.cross(now.omega.cross(r))) - force;
     const Vec3 found = sample.joints[lever.joint].force;
-    row.see(found.y(), exact.y(), (found - exact).norm() / std::max(largest, exact.norm()));
+    row.see(found.y(), exact.y(), (found - exact).norm() / std::max(largest, exact.norm()),
+            lever.prop == kNoBody ? fmt::format("t = {:.4g} s", sample.t)
+                                  : instantOf(sample, balanceOf(scene, lever, sample.t)));
   }
   rows.push_back(row.row());
 }

@@ -15,10 +15,13 @@ namespace tumble::command {
 namespace {
 
 void printTable(const Verdict& verdict) {
-  fmt::print("  {:<46}{:>16}{:>16}{:>11}{:>11}\n", "", "measured", "exact", "error", "allowed");
+  std::size_t width = 46;
+  for (const ClaimRow& row : verdict.rows) width = std::max(width, row.label.size());
+  fmt::print("  {:<{}}{:>16}{:>16}{:>11}{:>11}\n", "", width, "measured", "exact", "error",
+             "allowed");
   for (const ClaimRow& row : verdict.rows)
-    fmt::print("  {:<46}{:>16.10g}{:>16.10g}{:>11.2g}{:>11.2g}  {}\n", row.label, row.measured,
-               row.exact, row.error, row.allowed, row.holds() ? "ok" : "FAILED");
+    fmt::print("  {:<{}}{:>16.10g}{:>16.10g}{:>11.2g}{:>11.2g}  {}\n", row.label, width,
+               row.measured, row.exact, row.error, row.allowed, row.holds() ? "ok" : "FAILED");
 }
 
 // Whether the scene's claims hold; a run that stopped on the way throws none, but fails as

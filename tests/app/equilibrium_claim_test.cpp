@@ -148,6 +148,19 @@ TEST_CASE("an arch falls by what statics says, not by what it is named") {
                           [](Recording& r) { r.samples.back().contacts[0].separation = -1e-8; }));
 }
 
+// Oracle: the tampering.
+TEST_CASE("the claim of the end names the body that moves and the pair that overlaps") {
+  const Scene scene = blockOn(0.0, 0.5);
+  Recording recording = record(scene, 20.0);
+  recording.samples.back().bodies[1].v.x() = 0.1;
+  recording.samples.back().contacts[0].separation = -1e-3;
+  const std::vector<ClaimRow> rows = findCheck("settled")->rows(scene, recording);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[1].label == scene.world.bodies[1].name + ": fastest point at the end / (m/s)");
+  CHECK(rows[2].label == scene.world.bodies[1].name + " on " + scene.world.bodies[0].name +
+                             ": deepest overlap at the end / m");
+}
+
 TEST_CASE("where nothing rests or weighs anything, the claims say so") {
   const Scene scene = demo("cradle");
   const Recording recording = record(scene, 10.0);

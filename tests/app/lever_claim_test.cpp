@@ -53,6 +53,23 @@ TEST_CASE("a force that is too large lifts a plank, and its prop gives nothing")
   }));
 }
 
+// Oracle: the tampering. The row tells the distance d of the prop where it is furthest off.
+TEST_CASE("the rows of a lever say for which d they are worst") {
+  const Scene scene = demo({"world.duration=1.0"});
+  Recording recording = record(scene, 10.0);
+  for (ContactSample& c : recording.samples[5].contacts) c.force *= 1.01;
+  recording.samples[10].joints[0].force.y() += 1.0;
+  const std::vector<ClaimRow> rows = findCheck("lever")->rows(scene, recording);
+  const auto says = [&](const char* what, const char* where) {
+    return std::any_of(rows.begin(), rows.end(), [&](const ClaimRow& row) {
+      return row.label.find(what) != std::string::npos && row.label.ends_with(where);
+    });
+  };
+  CHECK(says("force of the prop", ", worst at d = 0.4 m, t = 0.5 s"));
+  CHECK(says("force of the hinge, m g", ", worst at d = 0.6 m, t = 1 s"));
+  CHECK(says("what is left", ", worst at d = 0.6 m, t = 1 s"));
+}
+
 TEST_CASE("a wrong force of a prop, a hinge or a wall breaks a claim") {
   const Scene scene = demo({"world.duration=1.0"});
   const Recording right = record(scene, 10.0);
