@@ -23,6 +23,8 @@ void addFlightRows(const Scene& scene, const Recording& recording, const FlightL
   double scale = 0.0;
   for (const FlightState& arc : log.arcs)
     scale = std::max({scale, arc.L.norm(), 1e-3 * mass.mass * radius * arc.v.norm()});
+  for (const Sample& sample : recording.samples)
+    scale = std::max(scale, 1e-3 * mass.mass * radius * sample.bodies[log.body].v.norm());
 
   for (const Sample& sample : recording.samples) {
     if (sample.t >= log.end) break;

@@ -87,7 +87,7 @@ void WorstRow::see(double measured, double exact, double error, const std::strin
 }
 
 ClaimRow emptyClaim(const std::string& what) {
-  return {what, 0.0, 1.0, std::numeric_limits<double>::infinity(), 0.0};
+  return {what, 0.0, 1.0, std::numeric_limits<double>::infinity(), 0.0, true};
 }
 
 }  // namespace tumble

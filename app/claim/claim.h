@@ -17,6 +17,7 @@ struct ClaimRow {
   std::string label;
   double measured = 0.0, exact = 0.0;
   double error = 0.0, allowed = 0.0;
+  bool silent = false;  ///< nothing was compared: the claim says nothing of this scene, and fails
   bool holds() const { return error <= allowed; }  ///< never for a NaN
 };
 

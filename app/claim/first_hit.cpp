@@ -35,6 +35,9 @@ Hit hitOf(const WorldDef& world, int index, const Vec3& acceleration) {
             least, floor->n.dot(centre(t)) - floor->d - reach(body.shape, q, Vec3(-floor->n)));
     return least;
   };
+  // What touches from the start has no first hit.
+  constexpr double kTouch = 1e-9;  // [m] of a scene's own rounding
+  if (gap(0.0, rotor.q) <= kTouch) return {};
   for (double t = 0.0; t < world.duration; t += kStep) {
     const Quat next = rotor.after(kStep);
     if (gap(t + kStep, next) > 0.0) {

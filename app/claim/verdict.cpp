@@ -11,7 +11,10 @@ Verdict judge(const Scene& scene, const Recording& recording) {
   const Scene ran = asRun(scene, recording);
   for (const std::string& name : scene.checks)
     if (const Check* check = findCheck(name))
-      for (ClaimRow& row : check->rows(ran, recording)) verdict.rows.push_back(std::move(row));
+      for (ClaimRow& row : check->rows(ran, recording)) {
+        if (row.silent) row.label = name + " says nothing here: " + row.label;
+        verdict.rows.push_back(std::move(row));
+      }
   for (const ClaimRow& row : verdict.rows) {
     if (!row.holds()) ++verdict.failed;
     double share = row.error / row.allowed;

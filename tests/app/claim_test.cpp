@@ -4,6 +4,7 @@
 
 #include "app/claim/fall.h"
 #include "app/claim/free_body.h"
+#include "app/claim/verdict.h"
 #include "tests/app/claims.h"
 
 using namespace tumble;
@@ -79,6 +80,28 @@ TEST_CASE("a true bouncing ball keeps the claims of apex, rest, first hit and ar
   CHECK(holds("rest-time", scene, recording));
   CHECK(holds("first-hit", scene, recording));
   CHECK(holds("arcs", scene, recording));
+}
+
+// Oracle: the scene. A ball that is in the air to the end tells nothing of rest, one that lies
+// from the start nothing of a first hit.
+TEST_CASE("claims of rest and of a first hit fail where they say nothing") {
+  Scene flying = ballScene(0.5, 2.0);
+  flying.world.duration = 0.6;  // it would hit at 0.639 s
+  CHECK_FALSE(holds("rest-time", flying, record(flying, 60.0)));
+  const Scene lying = ballScene(0.5, 0.0);
+  CHECK_FALSE(holds("first-hit", lying, record(lying, 60.0)));
+  flying.checks = {"rest-time"};
+  const Verdict verdict = judge(flying, record(flying, 60.0));
+  CHECK(verdict.failed == 1);
+  CHECK(verdict.worst ==
+        "rest-time says nothing here: no body falls onto a floor without spin "
+        "before the end");
+}
+
+// Oracle: free fall. A ball let go at rest, which does not spin, has nothing to be off by.
+TEST_CASE("the arcs of a ball that falls straight and stays down hold") {
+  const Scene dull = ballScene(0.0, 0.2);
+  CHECK(holds("arcs", dull, record(dull, 60.0)));
 }
 
 TEST_CASE("the apex claim refuses a wrong impulse, a lost hit and a motion with other speeds") {
