@@ -64,8 +64,10 @@ double gridTime(const Model& model, long k, double h) {
 }
 
 std::string spentBy(const State& state) {
-  return "the exact method had found the forces on a body " + std::to_string(state.effort.done) +
-         " times";
+  return "the exact method takes too long where things move or touch as fast as here (" +
+         std::to_string(state.effort.done) +
+         " evaluations of forces so far); for steps throughout set world.method = \"stepping\", to "
+         "wait for it \"exact\"";
 }
 
 void trimTrail(State& state, double t) {

@@ -2,6 +2,7 @@
 // where the exact method gives up.
 #include <algorithm>
 
+#include "sim/method/method.h"
 #include "tests/catch.h"
 #include "tests/problem/problems.h"
 #include "tests/world/scenes.h"
@@ -161,6 +162,15 @@ TEST_CASE("auto goes on by stepping where the exact method gives up") {
   CHECK(sameBits(often.sample(1.0), once.sample(1.0)));
   CHECK(std::is_sorted(report.events.begin(), report.events.end(),
                        [](const Event& p, const Event& q) { return p.t < q.t; }));
+}
+
+TEST_CASE("auto says why the exact method gave up, and what to set, in words of a scene") {
+  State state;
+  state.effort.done = 1'500'000;
+  CHECK(spentBy(state) ==
+        "the exact method takes too long where things move or touch as fast as here (1500000 "
+        "evaluations of forces so far); for steps throughout set world.method = \"stepping\", to "
+        "wait for it \"exact\"");
 }
 
 // Oracle: the floor, and energy. A cube that slides where mu > 5/3 has no forces that obey the laws
