@@ -1,4 +1,5 @@
 // Arrows in the world with a thickness in pixels and a pale rim that lifts them off what is behind.
+// What stands before them, or holds them inside, does not hide them: they show through it, fainter.
 #pragma once
 
 #include <string>

@@ -235,3 +235,29 @@ TEST_CASE("an arrow reaches from its base to its tip") {
   CHECK(changed(x + 3, tip + 11));  // the head is 2.5 times as wide as the shaft
   CHECK_FALSE(changed(x + 3, tip + 60));
 }
+
+// Oracle: by hand; inside a white box a black arrow leaves half of the light, up to its base; where
+// it stands out of the box it is as dark as ever.
+TEST_CASE("an arrow that begins inside a body is seen from its base on, fainter inside") {
+  Picture picture = bare(1.0);
+  Instance box;
+  box.position = {0.0, 1.0, 0.0};
+  box.scale = {0.5, 0.5, 0.5};
+  box.colour = {1.0f, 1.0f, 1.0f};
+  picture.instances = {box};
+  const Image before = studio().draw(picture, kFull);
+  Arrow arrow;
+  arrow.base = {0.0, 0.8, 0.0};
+  arrow.tip = {0.0, 2.2, 0.0};
+  arrow.colour = {0.0f, 0.0f, 0.0f};
+  arrow.radius = 4.0f;
+  picture.arrows = {arrow};
+  const Image after = studio().draw(picture, kFull);
+  const auto share = [&](double y) {
+    const int row = 360 - static_cast<int>((y - 1.0) * 180.0);
+    return brightness(after, 640, row) / brightness(before, 640, row);
+  };
+  CHECK(share(0.7) == 1.0);
+  for (const double y : {0.85, 1.0, 1.2, 1.4}) CHECK(share(y) == Approx(0.5).margin(0.01));
+  CHECK(share(1.75) < 0.1);
+}
