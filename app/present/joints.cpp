@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/claim/free_body.h"
 #include "app/present/palette.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr Colour kPin = hex(0x1D2127), kRod = hex(0x4A505A);
 constexpr double kNothing = 1e-9;  // [N] no force
+constexpr double kMostly = 0.5;    // of a force that counts as pulling down, the part that does
 constexpr Colour kUp = hex(0x1B8A4B), kDown = hex(0xC4161C);
 
 // A joint as it stands in a sample. World frame.
@@ -90,6 +92,47 @@ std::string newtons(double force) {
   return fmt::format("{}{:.5g} N", force < 0.0 ? "−" : "", std::abs(force));
 }
 
+// Joints between each body and the world, or what never moves; where none lead there, between it
+// and the first body of its group.
+std::vector<int> stepsFromWorld(const Scene& scene) {
+  const WorldDef& world = scene.world;
+  constexpr int kFar = std::numeric_limits<int>::max() - 1;
+  std::vector<int> steps(world.bodies.size(), kFar);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (!moves(world.bodies[i])) steps[i] = 0;
+  const auto at = [&](int body) { return body == kNoBody ? 0 : steps[body]; };
+  const auto spread = [&] {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const JointDef& joint : world.joints)
+        for (const auto& [near, far] : {std::pair(joint.a, joint.b), std::pair(joint.b, joint.a)})
+          if (far != kNoBody && at(near) != kFar && steps[far] > at(near) + 1) {
+            steps[far] = at(near) + 1;
+            changed = true;
+          }
+    }
+  };
+  spread();
+  for (int& step : steps)
+    if (step == kFar) {
+      step = 0;
+      spread();
+    }
+  return steps;
+}
+
+// Of the two forces of a joint the one on the body further from the world; on a if neither is.
+std::vector<Vec3> forcesOutward(const Scene& scene, const Sample& sample) {
+  const std::vector<int> steps = stepsFromWorld(scene);
+  std::vector<Vec3> forces;
+  for (const JointForce& joint : sample.joints) {
+    const JointDef& def = scene.world.joints[joint.joint];
+    const bool turned = def.b != kNoBody && steps[def.b] > steps[def.a];
+    forces.push_back(turned ? Vec3(-joint.force) : joint.force);
+  }
+  return forces;
+}
+
 }  // namespace
 
 void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture) {
@@ -121,7 +164,9 @@ void addJoints(const Scene& scene, const Sample& sample, double size, Picture& p
 
 void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
                     Picture& picture) {
-  for (const JointForce& joint : sample.joints) {
+  const std::vector<Vec3> forces = forcesOutward(scene, sample);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const JointForce& joint = sample.joints[k];
     // Along the pin of a hinge, towards the eye: there nothing stands before the arrow.
     const JointDef& def = scene.world.joints[joint.joint];
     Vec3 base = joint.p;
@@ -130,10 +175,10 @@ void addJointForces(const Scene& scene, const Sample& sample, double metresPerNe
       if (axis.dot(picture.camera.eye - base) < 0.0) axis = -axis;
       base += throughBody(scene, sample, def, axis, 0.0) * 1.1 * axis;
     }
-    const double size = joint.force.norm();
-    const bool up = joint.force.y() >= 0.0, none = size < kNothing;
+    const double size = forces[k].norm();
+    const bool up = forces[k].y() >= -kMostly * size, none = size < kNothing;
     const Colour colour = none ? colour::kInk : up ? kUp : kDown;
-    const Vec3 tip = base + metresPerNewton * joint.force;
+    const Vec3 tip = base + metresPerNewton * forces[k];
     if (!none) picture.arrows.push_back({base, tip, colour, 2.6f});
     addLabel(tip, {-16.0, up ? -6.0 : 6.0}, Align::Right,
              newtons(none ? 0.0

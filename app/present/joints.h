@@ -11,9 +11,10 @@ namespace tumble {
 /// @param size  [m] radius of what the picture shows
 void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture);
 
-/// Arrows of the force that each joint exerts on its body a, green if it pushes up and red if it
-/// pulls down, with its number beside it; the same of contacts, one arrow a pair, if these are
-/// shown.
+/// Arrows of the force that each joint exerts on the one of its bodies that more joints part from
+/// the world, on a where that is none; red if it points within 60 degrees of straight down, else
+/// green, with its number beside it, negative where it is red; the same of contacts, one arrow a
+/// pair, if these are shown.
 /// @param metresPerNewton  of an arrow
 void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
                     Picture& picture);

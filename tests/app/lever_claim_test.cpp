@@ -95,6 +95,48 @@ TEST_CASE("joints are written as a row for each sample, and none without them") 
   CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
 }
 
+// Oracle: by hand. A chain of three links of 1 kg hangs from the world: joint k holds up what is
+// below it, (3 − k) m g, whichever of its ends is called a.
+TEST_CASE("the arrows of a hanging chain all point the same way, whoever is a and who is b") {
+  const Scene scene = parseScene(R"(
+[world]
+method = "course"
+duration = 0.1
+[[array]]
+name = "link"
+kind = "row"
+count = 3
+step = [0.0, -0.2, 0.0]
+body = { shape = { sphere = 0.05 }, mass = 1.0, position = [0.0, -0.1, 0.0] }
+[[joint]]
+kind = "ball"
+a = "link.0"
+anchor = [0.0, 0.0, 0.0]
+[[joint]]
+kind = "ball"
+a = "link.0"
+b = "link.1"
+anchor = [0.0, -0.2, 0.0]
+[[joint]]
+kind = "ball"
+a = "link.2"
+b = "link.1"
+anchor = [0.0, -0.4, 0.0]
+[show]
+joint_forces = true
+force_scale = 0.01
+)",
+                                 "chain.toml");
+  const Recording recording = record(scene, 10.0);
+  const Picture picture = Presenter(scene, recording).still(0.0);
+  REQUIRE(picture.arrows.size() == 3);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d along = picture.arrows[k].tip - picture.arrows[k].base;
+    CHECK(along.y() == Approx(0.01 * 9.81 * (3 - k)));
+    CHECK(picture.arrows[k].colour[1] > picture.arrows[k].colour[0]);  // green: it holds up
+  }
+}
+
 // Oracle: the sign. The arrow of a hinge that pulls down points down and is red.
 TEST_CASE("the arrow of a hinge changes its colour with the sign of its force") {
   const Scene scene = demo();
