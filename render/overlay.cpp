@@ -101,23 +101,14 @@ class LabelDrawer {
   std::vector<Box> taken_;
 };
 
-void drawPageArrow(const PageArrow& arrow, const Projection& projection, Canvas& canvas) {
-  const double head = std::min(13.0, 0.6 * arrow.length), halfHead = 0.46 * head,
-               halfShaft = 0.32 * halfHead;
-  const Vector2d tip = arrow.base + Vector2d(arrow.length, 0.0), neck = tip - Vector2d(head, 0.0);
-  if (arrow.leader)
-    if (const auto place = projection.project(*arrow.leader))
-      canvas.stroke(flat(*place), arrow.base - Vector2d(8.0, 0.0), 1.0, ink::leader);
-  if (arrow.length > 0.5) {
-    const Vector2d rise(0.0, halfHead);
-    canvas.stroke(arrow.base + Vector2d(halfShaft, 0.0), neck, 2.0 * halfShaft, arrow.colour);
-    // The upper half of the head a little lighter, as light falls from above.
-    Colour light = arrow.colour;
-    for (float& channel : light) channel += 0.12f * (1.0f - channel);
-    canvas.triangle(neck - rise, neck + rise, tip, arrow.colour);
-    canvas.triangle(neck - rise, neck, tip, light);
-  }
-  canvas.text(tip + Vector2d(10.0, 5.0), arrow.text, {14.0, Face::Regular, Align::Left, ink::text});
+void drawBar(const PageBar& bar, const Projection& projection, Canvas& canvas) {
+  constexpr double kThick = 8.0;  // [px]
+  if (bar.leader)
+    if (const auto place = projection.project(*bar.leader))
+      canvas.stroke(flat(*place), bar.base - Vector2d(8.0, 0.0), 1.0, ink::leader);
+  canvas.fill(bar.base - Vector2d(0.0, 0.5 * kThick), {bar.length, kThick}, bar.colour);
+  canvas.text(bar.base + Vector2d(bar.length + 10.0, 5.0), bar.text,
+              {14.0, Face::Regular, Align::Left, ink::text});
 }
 
 void drawPageShape(const PageShape& shape, Canvas& canvas) {
@@ -139,7 +130,7 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
     if (line.stroke == Stroke::Dotted) drawDots(line, projection, canvas);
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
   for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
-  for (const PageArrow& arrow : picture.pageArrows) drawPageArrow(arrow, projection, canvas);
+  for (const PageBar& bar : picture.pageBars) drawBar(bar, projection, canvas);
   LabelDrawer labels(projection, canvas);
   for (const Label& label : picture.labels) labels.draw(label);
   if (picture.bar) drawColourBar(*picture.bar, canvas);

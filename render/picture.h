@@ -92,9 +92,9 @@ struct Label {
   bool italic = false;
 };
 
-/// An arrow on the page with text behind it, and a leader from a world point: a row of a ladder of
-/// bars.
-struct PageArrow {
+/// A bar on the page with text behind it, and a leader from a world point: a row of a ladder. It
+/// has no head, for what it measures may point anywhere.
+struct PageBar {
   std::optional<Eigen::Vector3d> leader;           ///< world point the row belongs to
   Eigen::Vector2d base = Eigen::Vector2d::Zero();  ///< [px]
   double length = 0.0;                             ///< [px] to the right
@@ -104,7 +104,7 @@ struct PageArrow {
 
 enum class Flat { Line, Rectangle, Disc };
 
-/// A flat shape on the page, below arrows and text.
+/// A flat shape on the page, below bars and text.
 struct PageShape {
   Flat form = Flat::Line;
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< [px] end, corner, or centre
@@ -142,7 +142,7 @@ struct Picture {
   std::vector<Mark> marks;
   std::vector<Label> labels;
   std::vector<PageShape> pageShapes;
-  std::vector<PageArrow> pageArrows;
+  std::vector<PageBar> pageBars;
   std::optional<ColourBar> bar;
   Floor floor;
   Eigen::Vector3d centre =

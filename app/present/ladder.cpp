@@ -142,11 +142,11 @@ void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vecto
   const double length = std::min(kLength, end - x);
   const std::vector<double> rows = rowsOf(rungs, page.y());
   for (std::size_t k = 0; k < rungs.size(); ++k)
-    picture.pageArrows.push_back({rungs[k].leader,
-                                  {x, rows[k]},
-                                  length * rungs[k].force / largest,
-                                  fmt::format("{:.4g} N", rungs[k].force),
-                                  colour::kForce});
+    picture.pageBars.push_back({rungs[k].leader,
+                                {x, rows[k]},
+                                length * rungs[k].force / largest,
+                                fmt::format("{:.4g} N", rungs[k].force),
+                                colour::kForce});
   addCaption(x, std::max(rows.front() - 44.0, 20.0), every, page.x(), picture);
 }
 

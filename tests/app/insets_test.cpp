@@ -118,10 +118,10 @@ TEST_CASE("the ladder of a tall tower fits on every page") {
     Picture picture;
     picture.camera = {.eye = {5.0, 30.0, 200.0}, .target = {5.0, 25.0, 0.0}, .fov = 24.0};
     addForceLadder(scene, recording.samples.front(), page, picture);
-    REQUIRE(picture.pageArrows.size() >= 4);
-    CHECK(picture.pageArrows.back().text == "981 N");
+    REQUIRE(picture.pageBars.size() >= 4);
+    CHECK(picture.pageBars.back().text == "981 N");
     double above = -1e9;
-    for (const PageArrow& row : picture.pageArrows) {
+    for (const PageBar& row : picture.pageBars) {
       CAPTURE(page.transpose(), row.base.transpose(), row.length, row.text);
       CHECK(row.base.y() >= above + 20.0 - 1e-9);
       CHECK((row.base.y() > 20.0 && row.base.y() < page.y() - 20.0));
@@ -140,8 +140,8 @@ TEST_CASE("a scene may leave the ladder away, and ask for matrix and either-or")
     return Presenter(scene, recording).image(0);
   };
   const Picture plain = imageOf({}), without = imageOf({"show.ladder=false"});
-  CHECK(plain.pageArrows.size() == 3);
-  CHECK(without.pageArrows.empty());
+  CHECK(plain.pageBars.size() == 3);
+  CHECK(without.pageBars.empty());
   CHECK(without.arrows.size() == plain.arrows.size());
   CHECK(plain.pageShapes.empty());
   CHECK(imageOf({"show.matrix=true"}).pageShapes.size() >= 144);

@@ -181,15 +181,15 @@ body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
   Picture picture;
   picture.camera = {.eye = {2.0, 1.0, 8.0}, .target = {2.0, 1.0, 0.0}, .fov = 24.0};
   addForceLadder(scene, sample, {1280.0, 720.0}, picture);
-  REQUIRE(picture.pageArrows.size() == 3);
-  CHECK(picture.pageArrows[0].text == "10 N");
-  CHECK(picture.pageArrows[1].text == "20 N");
-  CHECK(picture.pageArrows[2].text == "30 N");
+  REQUIRE(picture.pageBars.size() == 3);
+  CHECK(picture.pageBars[0].text == "10 N");
+  CHECK(picture.pageBars[1].text == "20 N");
+  CHECK(picture.pageBars[2].text == "30 N");
   for (std::size_t k = 0; k < 3; ++k) {
-    CHECK(picture.pageArrows[k].length == Approx(220.0 * (k + 1.0) / 3.0));
-    CHECK(picture.pageArrows[k].leader->x() == 2.25);
+    CHECK(picture.pageBars[k].length == Approx(220.0 * (k + 1.0) / 3.0));
+    CHECK(picture.pageBars[k].leader->x() == 2.25);
   }
-  CHECK(picture.pageArrows[1].base.y() >= picture.pageArrows[0].base.y() + 20.0);
+  CHECK(picture.pageBars[1].base.y() >= picture.pageBars[0].base.y() + 20.0);
 }
 
 TEST_CASE("colours: each body its own, fixed ones grey, along cividis where an array varies") {

@@ -166,11 +166,11 @@ Picture tower() {
     const Vector3d foot =
         picture.instances[level].position - Vector3d(0.0, 0.25, 0.0) + 0.3 * page.right();
     const double weight = 9.81 * (10 - level);
-    picture.pageArrows.push_back({foot,
-                                  {762.0, (*page.project(foot)).y()},
-                                  220.0 * weight / 98.1,
-                                  format("%.1f N", weight),
-                                  hex(0xD5401A)});
+    picture.pageBars.push_back({foot,
+                                {762.0, (*page.project(foot)).y()},
+                                220.0 * weight / 98.1,
+                                format("%.1f N", weight),
+                                hex(0xD5401A)});
   }
   Label note;
   note.offset = {762.0, 68.0};
