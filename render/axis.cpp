@@ -29,6 +29,10 @@ Scale::Scale(const ChartAxis& axis, std::span<const double> values, double from,
     any = true;
   }
   if (!any) high_ = low_ + 1.0;
+  if (axis.fromZero && !logarithmic_) {
+    low_ = std::min(low_, 0.0);
+    high_ = std::max(high_, 0.0);
+  }
 
   // Whole decades, or a step of 1, 2 or 5; as many labels as find room.
   const double most = std::max(1.0, std::floor(std::abs(to - from) / room));

@@ -10,6 +10,7 @@ namespace tumble {
 struct ChartAxis {
   std::string caption;  ///< "error", "time / s"
   bool logarithmic = false;
+  bool fromZero = false;  ///< 0 has its place on it, so that lengths are as their values
 };
 
 /// A number along an axis; on a logarithmic one the power of ten.

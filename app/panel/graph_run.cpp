@@ -102,7 +102,8 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
   plot.title = graph.variant.title;
   plot.subtitle = graph.subtitle;
   plot.x = {"time / s", false};
-  plot.y = {captionOf(graph.shows), false};
+  // What is lost or gained of an energy is seen as a share of it.
+  plot.y = {captionOf(graph.shows), false, graph.shows == "energy"};
   for (std::size_t i = 0; i < series.size(); ++i) {
     ChartCurve& curve = plot.curves.emplace_back();
     curve.label = series[i].label;

@@ -61,6 +61,18 @@ TEST_CASE("a linear axis has round numbers around what it shows") {
   CHECK(labelled(Scale({"y", true}, {}, 0.0, 100.0, 40.0)).size() >= 2);
 }
 
+TEST_CASE("an axis that begins at zero shows a value as its share of the length") {
+  const double values[] = {70.0, 98.0};
+  const Scale from({"", false, true}, values, 500.0, 100.0, 40.0);
+  CHECK(from.at(0.0) == 500.0);
+  CHECK(from.ticks().front().value == 0.0);
+  CHECK((500.0 - from.at(49.0)) / (500.0 - from.at(98.0)) == Approx(0.5));
+  const double below[] = {-3.0, -1.0};
+  CHECK(Scale({"", false, true}, below, 500.0, 100.0, 40.0).at(0.0) == 100.0);
+  const double decades[] = {1e-3, 1.0};
+  CHECK(Scale({"", true, true}, decades, 0.0, 300.0, 40.0).at(1e-3) == 0.0);
+}
+
 TEST_CASE("a chart draws its curves, leaves out what has no place, and repeats to the pixel") {
   Fonts fonts(kFonts);
   Chart chart;
