@@ -82,11 +82,10 @@ std::vector<std::vector<Vec3>> otherCurves(const Vec3& I) {
 }
 
 // The name stands to the right of the tip, that of ω to the left: L and ω may point the same way.
-void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, bool angular,
-              const std::string& name, Picture& picture) {
+void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, const std::string& name,
+              Picture& picture) {
   if (vector.norm() < 1e-9) return;
   picture.arrows.push_back({from, from + vector, colour, 1.9f});
-  if (angular) picture.arrows.push_back({from, from + 0.86 * vector, colour, 1.9f});
   Label label;
   label.anchor = from + vector;
   const bool left = name == "ω";
@@ -149,7 +148,7 @@ void addPolhodes(const Scene& scene, const Recording& recording, const Sample& s
     polhode.colour = colour::kForce;
     polhode.width = 2.4f;
     picture.lines.push_back(std::move(polhode));
-    addArrow(body.x, metres * body.omega, colour::kAngular, true, "ω", picture);
+    addArrow(body.x, metres * body.omega, colour::kAngular, "ω", picture);
   }
 }
 
@@ -169,14 +168,17 @@ void addMomenta(const Scene& scene, const Recording& recording, const Sample& sa
       L = std::max(L, angular(other, i).norm());
       omega = std::max(omega, other.bodies[i].omega.norm());
     }
+  // What is nothing but rounding beside the other momentum has no arrow.
+  constexpr double kRounding = 1e-9;
+  if (P * length < kRounding * L) P = 0.0;
+  if (L < kRounding * P * length) L = omega = 0.0;
   const auto share = [&](double largest) { return largest > 0.0 ? length / largest : 0.0; };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!moves(bodies[i])) continue;
     const BodySample& body = sample.bodies[i];
-    addArrow(body.x, share(P) * massOf(bodies[i]).mass * body.v, colour::kVelocity, false, "P",
-             picture);
-    addArrow(body.x, share(L) * angular(sample, i), colour::kInk, true, "L", picture);
-    addArrow(body.x, share(omega) * body.omega, colour::kAngular, true, "ω", picture);
+    addArrow(body.x, share(P) * massOf(bodies[i]).mass * body.v, colour::kVelocity, "P", picture);
+    addArrow(body.x, share(L) * angular(sample, i), colour::kInk, "L", picture);
+    addArrow(body.x, share(omega) * body.omega, colour::kAngular, "ω", picture);
   }
 }
 

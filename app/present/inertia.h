@@ -21,8 +21,9 @@ void addInertiaEllipsoids(const Scene& scene, const Sample& sample, Picture& pic
 void addPolhodes(const Scene& scene, const Recording& recording, const Sample& sample,
                  Picture& picture);
 
-/// Arrows at each moving body: linear momentum, angular momentum (double head) and angular velocity
-/// (double head), each kind's largest of the run as long as kMomentaReach says of the largest body.
+/// Arrows at each moving body: linear momentum, angular momentum and angular velocity, each kind's
+/// largest of the run as long as kMomentaReach says of the largest body; none where a momentum is
+/// only rounding of the other.
 void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample,
                 Picture& picture);
 
