@@ -85,9 +85,28 @@ Ticks ticksAt(const Rail& rail, double gap, const Picture& picture, const Projec
   return ticks;
 }
 
-/// Where else on the image something is written: marks, colour bar, titles.
-Boxes writtenBoxes(const Picture& picture, const Projection& projection, const Canvas& canvas) {
+/// Where the labels of points stand, about.
+void addLabelBoxes(const Picture& picture, const Projection& projection, Canvas& canvas,
+                   Boxes& boxes) {
+  for (const Label& label : picture.labels) {
+    if (!label.anchor) continue;
+    const auto place = projection.project(*label.anchor);
+    if (!place) continue;
+    const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
+    const double width =
+        canvas.textWidth(label.text, {label.size, face, label.align, label.colour});
+    const double left = label.align == Align::Left     ? 0.0
+                        : label.align == Align::Centre ? -0.5 * width
+                                                       : -width;
+    const Vector2d pen = place->head<2>() + label.offset + Vector2d(left, 0.0);
+    boxes.emplace_back(pen - Vector2d(4.0, label.size + 4.0), pen + Vector2d(width + 4.0, 8.0));
+  }
+}
+
+/// Where else on the image something is written: marks, labels, colour bar, titles.
+Boxes writtenBoxes(const Picture& picture, const Projection& projection, Canvas& canvas) {
   Boxes boxes;
+  addLabelBoxes(picture, projection, canvas, boxes);
   const Vector2d corner(canvas.width(), canvas.height());
   for (const Mark& mark : picture.marks)
     if (const auto place = projection.project(mark.position))
