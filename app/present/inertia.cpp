@@ -81,7 +81,8 @@ std::vector<std::vector<Vec3>> otherCurves(const Vec3& I) {
   return curves;
 }
 
-// The name stands to the right of the tip, that of ω to the left: L and ω may point the same way.
+// The name stands to the right of the tip, above one that points to the left, that of ω to the
+// left: L and ω may point the same way.
 void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, const std::string& name,
               Picture& picture) {
   if (vector.norm() < 1e-9) return;
@@ -89,7 +90,12 @@ void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, const 
   Label label;
   label.anchor = from + vector;
   const bool left = name == "ω";
-  label.offset = {left ? -8.0 : 8.0, 0.0};
+  const Vec3 right = (picture.camera.target - picture.camera.eye).cross(Vec3::UnitY());
+  const bool turned = right.dot(vector) < 0.0;
+  if (left)
+    label.offset = {-8.0, 0.0};
+  else
+    label.offset = turned ? Eigen::Vector2d(0.0, -9.0) : Eigen::Vector2d(8.0, 0.0);
   label.align = left ? Align::Right : Align::Left;
   label.text = name;
   label.size = 16.0f;
