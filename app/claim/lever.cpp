@@ -88,8 +88,11 @@ Balance balanceOf(const Scene& scene, const Lever& lever, double t) {
 }
 
 // "d = 0.6 m, t = 1 s"
-std::string instantOf(const Sample& sample, const Balance& balance) {
-  return fmt::format("d = {:.4g} m, t = {:.4g} s", std::abs(balance.propArm), sample.t);
+std::string instantOf(const Scene& scene, const Lever& lever, const Sample& sample) {
+  const std::string t = fmt::format("t = {:.4g} s", sample.t);
+  if (lever.prop == kNoBody) return t;
+  const double d = std::abs(balanceOf(scene, lever, sample.t).propArm);
+  return fmt::format("d = {:.4g} m, {}", d, t);
 }
 
 Vec3 contactForce(const Sample& sample, const Lever& lever) {
@@ -113,7 +116,7 @@ void addHeld(const Scene& scene, const Recording& recording, const Lever& lever,
     const Balance balance = balanceOf(scene, lever, sample.t);
     const double f = balance.needed(), rest = balance.weight - balance.pushes - f;
     const Vec3 found = contactForce(sample, lever), held = sample.joints[lever.joint].force;
-    const std::string where = instantOf(sample, balance);
+    const std::string where = instantOf(scene, lever, sample);
     push.see(found.y(), f, (found - Vec3(0.0, f, 0.0)).norm() / f, where);
     hinge.see(held.y(), rest, (held - Vec3(0.0, rest, 0.0)).norm() / std::max(f, balance.weight),
               where);
@@ -130,7 +133,7 @@ void addLifted(const Scene& scene, const Recording& recording, const Lever& leve
   const Sample& start = recording.samples.front();
   const double f = contactForce(start, lever).norm();
   rows.push_back({body.name + ": force of the prop while another lifts / N, at " +
-                      instantOf(start, balanceOf(scene, lever, start.t)),
+                      instantOf(scene, lever, start),
                   f, 0.0, f, 1e-12});
   double risen = 0.0;
   for (const Sample& sample : recording.samples)
@@ -138,6 +141,12 @@ void addLifted(const Scene& scene, const Recording& recording, const Lever& leve
   const double lifted = risen > 1e-3 ? 1.0 : 0.0;
   rows.push_back(
       {body.name + ": is lifted, though a f + b >= 0 and f >= 0", lifted, 1.0, 1.0 - lifted, 0.0});
+}
+
+// What a step leaves of the gap of the hinge is drawn back with gap/tau^2 [m/s²], tau = 4 steps.
+double drawnBack(const WorldDef& world, const Recording& recording) {
+  const double tau = 4.0 * world.course.step;
+  return recording.report.certificate.max_joint_gap / (tau * tau);
 }
 
 // However it moves, the hinge gives what contacts and weight leave of m x'':
@@ -150,11 +159,8 @@ void addRemainder(const Scene& scene, const Recording& recording, const Lever& l
   const double mass = bodyMass(body);
   const Mat3 Ibody = massOf(body).inertia;
   const Vec3 axis = joint.axis.normalized();
-  // What a step leaves of the gap of the hinge is drawn back with gap/tau^2, tau = 4 steps.
-  const double tau = 4.0 * world.course.step;
-  const double drawn = recording.report.certificate.max_joint_gap / (tau * tau);
   WorstRow row(body.name + ": force of the hinge, what is left of m x'' / N, error / the largest",
-               1e-12 + 10.0 * drawn / world.gravity.norm());
+               1e-12 + 10.0 * drawnBack(world, recording) / world.gravity.norm());
   for (const Sample& sample : recording.samples) {
     const BodySample& now = sample.bodies[lever.body];
     const Vec3 r = now.x - joint.anchorA;
@@ -181,8 +187,7 @@ void addRemainder(const Scene& scene, const Recording& recording, const Lever& l
     const Vec3 exact = mass * (turn.cross(r) + now.omega.cross(now.omega.cross(r))) - force;
     const Vec3 found = sample.joints[lever.joint].force;
     row.see(found.y(), exact.y(), (found - exact).norm() / std::max(largest, exact.norm()),
-            lever.prop == kNoBody ? fmt::format("t = {:.4g} s", sample.t)
-                                  : instantOf(sample, balanceOf(scene, lever, sample.t)));
+            instantOf(scene, lever, sample));
   }
   rows.push_back(row.row());
 }

@@ -162,6 +162,40 @@ void addJoints(const Scene& scene, const Sample& sample, double size, Picture& p
   }
 }
 
+namespace {
+
+// One arrow for all contacts of a pair, with their sum.
+void addPairForces(const Sample& sample, double metresPerNewton, Picture& picture) {
+  for (std::size_t i = 0; i < sample.contacts.size(); ++i) {
+    // The contacts of a pair stand together and share a number.
+    const ContactSample& first = sample.contacts[i];
+    if (i > 0 && sample.contacts[i - 1].a == first.a && sample.contacts[i - 1].b == first.b)
+      continue;
+    Vec3 sum = Vec3::Zero(), middle = Vec3::Zero();
+    double count = 0.0;
+    for (const ContactSample& c : sample.contacts) {
+      if (c.a != first.a || c.b != first.b) continue;
+      sum += c.force;
+      middle += c.p;
+      count += 1.0;
+    }
+    if (sum.isZero(0.0)) continue;
+    const Vec3 base = middle / count;
+    const Vec3 along = metresPerNewton * (sum.y() < 0.0 ? Vec3(-sum) : sum);
+    picture.arrows.push_back({base, base + along, colour::kForce, 2.6f});
+    // Beside arrows that lean, above those that stand.
+    const Vec3 right =
+        (picture.camera.target - picture.camera.eye).cross(Vec3::UnitY()).normalized();
+    const double lean = right.dot(along.normalized());
+    const Align align = lean > 0.3 ? Align::Right : lean < -0.3 ? Align::Left : Align::Centre;
+    const double aside = lean > 0.0 ? -8.0 : 8.0;
+    addLabel(base + along, {align == Align::Centre ? 0.0 : aside, -14.0}, align,
+             newtons(sum.norm()), colour::kForce, picture);
+  }
+}
+
+}  // namespace
+
 void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
                     Picture& picture) {
   const std::vector<Vec3> forces = forcesOutward(scene, sample);
@@ -180,41 +214,10 @@ void addJointForces(const Scene& scene, const Sample& sample, double metresPerNe
     const Colour colour = none ? colour::kInk : up ? kUp : kDown;
     const Vec3 tip = base + metresPerNewton * forces[k];
     if (!none) picture.arrows.push_back({base, tip, colour, 2.6f});
-    addLabel(tip, {-16.0, up ? -6.0 : 6.0}, Align::Right,
-             newtons(none ? 0.0
-                     : up ? size
-                          : -size),
-             colour, picture);
+    const double shown = none ? 0.0 : up ? size : -size;
+    addLabel(tip, {-16.0, up ? -6.0 : 6.0}, Align::Right, newtons(shown), colour, picture);
   }
-  if (!scene.show.contact_forces) return;
-  for (std::size_t i = 0; i < sample.contacts.size(); ++i) {
-    // The contacts of a pair stand together and share a number.
-    const ContactSample& first = sample.contacts[i];
-    if (i > 0 && sample.contacts[i - 1].a == first.a && sample.contacts[i - 1].b == first.b)
-      continue;
-    Vec3 sum = Vec3::Zero(), middle = Vec3::Zero();
-    double count = 0.0;
-    for (const ContactSample& c : sample.contacts) {
-      if (c.a != first.a || c.b != first.b) continue;
-      sum += c.force;
-      middle += c.p;
-      count += 1.0;
-    }
-    if (sum.isZero(0.0)) continue;
-    const Vec3 tip = middle / count + metresPerNewton * (sum.y() < 0.0 ? Vec3(-sum) : sum);
-    picture.arrows.push_back({middle / count, tip, colour::kForce, 2.6f});
-    // Beside arrows that lean, above those that stand.
-    const Vec3 right =
-        (picture.camera.target - picture.camera.eye).cross(Vec3::UnitY()).normalized();
-    const double lean = right.dot(tip - middle / count) / (tip - middle / count).norm();
-    const Align align = lean > 0.3 ? Align::Right : lean < -0.3 ? Align::Left : Align::Centre;
-    addLabel(tip,
-             {align == Align::Centre ? 0.0
-              : lean > 0.0           ? -8.0
-                                     : 8.0,
-              -14.0},
-             align, newtons(sum.norm()), colour::kForce, picture);
-  }
+  if (scene.show.contact_forces) addPairForces(sample, metresPerNewton, picture);
 }
 
 double largestJointForce(const Recording& recording) {

@@ -107,6 +107,22 @@ void checkParticle(Section& section) {
       section.complain(key, "a particle has no inertia and does not turn; leave this out");
 }
 
+// Surface and density of the material, unless the body has its own.
+Material readSurface(Section& section, const Materials& materials, std::string& name) {
+  Material surface;
+  section.read("material", name);
+  const auto row = materials.find(name);
+  if (row != materials.end())
+    surface = row->second;
+  else if (section.find("material"))
+    section.complain("material",
+                     "unknown material " + inQuotes(name) +
+                         (materials.empty() ? "; there is no [materials." + plain(name) + "]"
+                                            : hint(name, namesOf(materials))));
+  surface.read(section);
+  return surface;
+}
+
 }  // namespace
 
 BodyEntry readBody(Section& section, const std::string& name, const Materials& materials) {
@@ -114,18 +130,7 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   BodyDef& def = entry.def;
   def.name = name;
 
-  // The surface and density of the material, unless the body has its own.
-  Material surface;
-  section.read("material", def.material);
-  const auto row = materials.find(def.material);
-  if (row != materials.end())
-    surface = row->second;
-  else if (section.find("material"))
-    section.complain(
-        "material", "unknown material " + inQuotes(def.material) +
-                        (materials.empty() ? "; there is no [materials." + plain(def.material) + "]"
-                                           : hint(def.material, namesOf(materials))));
-  surface.read(section);
+  const Material surface = readSurface(section, materials, def.material);
   def.density = surface.density;
   def.restitution = surface.restitution;
   def.friction = surface.friction;
