@@ -237,7 +237,7 @@ TEST_CASE("an arrow reaches from its base to its tip") {
 }
 
 // Oracle: by hand; inside a white box a black arrow leaves half of the light, up to its base; where
-// it stands out of the box it is as dark as ever.
+// it stands out of the box it is as dark as ever. Measured 0.4986 and 0, allowed 0.01 and 0.1.
 TEST_CASE("an arrow that begins inside a body is seen from its base on, fainter inside") {
   Picture picture = bare(1.0);
   Instance box;

@@ -305,3 +305,33 @@ TEST_CASE("labels at one point stand above each other, not on each other") {
   picture.labels = {label, label, label};
   CHECK(ink() == Approx(3 * one).epsilon(0.1));
 }
+
+// Oracle: the place of the label. The rule, all that its picture has more, passes through it where
+// only the rule is drawn, and nowhere near once the label is.
+TEST_CASE("the rule keeps clear of a label that would stand on it") {
+  Picture picture = stage();
+  picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid)};
+  Label label;
+  label.anchor = Vector3d(0.3, 0.0, 0.3 * std::sqrt(3.0) + 0.12 * picture.radius);  // on it
+  label.offset = {-20.0, 5.0};
+  label.text = "a label of some length";
+  const Vector3d place = *Projection(picture.camera, 1280, 720).project(*label.anchor);
+  const auto touched = [&](bool labelled) {
+    Picture with = picture;
+    if (labelled) with.labels = {label};
+    const Image without = studio().draw(with, kFull);
+    with.floor.rule = true;
+    const Image ruled = studio().draw(with, kFull);
+    int count = 0, all = 0;
+    for (int y = 0; y < 720; ++y)
+      for (int x = 0; x < 1280; ++x) {
+        if (brightness(without, x, y) == brightness(ruled, x, y)) continue;
+        ++all;
+        count += std::abs(x - place.x()) < 20.0 && std::abs(y - place.y()) < 5.0;
+      }
+    CHECK(all > 500);
+    return count;
+  };
+  CHECK(touched(false) > 20);
+  CHECK(touched(true) == 0);
+}
