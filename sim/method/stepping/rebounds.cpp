@@ -14,18 +14,36 @@ namespace tumble {
 double Stepping::meet(double h, bool mayDivide) {
   constexpr double kSoon = 1e-2;  // of a step
   const double soon = kSoon * model_.def.stepping.step;
+  // Where a step has no parts left, hits come to rest that are slower than what a step of free fall
+  // gives.
+  const double least = mayDivide ? tolerance_.keep : std::max(tolerance_.keep, -landingSpeed());
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
   findTouching(h);
-  double first = untilHit(soon, h);
+  double first = untilHit(soon, h, least);
   if (strike(mayDivide ? soon : h)) {
     sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
     findTouching(h);
-    first = untilHit(soon, h);
+    first = untilHit(soon, h, least);
   }
-  return mayDivide ? first : h;
+  if (!mayDivide) first = h;
+  holdStopped(first, !mayDivide);
+  return first;
 }
 
-double Stepping::untilHit(double soon, double h) {
+void Stepping::holdStopped(double h, bool all) {
+  for (const PairMemory& pair : memory_.pairs) {
+    if (!pair.bounces) continue;
+    for (const Touch& touch : pair.touches)
+      if (all || (!closed(touch) && touch.due < h)) hold(touch.contact);
+  }
+}
+
+void Stepping::hold(const Contact& c) {
+  for (const int i : {c.a, c.b})
+    if (!model_.fixed(i)) work_.held[i] = 1;
+}
+
+double Stepping::untilHit(double soon, double h, double least) {
   double first = h;
   const auto bounces = [](const PairMemory& pair) { return pair.bounces; };
   if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), bounces)) return first;
@@ -33,7 +51,7 @@ double Stepping::untilHit(double soon, double h) {
   for (PairMemory& pair : memory_.pairs) {
     if (!pair.bounces) continue;
     for (Touch& touch : pair.touches) {
-      foresee(touch);
+      foresee(touch, least);
       if (touch.rebounds && touch.due > soon) first = std::min(first, touch.due);
       if (flies(touch, 0.0)) touch.impulse.setZero();
     }
@@ -43,28 +61,22 @@ double Stepping::untilHit(double soon, double h) {
 
 void Stepping::findHeld() {
   work_.held.assign(state_.bodies.size() + 1, 0);
-  const auto hold = [&](int i) {
-    if (i < model_.count() && !model_.fixed(i)) work_.held[i] = 1;
-  };
   for (const PairMemory& pair : memory_.pairs) {
     for (const Touch& touch : pair.touches) {
       const Contact& c = touch.contact;
-      if (!closed(touch) ||
-          approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) > tolerance_.keep)
-        continue;
-      hold(c.a);
-      hold(c.b);
+      if (closed(touch) &&
+          approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) <= tolerance_.keep)
+        hold(c);
     }
   }
-  for (const Joint& joint : model_.joints) {
-    hold(joint.a);
-    hold(joint.b);
-  }
+  for (const Joint& joint : model_.joints)
+    for (const int i : {joint.a, joint.b})
+      if (i < model_.count() && !model_.fixed(i)) work_.held[i] = 1;
 }
 
 RigidBody Stepping::underWay(int i) const {
   RigidBody body = state_.bodies[i];
-  if (state_.trail.empty() || body.fixed()) return body;
+  if (state_.trail.empty() || !work_.held[i]) return body;
   const Segment& last = state_.trail.back();
   const RigidBody &start = last.start[i], &end = last.end[i];
   const bool struck = end.P != body.P || end.L != body.L;
@@ -77,7 +89,7 @@ RigidBody Stepping::underWay(int i) const {
 /// The gap goes by  s + ṡ t + s̈ t²/2  between free bodies, by  s + ṡ t + s̈ t²  where a step moves
 /// one with the velocity at its end. Hits that would rebound at no more than the speed of a contact
 /// that lasts are left to the contact problem.
-void Stepping::foresee(Touch& touch) const {
+void Stepping::foresee(Touch& touch, double least) const {
   const Contact& c = touch.contact;
   const double gap = closed(touch) ? 0.0 : c.point.separation;
   const double rate = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
@@ -89,7 +101,7 @@ void Stepping::foresee(Touch& touch) const {
   const double square = rate * rate - 2.0 * bend * gap;
   const bool meets = square >= 0.0 && (rate < 0.0 || bend < 0.0);
   const double speed = meets ? std::sqrt(square) : 0.0;
-  touch.rebounds = c.restitution * speed > tolerance_.keep;
+  touch.rebounds = c.restitution * speed > least;
   touch.due = 0.0;
   if (touch.rebounds) touch.due = rate < 0.0 ? 2.0 * gap / (speed - rate) : (speed + rate) / -bend;
   if (!meets && !closed(touch)) touch.due = std::numeric_limits<double>::infinity();

@@ -58,11 +58,15 @@ class Stepping {
   // rebounds.cpp: impacts with restitution.
   /// Strikes what is due, and @return how long [s], at most h, the bodies go until the next hit.
   double meet(double h, bool mayDivide);
-  /// The first hit [s] after `soon` and before h, else h.
-  double untilHit(double soon, double h);
+  /// The first hit [s] after `soon` and before h, else h, of those that rebound faster than `least`
+  /// [m/s].
+  double untilHit(double soon, double h, double least);
   void findHeld();
-  void foresee(Touch& touch) const;
-  /// The body under all that acted on it in the step before.
+  void hold(const Contact& contact);
+  /// Holds the bodies of hits that the contact problem of the next h seconds stops, or of all.
+  void holdStopped(double h, bool all);
+  void foresee(Touch& touch, double least) const;
+  /// The body under its forces and, if it is held, under all that acted on it in the step before.
   RigidBody underWay(int body) const;
   bool anyHit(double within) const;
   /// Applies the law of impact to what touches, and to what is due within that time [s].
