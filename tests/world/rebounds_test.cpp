@@ -1,8 +1,9 @@
-#include <catch2/catch.hpp>
+// Bounces in steps: heights, energy, and what they leave alone.
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "tests/catch.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;

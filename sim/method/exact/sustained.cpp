@@ -279,6 +279,11 @@ void lookSustained(const Model& model, const State& state, double t, std::vector
     if (s.t0 <= t) segment = &s;
   const bool now = !segment || t >= state.t;
   bodies = now ? state.bodies : segment->start;
+  if (now && !state.modesKnown) {  // the forces of this instant are known, not yet what slides
+    contacts = state.lasting;
+    for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
+    return;
+  }
   SustainedSystem system(model, bodies);
   system.begin(now ? state.lasting : segment->contacts);
   if (!now && t > segment->t0) {
