@@ -118,10 +118,12 @@ double fastestApproach(const Problem& problem) {
 }
 
 void sweep(const Problem& problem, const SolveSettings& settings, Best& best) {
-  constexpr int kWork = 100'000, kLeast = 20, kMost = 4000;  // cones times sweeps; sweeps
+  constexpr int kFar = 100'000, kClose = 10'000, kLeast = 20,
+                kMost = 4000;  // cones times sweeps; sweeps
+  const int work = best.report.residual <= kNear ? kClose : kFar;
   const int cones = static_cast<int>(problem.cones.size());
   Solution swept = finite(problem, best.solution);
-  const int most = std::min(std::clamp(kWork / cones, kLeast, kMost), settings.maxIterations);
+  const int most = std::min(std::clamp(work / cones, kLeast, kMost), settings.maxIterations);
   const SolveReport report = solvePgs(problem, {settings.tolerance, most}, swept);
   best.take(report, std::move(swept));
 }
