@@ -1,62 +1,79 @@
 #include "sim/problem/anderson.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
 
-constexpr double kGrowth = 100.0;  ///< of |r|² beyond which the past is forgotten
-constexpr double kRidge = 1e-14;   ///< of the least squares, relative
-
-using Small = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Anderson::kDepth, 1>;
+constexpr double kGrowth = 4.0;       ///< of |r|² beyond which the past is forgotten
+constexpr double kRidge = 1e-14;      ///< of the least squares, relative
+constexpr Eigen::Index kStrip = 256;  ///< rows that stay in the cache while all columns are read
 
 }  // namespace
 
 void Anderson::reset(const VecX& weight) {
   const Eigen::Index n = weight.size();
-  weight_ = weight;
+  root_ = weight.cwiseSqrt();
   r_.setZero(n);
-  rBefore_.setZero(n);
   gBefore_.setZero(n);
-  dr_.resize(kDepth);
-  dg_.resize(kDepth);
-  for (VecX& column : dr_) column.setZero(n);
-  for (VecX& column : dg_) column.setZero(n);
+  dr_.setZero(n, kDepth);
+  dg_.setZero(n, kDepth);
   gram_.setZero();
   used_ = slot_ = 0;
   started_ = false;
 }
 
+/// The newest difference replaces the oldest one, with its row of the Gram matrix; right: dr·r.
+void Anderson::remember(const VecX& x, const VecX& g, Small& right) {
+  used_ = std::min(used_ + 1, kDepth);
+  Small row = Small::Zero();
+  right.setZero();
+  const Eigen::Index n = r_.size();
+  for (Eigen::Index first = 0; first < n; first += kStrip) {
+    const Eigen::Index count = std::min(kStrip, n - first);
+    auto r = r_.segment(first, count);
+    auto dr = dr_.col(slot_).segment(first, count);
+    dr = -r;
+    r = (g - x).segment(first, count).cwiseProduct(root_.segment(first, count));
+    dr += r;
+    dg_.col(slot_).segment(first, count) = (g - gBefore_).segment(first, count);
+    for (int i = 0; i < used_; ++i) {
+      row[i] += dr_.col(i).segment(first, count).dot(dr);
+      right[i] += dr_.col(i).segment(first, count).dot(r);
+    }
+  }
+  gram_.row(slot_) = row.transpose();
+  gram_.col(slot_) = row;
+  slot_ = (slot_ + 1) % kDepth;
+}
+
+/// γ from the normal equations of  min |r − Σ γ dr|.
+void Anderson::weigh(Small& gamma) const {
+  Gram normal = gram_;
+  normal.diagonal() *= 1.0 + kRidge;
+  for (int i = used_; i < kDepth; ++i) normal(i, i) = 1.0;
+  normal.ldlt().solveInPlace(gamma);
+}
+
 void Anderson::next(VecX& x, const VecX& g) {
-  r_ = g - x;
-  const double size = r_.cwiseAbs2().dot(weight_);
-  x = g;
+  const double size = (g - x).cwiseProduct(root_).squaredNorm();
   if (started_ && size > kGrowth * sizeBefore_) {
     started_ = false;
     used_ = slot_ = 0;
+    gram_.setZero();
   }
   if (started_) {
-    // The newest difference replaces the oldest one, with its row of the Gram matrix.
-    dr_[slot_] = r_ - rBefore_;
-    dg_[slot_] = g - gBefore_;
-    used_ = std::min(used_ + 1, kDepth);
-    for (int i = 0; i < used_; ++i)
-      gram_(i, slot_) = gram_(slot_, i) = dr_[i].cwiseProduct(weight_).dot(dr_[slot_]);
-    slot_ = (slot_ + 1) % kDepth;
-
-    // x = g − Σ γ dg with γ from the normal equations of  min |r − Σ γ dr|.
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kDepth, kDepth> normal =
-        gram_.topLeftCorner(used_, used_);
-    Small gamma(used_);
-    for (int i = 0; i < used_; ++i) {
-      normal(i, i) *= 1.0 + kRidge;
-      gamma[i] = dr_[i].cwiseProduct(weight_).dot(r_);
-    }
-    normal.ldlt().solveInPlace(gamma);
+    Small gamma;
+    remember(x, g, gamma);
+    weigh(gamma);
+    x = g;
     if (gamma.allFinite())
-      for (int i = 0; i < used_; ++i) x -= gamma[i] * dg_[i];
+      for (int i = 0; i < used_; ++i) x -= gamma[i] * dg_.col(i);
+  } else {
+    r_ = (g - x).cwiseProduct(root_);
+    x = g;
   }
-  rBefore_ = r_;
   gBefore_ = g;
   sizeBefore_ = size;
   started_ = true;

@@ -1,8 +1,6 @@
 // Chapter 6, problem: Anderson's acceleration of a fixed-point iteration.
 #pragma once
 
-#include <vector>
-
 #include "sim/math/vec.h"
 
 namespace tumble {
@@ -21,9 +19,16 @@ class Anderson {
   void next(VecX& x, const VecX& g);
 
  private:
-  VecX weight_, r_, rBefore_, gBefore_;
-  std::vector<VecX> dr_, dg_;  // differences, in a ring
-  Eigen::Matrix<double, kDepth, kDepth> gram_;
+  using Small = Eigen::Matrix<double, kDepth, 1>;
+  using Gram = Eigen::Matrix<double, kDepth, kDepth>;
+
+  void remember(const VecX& x, const VecX& g, Small& right);
+  void weigh(Small& gamma) const;
+
+  VecX root_;         // of the weight
+  VecX r_, gBefore_;  // r times the root
+  MatX dr_, dg_;      // differences, in a ring
+  Gram gram_;
   int used_ = 0, slot_ = 0;
   double sizeBefore_ = 0.0;
   bool started_ = false;

@@ -11,12 +11,13 @@ using Vec2 = Eigen::Vector2d;
 
 constexpr int kNewtonSteps = 12;
 constexpr int kProjections = 60;
-constexpr double kTurn = 1e-15;  ///< the slip direction stands when it turns less than this [rad]
+constexpr double kTurn = 1e-8;  ///< [rad] after such a turn Newton errs by rounding
 
 /// d turned by the angle whose tangent is `tangent`.
 Vec2 turned(const Vec2& d, double tangent) {
-  const double length = std::sqrt(1.0 + tangent * tangent);
-  return Vec2(d[0] - tangent * d[1], d[1] + tangent * d[0]) / length;
+  const double square = tangent * tangent;
+  const double shrink = square < 1e-8 ? 1.0 - 0.5 * square : 1.0 / std::sqrt(1.0 + square);
+  return Vec2(d[0] - tangent * d[1], d[1] + tangent * d[0]) * shrink;
 }
 
 /// λ = W⁻¹ r by Cholesky; false if W is singular.
@@ -37,31 +38,30 @@ bool solveThree(const Mat3& W, const Vec3& r, Vec3& lambda) {
 }
 
 /// Slip direction d with u_n = 0 and u_t parallel to d: false if Newton does not find it.
-bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, Vec3& lambda) {
-  const Vec2 coupling(W(0, 1), W(0, 2)), drift(c[1], c[2]);
+bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, double enough, Vec3& lambda) {
+  const Vec2 coupling(W(0, 1), W(0, 2)), drift = Vec2(c[1], c[2]) * (1.0 / c[0]);
   const Eigen::Matrix2d tangential = W.bottomRightCorner<2, 2>();
   for (int step = 0; step < kNewtonSteps; ++step) {
     // Slip per unit of λn, with λn = −c_n/(W_nn − mu W_nt·d); h is its part across d.
     const Vec2 across(-d[1], d[0]);
     const double normal = W(0, 0) - mu * coupling.dot(d);
     if (!(normal > 0.0)) return false;
-    const Vec2 slip = coupling - mu * (tangential * d) - drift * (normal / c[0]);
-    const Vec2 rate = -mu * (tangential * across) + drift * (mu * coupling.dot(across) / c[0]);
+    const Vec2 slip = coupling - mu * (tangential * d) - drift * normal;
+    const Vec2 rate = drift * (mu * coupling.dot(across)) - mu * (tangential * across);
     const double along = d.dot(slip), h = across.dot(slip), slope = across.dot(rate) - along;
 
     // Newton's turn; halfway to the slip where Newton leads elsewhere.
-    const double turn = -h / slope;
-    if (slope < 0.0 && std::abs(turn) < 1.0) {
-      d = turned(d, turn);
-    } else {
+    if (!(slope < 0.0 && std::abs(h) < -slope)) {
       const Vec2 halfway = d + slip / slip.norm();
       const double size = halfway.norm();
       if (!(size > 1e-3)) return false;
       d = halfway / size;
       continue;
     }
-    if (std::abs(turn) > kTurn && step + 1 < kNewtonSteps) continue;
-    if (std::abs(turn) > 1e-9 || along <= 0.0) return false;
+    const double turn = -h / slope;
+    d = turned(d, turn);
+    if (std::abs(turn) > enough) continue;
+    if (along <= 0.0) return false;
     const double push = -c[0] / (W(0, 0) - mu * coupling.dot(d));
     lambda = Vec3(push, -mu * push * d[0], -mu * push * d[1]);
     return push >= 0.0;
@@ -70,27 +70,34 @@ bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, Vec3& lambda) {
 }
 
 /// The same from a first guess that points, of whatever length, against the slip.
-bool slideFrom(const Mat3& W, const Vec3& c, double mu, const Vec2& against, Vec3& lambda) {
+bool slideFrom(const Mat3& W, const Vec3& c, double mu, const Vec2& against, double enough,
+               Vec3& lambda) {
   const double size = std::sqrt(against[0] * against[0] + against[1] * against[1]);
-  return size > 0.0 && slide(W, c, mu, -against / size, lambda);
+  return size > 0.0 && slide(W, c, mu, against * (-1.0 / size), enough, lambda);
 }
 
 }  // namespace
 
 Vec3 solveFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start) {
   if (c[0] >= 0.0) return Vec3::Zero();
-  if (mu <= 0.0) return {-c[0] / W(0, 0), 0.0, 0.0};
-  Vec3 stick = Vec3::Zero(), lambda;
-  if (solveThree(W, -c, stick)) {
+  Vec3 stick = Vec3::Zero();
+  if (mu > 0.0 && solveThree(W, -c, stick)) {
     const double held = std::sqrt(stick[1] * stick[1] + stick[2] * stick[2]);
     if (held <= mu * stick[0]) return stick;
   }
+  return slideFrictionBlock(W, c, mu, start, stick, kTurn);
+}
+
+Vec3 slideFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start,
+                        const Vec3& stick, double enough) {
+  if (mu <= 0.0) return {-c[0] / W(0, 0), 0.0, 0.0};
 
   // Slip as before, against the force that would hold it, or as without friction.
+  Vec3 lambda;
+  if (slideFrom(W, c, mu, start.tail<2>(), enough, lambda)) return lambda;
+  if (slideFrom(W, c, mu, stick.tail<2>(), enough, lambda)) return lambda;
   const Vec2 frictionless(W(0, 1) * c[0] / W(0, 0) - c[1], W(0, 2) * c[0] / W(0, 0) - c[2]);
-  if (slideFrom(W, c, mu, start.tail<2>(), lambda)) return lambda;
-  if (slideFrom(W, c, mu, stick.tail<2>(), lambda)) return lambda;
-  if (slideFrom(W, c, mu, frictionless, lambda)) return lambda;
+  if (slideFrom(W, c, mu, frictionless, enough, lambda)) return lambda;
 
   const double rho = 1.0 / W.trace();
   lambda = start;
@@ -100,6 +107,16 @@ Vec3 solveFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& sta
     lambda = projectOnFrictionCone(lambda - rho * u, mu);
   }
   return lambda;
+}
+
+Mat3 inverseOfBlock(const Mat3& W) {
+  Mat3 inverse;
+  for (int k = 0; k < 3; ++k) {
+    Vec3 column;
+    if (!solveThree(W, Vec3::Unit(k), column)) return Mat3::Zero();
+    inverse.col(k) = column;
+  }
+  return inverse;
 }
 
 }  // namespace tumble

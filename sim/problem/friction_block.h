@@ -15,4 +15,13 @@ namespace tumble {
 /// @param start  λ to start from
 Vec3 solveFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start);
 
+/// The same where the contact is known to push, c_n < 0, and not to stick; `stick` is the λ that
+/// would hold it, or 0. The slip direction is good enough when Newton turns it by no more than
+/// `enough` [rad]: it then errs by the square of that.
+Vec3 slideFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start,
+                        const Vec3& stick, double enough);
+
+/// W⁻¹, or 0 if W is singular to rounding.
+Mat3 inverseOfBlock(const Mat3& W);
+
 }  // namespace tumble

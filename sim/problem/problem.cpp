@@ -64,6 +64,10 @@ double velocityScale(const Problem& problem) {
 }
 
 double naturalResidual(const Problem& problem, const Solution& solution) {
+  return naturalResidual(problem, solution, velocityScale(problem));
+}
+
+double naturalResidual(const Problem& problem, const Solution& solution, double scale) {
   double worst = 0.0;
   for (const Cone& cone : problem.cones) {
     double u[3] = {}, mobility = 0.0;
@@ -77,7 +81,7 @@ double naturalResidual(const Problem& problem, const Solution& solution) {
     if (std::isnan(residual)) return residual;  // max would drop it
     worst = std::max(worst, residual);
   }
-  return worst / velocityScale(problem);
+  return worst / scale;
 }
 
 double roundingFloor(const Problem& problem, const Solution& solution) {

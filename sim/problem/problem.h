@@ -101,6 +101,8 @@ double velocityScale(const Problem& problem);
 /// Natural-map residual of (λ, v) as in SolveReport: per cone |λ − Π_K(λ − ρ û)|/ρ with
 /// ρ = 1/(largest diagonal entry of J M⁻¹ Jᵀ in the cone), û = u + mu |u_t| n for friction.
 double naturalResidual(const Problem& problem, const Solution& solution);
+/// The same where velocityScale is known.
+double naturalResidual(const Problem& problem, const Solution& solution, double scale);
 
 /// What rounding alone may leave of naturalResidual: machine epsilon times the sum of the sizes of
 /// all terms of a row of J (vStar + M⁻¹ Jᵀ λ) + bias, the largest of them, over velocityScale.
@@ -108,7 +110,8 @@ double roundingFloor(const Problem& problem, const Solution& solution);
 
 /// Whether a residual of this solution is as small as rounding lets it be.
 inline bool atRounding(const Problem& problem, const Solution& solution, double residual) {
-  return residual <= std::min(2.0 * roundingFloor(problem, solution), 1e-6);
+  constexpr double kMost = 1e-6;
+  return residual <= kMost && residual <= 2.0 * roundingFloor(problem, solution);
 }
 
 /// Root of a body in a forest that joins bodies to islands; halves the path on its way.
