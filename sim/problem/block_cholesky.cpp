@@ -75,7 +75,7 @@ int BlockCholesky::edgeRow(int e) const {
 namespace {
 
 /// Turns a block A into the inverse of its Cholesky factor. False if A is not positive definite.
-bool invertFactor(Mat6& A) {
+[[gnu::flatten]] bool invertFactor(Mat6& A) {
   Mat6 L = Mat6::Zero();
   for (int j = 0; j < 6; ++j) {
     double pivot = A(j, j);
@@ -121,7 +121,7 @@ void takeSquare(Mat6& A, const Mat6& B) {
 }  // namespace
 
 /// Divides a column by its diagonal, and takes its products off the columns to the right.
-void BlockCholesky::eliminate(int column) {
+[[gnu::flatten]] void BlockCholesky::eliminate(int column) {
   const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
   const Mat6& inverse = diagonal_[column];
   const int first = begin[column], end = begin[column + 1];
@@ -147,7 +147,7 @@ bool BlockCholesky::factor() {
   return true;
 }
 
-void BlockCholesky::solve(std::span<Vec6> x) {
+[[gnu::flatten]] void BlockCholesky::solve(std::span<Vec6> x) {
   const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
   const int n = structure_->rows_;
   for (int i = 0; i < n; ++i) moved_[structure_->place_[i]] = x[i];

@@ -60,7 +60,7 @@ void addLower(Mat6& A, const B& b, const C& c) {
 
 }  // namespace
 
-void NewtonSystem::look(bool slipFollows) {
+[[gnu::flatten]] void NewtonSystem::look(bool slipFollows) {
   for (Point& point : points) {
     point.u = point.bias;
     if (point.a >= 0) point.u += speeds(point.Ja, movers[point.a].v);
@@ -70,7 +70,7 @@ void NewtonSystem::look(bool slipFollows) {
   evaluate();
 }
 
-void NewtonSystem::evaluate() {
+[[gnu::flatten]] void NewtonSystem::evaluate() {
   for (Mover& mover : movers) {
     const Vec6 change = mover.v - mover.star;
     mover.gradient << mover.mass * change.head<3>(), mover.inertia * change.tail<3>();
@@ -123,7 +123,7 @@ Piece NewtonSystem::guess(const Point& point) const {
 }
 
 /// H = M + ρ Jᵀ ∂Π J.
-void NewtonSystem::assemble() {
+[[gnu::flatten]] void NewtonSystem::assemble() {
   beginMasses(H_);
   for (Point& point : points) {
     const Piece piece = guess_ ? guess(point) : point.piece;
@@ -157,7 +157,7 @@ void NewtonSystem::assemble() {
 
 /// Newton's direction d = −H⁻¹ g, and how much it changes the velocities of the rows.
 template <class Factor>
-double NewtonSystem::direction(Factor& factor) {
+[[gnu::flatten]] double NewtonSystem::direction(Factor& factor) {
   work_.resize(movers.size());
   for (std::size_t i = 0; i < movers.size(); ++i) work_[i] = -movers[i].gradient;
   factor.solve(work_);
@@ -173,7 +173,7 @@ double NewtonSystem::direction(Factor& factor) {
 }
 
 /// dΦ(v + α d)/dα.
-double NewtonSystem::slopeAt(double alpha) {
+[[gnu::flatten]] double NewtonSystem::slopeAt(double alpha) {
   double slope = 0.0;
   for (const Mover& mover : movers) {
     const Vec6 change = mover.v - mover.star + alpha * mover.step;
@@ -219,7 +219,7 @@ bool NewtonSystem::factorFits() const {
 bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
   constexpr double kChord = 0.1;   // a factor whose edges have turned serves while steps shrink so
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  look();
+  evaluate();                      // u is that of v already
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
     const bool edges = std::any_of(points.begin(), points.end(),
@@ -299,7 +299,8 @@ void NewtonSystem::shorten() {
 
 bool NewtonSystem::followSlip(double accuracy, int most) {
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  look(true);
+  takeSlip();
+  evaluate();
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
     assembleLive();
