@@ -33,6 +33,9 @@ std::vector<std::string> integratorChoices() {
 std::vector<std::string> solverChoices() {
   return namesOf(solvers());
 }
+std::vector<std::string> presetChoices() {
+  return namesOf(solverPresets());
+}
 std::vector<std::string> attitudeChoices() {
   return {"quaternion", "matrix"};
 }

@@ -5,6 +5,7 @@
 
 #include "app/scene/choices.h"
 #include "sim/ode/integrator.h"
+#include "sim/problem/problem.h"
 
 namespace tumble {
 
@@ -29,6 +30,9 @@ void readKeys(Section& section, CourseSettings& course) {
 
 void readKeys(Section& section, SteppingSettings& stepping) {
   section.read("step", stepping.step, kStep);
+  std::string preset = "exact";
+  section.read("preset", preset, presetChoices());
+  stepping.take(*findSolverPreset(preset));
   section.read("solver", stepping.solver, solverChoices());
   section.read("tolerance", stepping.tolerance, {0.0, 1.0, true, {}});
 }

@@ -4,7 +4,15 @@
 #include <charconv>
 #include <cmath>
 
+#include "sim/problem/problem.h"
+
 namespace tumble {
+
+void SteppingSettings::take(const SolverPreset& preset) {
+  solver = preset.solver;
+  tolerance = preset.settings.tolerance;
+  iterations = preset.settings.maxIterations;
+}
 
 std::string shortNumber(double value) {
   char text[32];

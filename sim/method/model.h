@@ -16,6 +16,8 @@
 
 namespace tumble {
 
+struct SolverPreset;
+
 /// A body as its author describes it. Mass wins over density; inertia (about the centre of mass,
 /// body axes) over the shape's own.
 struct BodyDef {
@@ -74,6 +76,10 @@ struct SteppingSettings {
   double step = 1.0 / 240.0;  ///< [s]
   std::string solver = "newton";
   double tolerance = 1e-12;  ///< natural-map residual, relative
+  int iterations = 4000;     ///< at most, of the solver: more bring little
+
+  /// Solver, tolerance and iterations as in a row of solverPresets.
+  void take(const SolverPreset& preset);
 };
 
 /// Everything a world is made from.

@@ -53,6 +53,8 @@ struct Solution {
 };
 
 /// Solved: the residual is within tolerance, or as small as rounding lets it be (roundingFloor).
+/// NotConverged: the iterations are spent; the answer is the best so far, and its residual says how
+/// good that is.
 enum class SolveStatus { Solved, NotConverged, Infeasible };
 
 struct SolveReport {
@@ -79,6 +81,17 @@ struct Solver {
 /// All solvers. To add one: write `sim/problem/<name>.cpp` and add its row in solvers.cpp.
 std::span<const Solver> solvers();
 const Solver* findSolver(std::string_view name);
+
+/// A row of the table of presets: a solver, and how far it goes.
+struct SolverPreset {
+  std::string_view name;
+  std::string_view summary;
+  std::string_view solver;
+  SolveSettings settings;
+};
+
+std::span<const SolverPreset> solverPresets();
+const SolverPreset* findSolverPreset(std::string_view name);
 
 /// J v of one row, without bias, at the twists of its two bodies.
 inline double rowSpeed(const Row& row, const Vec6& va, const Vec6& vb) {

@@ -14,6 +14,21 @@ std::span<const Solver> solvers() {
   return kTable;
 }
 
+std::span<const SolverPreset> solverPresets() {
+  static constexpr std::array kTable = {
+      SolverPreset{"exact", "contacts hold to rounding", "newton", {1e-12, 4000}},
+      SolverPreset{"balanced", "contacts hold to a millionth", "newton", {1e-6, 4000}},
+      SolverPreset{"fast", "twenty sweeps, whatever they leave", "pgs", {1e-3, 20}},
+  };
+  return kTable;
+}
+
+const SolverPreset* findSolverPreset(std::string_view name) {
+  for (const SolverPreset& preset : solverPresets())
+    if (preset.name == name) return &preset;
+  return nullptr;
+}
+
 const Solver* findSolver(std::string_view name) {
   for (const Solver& solver : solvers())
     if (solver.name == name) return &solver;

@@ -220,6 +220,25 @@ strobe = 0.5
   CHECK(show.strobe == 0.5);
 }
 
+TEST_CASE("a preset of stepping sets what the scene does not set itself") {
+  const auto read = [](const std::string& lines) {
+    const std::string text = "[world]\nduration = 1\n[stepping]\n" + lines +
+                             "\n[[body]]\nname = \"ball\"\nshape = { sphere = 1 }\nmass = 1\n";
+    return parseScene(text, "s.toml").world.stepping;
+  };
+  CHECK(read("").solver == "newton");
+  CHECK(read("").tolerance == 1e-12);
+  CHECK(read("").iterations == read("preset = \"exact\"").iterations);
+  CHECK(read("preset = \"balanced\"").solver == "newton");
+  CHECK(read("preset = \"balanced\"").tolerance == 1e-6);
+  CHECK(read("preset = \"fast\"").solver == "pgs");
+  CHECK(read("preset = \"fast\"").iterations == 20);
+  const SteppingSettings mixed = read("tolerance = 1e-4\npreset = \"fast\"\nsolver = \"newton\"");
+  CHECK(mixed.solver == "newton");
+  CHECK(mixed.tolerance == 1e-4);
+  CHECK(mixed.iterations == 20);
+}
+
 TEST_CASE("a plane's normal is made a unit vector, its distance with it, and it is fixed") {
   const BodyDef floor = body("shape = { plane = [0, 3, 4, 10] }");
   const HalfSpace& plane = std::get<HalfSpace>(floor.shape);

@@ -161,7 +161,6 @@ void Stepping::swing(std::span<const Link> links, double h) {
 }
 
 void Stepping::solveIsland(std::span<const Link> links, double h) {
-  constexpr int kMost = 4000;  // sweeps: more bring little; what is left is in the certificate
   Certificate& certificate = report_.certificate;
   collectBodies(links);
   if (work_.movers.empty()) return;
@@ -172,8 +171,9 @@ void Stepping::solveIsland(std::span<const Link> links, double h) {
   } else if (!keeps(memory, links)) {
     allKept_ = false;
     build(links, h);
+    const SteppingSettings& stepping = model_.def.stepping;
     const SolveReport solved = solver_.solve(
-        work_.problem, {.tolerance = model_.def.stepping.tolerance, .maxIterations = kMost},
+        work_.problem, {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations},
         work_.solution);
     if (solved.status != SolveStatus::Solved)
       report_.note("some steps were left above the tolerance; max_complementarity has the worst");

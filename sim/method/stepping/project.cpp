@@ -19,8 +19,9 @@ bool Stepping::project() {
   bool open = isOpen();
   const bool lifts = open;
   const double before = lifts ? potential() : 0.0;
-  for (int round = 0; round < kRounds && open; ++round) {
-    lift();
+  int left = model_.def.stepping.iterations;  // of the solver, for all rounds
+  for (int round = 0; round < kRounds && open && left > 0; ++round) {
+    left -= lift(left);
     deepest = deepestOverlap();
     open = isOpen();
   }
@@ -61,9 +62,10 @@ int Stepping::rootOf(std::size_t pair) {
   return islandRoot(work_.root, model_.fixed(a) ? b : a);
 }
 
-void Stepping::lift() {
+int Stepping::lift(int most) {
   // Displacements obey the problem of the velocities with the gap as bias:
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
+  constexpr int kMost = 200;           // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
   beginVelocityProblem(state_.bodies, work_.problem);
   for (Vec6& v : work_.problem.vStar) v.setZero();
@@ -82,8 +84,9 @@ void Stepping::lift() {
   appendBonds(work_.bonds, work_.problem);
   work_.solution.lambda.clear();
   work_.solution.v.clear();
-  solveByIslands(solver_, work_.problem, {.tolerance = kTolerance, .maxIterations = 200},
-                 work_.solution);
+  const SolveReport solved = solveByIslands(
+      solver_, work_.problem, {.tolerance = kTolerance, .maxIterations = std::min(most, kMost)},
+      work_.solution);
 
   // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
   constexpr double kLargestTurn = 0.1;  // [rad]
@@ -96,6 +99,7 @@ void Stepping::lift() {
     body.q = rotated(body.q, turn).normalized();
     updateDerived(body);
   }
+  return solved.iterations;
 }
 
 }  // namespace tumble

@@ -123,7 +123,8 @@ class Stepping {
   double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
   void findOverlapping();
   int rootOf(std::size_t pair);
-  void lift();
+  /// Lifts what overlaps, by at most so many iterations of the solver; returns how many it took.
+  int lift(int most);
 
   // events.cpp
   void recordEvents(double t);

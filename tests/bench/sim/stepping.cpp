@@ -2,6 +2,10 @@
 // on ice, where every step looks and solves anew.
 #include <benchmark/benchmark.h>
 
+#include <string>
+#include <utility>
+
+#include "sim/problem/problem.h"
 #include "tests/world/scenes.h"
 
 namespace {
@@ -38,5 +42,44 @@ void stackDrifting(benchmark::State& state) {
   stepsOf(state, 0.1);
 }
 BENCHMARK(stackDrifting)->DenseRange(0, 3)->Unit(benchmark::kMicrosecond);
+
+/// A row of dominoes of which the first has been pushed.
+WorldDef dominoes() {
+  WorldDef def = scenes::worldOf("stepping", 1e6, {scenes::ground(0.0, 0.5)});
+  for (int k = 0; k < 12; ++k)
+    def.bodies.push_back(scenes::box("domino" + std::to_string(k), {0.05, 0.5, 0.25},
+                                     {0.2 * k, 0.25, 0.0}, 0.0, 0.3));
+  def.bodies[1].angularVelocity = {0.0, 0.0, -2.0};
+  return def;
+}
+
+/// Two seconds from the start, with one of the presets.
+void secondsBy(benchmark::State& state, WorldDef def, const SolverPreset& preset) {
+  def.stepping.take(preset);
+  double residual = 0.0, steps = 0.0;
+  for (auto _ : state) {
+    World world(def);
+    for (int k = 1; k <= 20; ++k) world.advance(0.1 * k);
+    residual = world.report().certificate.max_complementarity;
+    steps += static_cast<double>(world.report().certificate.steps);
+  }
+  state.counters["residual"] = residual;
+  state.counters["per step"] =
+      benchmark::Counter(steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+const int kPresets = [] {
+  const std::pair<const char*, WorldDef> worlds[] = {
+      {"tower", scenes::stackOf(1, 10, 1, false, 0.1)},
+      {"pile", scenes::stackOf(6, 6, 6, true, 0.1)},
+      {"dominoes", dominoes()}};
+  for (const auto& [name, def] : worlds)
+    for (const SolverPreset& preset : solverPresets())
+      benchmark::RegisterBenchmark(
+          ("preset " + std::string(preset.name) + ": " + name).c_str(),
+          [&preset, def = def](benchmark::State& state) { secondsBy(state, def, preset); })
+          ->Unit(benchmark::kMillisecond);
+  return 0;
+}();
 
 }  // namespace
