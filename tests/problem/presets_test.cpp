@@ -19,7 +19,8 @@ Problem shakenPile() {
 
 }  // namespace
 
-// Oracle: the definition of the natural map. Measured below 1e-14, as is allowed; balance below 1e-12.
+// Oracle: the definition of the natural map. Measured below 1e-14, as is allowed; balance below
+// 1e-12.
 TEST_CASE("each preset tells the residual that it leaves, and momentum is balanced") {
   const Problem problem = shakenPile();
   for (const SolverPreset& preset : solverPresets()) {
