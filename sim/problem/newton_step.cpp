@@ -219,7 +219,7 @@ bool NewtonSystem::factorFits() const {
 bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
   constexpr double kChord = 0.1;   // a factor whose edges have turned serves while steps shrink so
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  evaluate();                      // u is that of v already
+  look();
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
     const bool edges = std::any_of(points.begin(), points.end(),
@@ -299,8 +299,7 @@ void NewtonSystem::shorten() {
 
 bool NewtonSystem::followSlip(double accuracy, int most) {
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  takeSlip();
-  evaluate();
+  look(true);
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
     assembleLive();

@@ -55,8 +55,8 @@ class NewtonSystem {
 
   /// u, forces and gradient at v; with `slipFollows` s follows u.
   void look(bool slipFollows = false);
-  /// Minimises Φ from the v last looked at, by at most that many steps, until one changes no row by
-  /// more than `accuracy` [m/s]; with the factor at hand alone, if it may not take another.
+  /// Minimises Φ by at most that many steps, until one changes no row by more than `accuracy`
+  /// [m/s]; with the factor at hand alone, if it may not take another.
   bool minimise(double accuracy, int most, bool mayFactor = true);
   /// The same where s = mu |u_t| follows v, so that there is no Φ, only its gradient to bring to 0.
   bool followSlip(double accuracy, int most);

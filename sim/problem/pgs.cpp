@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "sim/problem/anderson.h"
 #include "sim/problem/solvers.h"
@@ -11,7 +10,8 @@
 namespace tumble {
 namespace {
 
-constexpr int kAsk = 64;  ///< sweeps from one look at the residual to the next
+constexpr int kRounded = 4;  ///< looks at a residual that is rounding
+constexpr int kAsk = 64;     ///< sweeps from one look at the residual to the next
 
 class Sweeper {
  public:
@@ -20,12 +20,14 @@ class Sweeper {
  private:
   void begin(const Problem& problem, Solution& solution);
   double ask(const Problem& problem, const VecX& lambda, Solution& solution) const;
+  bool spent(double residual, bool stands);
   double thereAndBack();
   void accelerate();
 
-  Sweep sweep_;
-  VecX lambda_, before_, best_;
-  double leastChange_ = 0.0;
+  ConeSweeps sweep_;
+  VecX lambda_, before_, best_, rounded_;
+  double leastChange_ = 0.0, leastRounded_ = 0.0;
+  int timesRounded_ = 0;
   double scale_ = 1.0;  ///< [m/s] velocityScale
   Anderson mixer_;
 };
@@ -44,6 +46,16 @@ double Sweeper::ask(const Problem& problem, const VecX& lambda, Solution& soluti
   VecX::Map(solution.lambda.data(), lambda.size()) = lambda;
   velocitiesFromLambda(problem, solution.lambda, solution.v);
   return naturalResidual(problem, solution, scale_);
+}
+
+/// Keeps the best of the answers whose residual is rounding. Whether it is the last: if the
+/// residual stands, or has been rounding for some time.
+bool Sweeper::spent(double residual, bool stands) {
+  if (timesRounded_++ == 0 || residual < leastRounded_) {
+    leastRounded_ = residual;
+    rounded_ = lambda_;
+  }
+  return stands || timesRounded_ == kRounded;
 }
 
 /// A sweep there and one back: a symmetric iteration. Returns the largest change.
@@ -72,6 +84,7 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
   mixer_.reset(sweep_.mobility());
   leastChange_ = std::numeric_limits<double>::infinity();
   double target = settings.tolerance * scale_;
+  timesRounded_ = 0;
   while (report.iterations < settings.maxIterations) {
     const double change = thereAndBack();
     report.iterations += 2;
@@ -82,10 +95,14 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
     }
     // When the sweeps move hardly any more, and now and then before, the residual itself is asked.
     if (change <= target || report.iterations % kAsk == 0) {
-      const double before = std::exchange(report.residual, ask(problem, lambda_, solution));
+      const double before = report.residual;
+      report.residual = ask(problem, lambda_, solution);
       if (report.residual <= settings.tolerance) return report;
-      const bool stands = report.residual > 0.5 * before;
-      if (stands && atRounding(problem, solution, report.residual)) return report;
+      const bool stands = change <= target || report.residual > 0.5 * before;
+      if (atRounding(problem, solution, report.residual) && spent(report.residual, stands)) {
+        report.residual = ask(problem, rounded_, solution);
+        return report;
+      }
       if (change <= target) target *= 0.25;
     }
     if (report.iterations < settings.maxIterations) accelerate();

@@ -52,7 +52,7 @@ Vec3 solveFriction(const SweptCone& cone, const Vec3& u, const Vec3& old) {
 
 }  // namespace
 
-void Sweep::prepare(const Problem& problem) {
+void ConeSweeps::prepare(const Problem& problem) {
   roots_.resize(problem.invM.size());
   for (std::size_t i = 0; i < roots_.size(); ++i) roots_[i] = rootOf(problem.Iinv[i]);
   y_.resize(problem.invM.size());
@@ -61,7 +61,8 @@ void Sweep::prepare(const Problem& problem) {
   for (std::size_t k = 0; k < cones_.size(); ++k) layOut(problem, problem.cones[k], cones_[k]);
 }
 
-[[gnu::flatten]] void Sweep::layOut(const Problem& problem, const Cone& from, SweptCone& cone) {
+[[gnu::flatten]] void ConeSweeps::layOut(const Problem& problem, const Cone& from,
+                                         SweptCone& cone) {
   cone.kind = from.kind;
   cone.mu = from.mu;
   cone.row = from.row;
@@ -87,7 +88,7 @@ void Sweep::prepare(const Problem& problem) {
     if (cone.W(i, i) > 0.0) mobility_[from.row + i] = cone.W(i, i);
 }
 
-[[gnu::flatten]] void Sweep::take(const VecX& lambda) {
+[[gnu::flatten]] void ConeSweeps::take(const VecX& lambda) {
   for (Vec6& y : y_) y.setZero();
   for (const SweptCone& cone : cones_) {
     Vec3 own = Vec3::Zero();
@@ -98,7 +99,7 @@ void Sweep::prepare(const Problem& problem) {
 }
 
 /// Solves one cone and moves its bodies.
-[[gnu::flatten]] double Sweep::visit(const SweptCone& cone, double* lambda) {
+[[gnu::flatten]] double ConeSweeps::visit(const SweptCone& cone, double* lambda) {
   if (cone.mobility <= 0.0) return 0.0;
   const int rows = coneRows(cone.kind);
   Vec6 &ya = y_[cone.a], &yb = y_[cone.b];
@@ -116,7 +117,7 @@ void Sweep::prepare(const Problem& problem) {
   return change.lpNorm<Eigen::Infinity>() * cone.mobility;
 }
 
-double Sweep::pass(bool forwards, VecX& lambda) {
+double ConeSweeps::pass(bool forwards, VecX& lambda) {
   double largest = 0.0;
   const std::size_t n = cones_.size();
   for (std::size_t i = 0; i < n; ++i) {

@@ -24,7 +24,7 @@ struct SweptCone {
 
 /// Bodies go by y, with  v = vStar + B y  and  M⁻¹ = B Bᵀ.  Then one matrix K = J B says both how
 /// fast the rows are, u = K y + c, and what their multipliers do, y = Kᵀ λ.
-class Sweep {
+class ConeSweeps {
  public:
   void prepare(const Problem& problem);
 
