@@ -12,7 +12,7 @@
 namespace tumble {
 
 double Stepping::meet(double h, bool mayDivide) {
-  constexpr double kSoon = 1e-2;  // of a step
+  constexpr double kSoon = 1e-4;  // of a step
   const double soon = kSoon * model_.def.stepping.step;
   // Where a step has no parts left, hits come to rest that are slower than what a step of free fall
   // gives.

@@ -60,7 +60,7 @@ void Stepping::step() {
 
 /// In as many parts as impacts ask for.
 void Stepping::stepTo(double t1, double h) {
-  constexpr int kFew = 2, kMany = 16, kBodies = 64;
+  constexpr int kFew = 2, kMany = 16, kBodies = 256;
   int divisions = std::clamp(kBodies / model_.count(), kFew, kMany);
   for (double part = meet(h, true); part < h && !report_.stopped; part = meet(h, --divisions > 0)) {
     moveTo(state_.t + part, part);
