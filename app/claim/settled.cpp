@@ -45,6 +45,13 @@ Vec3 groundForce(const Scene& scene, const Sample& sample) {
     if (a && !b) sum += c.force;
     if (b && !a) sum -= c.force;
   }
+  const int world = static_cast<int>(scene.world.bodies.size());
+  for (const JointForce& joint : sample.joints) {
+    const bool a = moves(scene.world.bodies[joint.a]);
+    const bool b = joint.b < world && moves(scene.world.bodies[joint.b]);
+    if (a && !b) sum += joint.force;
+    if (b && !a) sum -= joint.force;
+  }
   return sum;
 }
 

@@ -161,6 +161,35 @@ TEST_CASE("the claim of the end names the body that moves and the pair that over
                              ": deepest overlap at the end / m");
 }
 
+// Oracle: statics. A bar of 3 kg, pinned to the world at one end, lies on a prop at the other.
+TEST_CASE("what a joint with the world carries counts as carried") {
+  const Scene scene = parseScene(R"(
+[world]
+method = "stepping"
+duration = 1.0
+[[body]]
+name = "prop"
+shape = { box = [0.1, 1.0, 0.3] }
+position = [0.9, 0.5, 0.0]
+fixed = true
+[[body]]
+name = "bar"
+shape = { box = [1.0, 0.1, 0.3] }
+mass = 3.0
+position = [0.5, 1.05, 0.0]
+[[joint]]
+kind = "hinge"
+a = "bar"
+anchor = [0.0, 1.05, 0.0]
+axis = [0.0, 0.0, 1.0]
+)",
+                                 "bar.toml");
+  const Recording right = record(scene, 20.0);
+  CHECK(holds("settled", scene, right));
+  CHECK_FALSE(holdsBroken("settled", scene, right,
+                          [](Recording& r) { r.samples.back().joints[0].force *= 1.0 + 1e-8; }));
+}
+
 TEST_CASE("where nothing rests or weighs anything, the claims say so") {
   const Scene scene = demo("cradle");
   const Recording recording = record(scene, 10.0);

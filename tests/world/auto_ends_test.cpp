@@ -87,4 +87,7 @@ TEST_CASE("auto brings crowds of events to an end, and its certificate is sound"
   CHECK(books.max_complementarity < 1e-6);
   CHECK(books.momentum_error < 1e-9);
   CHECK(books.energy_balance_error < 0.05);
+  const std::vector<Event>& events = world.report().events;
+  CHECK(std::is_sorted(events.begin(), events.end(),
+                       [](const Event& p, const Event& q) { return p.t < q.t; }));
 }

@@ -105,6 +105,7 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
     } else {
       if (!sustained) sustained.emplace(model, state, report);
       sustained->next();
+      exact.closeRests(state.t);
       if (!report.stopped) giveUp(state, report);
     }
   }

@@ -37,6 +37,8 @@ class Exact {
   void takeOff();
   /// Goes on to the next event, to the end of the window, or to t_end, whichever is first.
   void next(double t_end);
+  /// Tells the rests whose last bounces are over by t, in their place among the events.
+  void closeRests(double t);
 
  private:
   using Pair = std::pair<int, int>;
@@ -111,7 +113,6 @@ class Exact {
   void sustain(double t, const Cluster& cluster);
   void lookForStops(double t);
   void renew(double t, int body, const Vec3& acceleration);
-  void closeRests(double t);
 
   // books.cpp: the certificate.
   void bookHolds(double t);

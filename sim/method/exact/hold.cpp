@@ -331,7 +331,9 @@ void Exact::closeRests(double t) {
   while (!state_.closing.empty() && state_.closing.front().t <= t) {
     const Event event = state_.closing.front();
     state_.closing.erase(state_.closing.begin());
-    report_.events.push_back(event);
+    const auto place = std::upper_bound(report_.events.begin(), report_.events.end(), event,
+                                        [](const Event& p, const Event& q) { return p.t < q.t; });
+    report_.events.insert(place, event);
   }
 }
 
