@@ -95,13 +95,14 @@ void Stepping::look(std::size_t pair, double margin) {
     matchFeatures(memory);
   }
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
-    Contact contact = work_.found[i];
-    const Contact& before = memory.touches[i].contact;
+    Contact& contact = memory.touches[i].contact;
+    const Vec3 force = contact.force;
+    const bool lasting = contact.lasting, sliding = contact.sliding;
+    contact = work_.found[i];
     contact.anchor = anchorOf(a, b, contact.point);
-    contact.force = before.force;
-    contact.lasting = before.lasting;
-    contact.sliding = before.sliding;
-    memory.touches[i].contact = contact;
+    contact.force = force;
+    contact.lasting = lasting;
+    contact.sliding = sliding;
     memory.deepest = std::max(memory.deepest, -contact.point.separation);
   }
 }
