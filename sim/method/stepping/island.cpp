@@ -39,6 +39,18 @@ void Stepping::solveIslands(double h) {
   if (!model_.joints.empty()) bookJoints(h);
 }
 
+void Stepping::partBodies() {
+  work_.root.resize(state_.bodies.size());
+  std::iota(work_.root.begin(), work_.root.end(), 0);
+}
+
+void Stepping::joinBodies(int a, int b) {
+  const int world = static_cast<int>(state_.bodies.size());
+  if (a == world || b == world || model_.fixed(a) || model_.fixed(b)) return;
+  const int p = islandRoot(work_.root, a), q = islandRoot(work_.root, b);
+  work_.root[std::max(p, q)] = std::min(p, q);
+}
+
 /// Deals what joins bodies out to islands, in the order of their first links.
 void Stepping::groupLinks(double h) {
   const int count = static_cast<int>(state_.near.size() + work_.bonds.rows.size());
@@ -50,13 +62,10 @@ void Stepping::groupLinks(double h) {
                        [&](const Touch& touch) { return !flies(touch, h); });
   };
   const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
-  work_.root.resize(world);
-  std::iota(work_.root.begin(), work_.root.end(), 0);
+  partBodies();
   for (Link link = 0; link < count; ++link) {
     const auto [b, a] = ends(link);
-    if (!joins(link) || fixed(a) || fixed(b)) continue;
-    const int p = islandRoot(work_.root, a), q = islandRoot(work_.root, b);
-    work_.root[std::max(p, q)] = std::min(p, q);
+    if (joins(link)) joinBodies(a, b);
   }
   // Count, then place: `work_.local` numbers the islands for a moment.
   work_.local.assign(world + 1, -1);

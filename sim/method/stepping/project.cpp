@@ -1,6 +1,5 @@
 // Position projection: the least displacement, weighed by mass, that lifts what overlaps.
 #include <algorithm>
-#include <numeric>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
@@ -41,18 +40,11 @@ double Stepping::deepestOverlap() {
 
 /// Joins to islands what touches or is near, and marks the roots of those with an overlap.
 void Stepping::findOverlapping() {
-  const int n = static_cast<int>(state_.bodies.size());
-  work_.root.resize(n);
-  std::iota(work_.root.begin(), work_.root.end(), 0);
-  const auto join = [&](int a, int b) {
-    if (b == n || model_.fixed(a) || model_.fixed(b)) return;
-    const int p = islandRoot(work_.root, a), q = islandRoot(work_.root, b);
-    work_.root[std::max(p, q)] = std::min(p, q);
-  };
+  partBodies();
   for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (!memory_.pairs[k].touches.empty()) join(state_.near[k].second, state_.near[k].first);
-  for (const Joint& joint : model_.joints) join(joint.a, joint.b);
-  work_.open.assign(n, 0);
+    if (!memory_.pairs[k].touches.empty()) joinBodies(state_.near[k].second, state_.near[k].first);
+  for (const Joint& joint : model_.joints) joinBodies(joint.a, joint.b);
+  work_.open.assign(state_.bodies.size(), 0);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     if (memory_.pairs[k].deepest > tolerance_.drift) work_.open[rootOf(k)] = 1;
 }

@@ -80,6 +80,9 @@ class Stepping {
   // island.cpp: the contact problem of each island.
   void solveIslands(double h);
   void groupLinks(double h);
+  /// The forest of islands: each body alone, and two bodies that something joins as one.
+  void partBodies();
+  void joinBodies(int a, int b);
   std::pair<int, int> ends(Link link) const;
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
   Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }
