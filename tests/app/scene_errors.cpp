@@ -1,11 +1,7 @@
 // What a wrong scene file is told: the place, the key, what was expected, the word that was meant.
-#include <filesystem>
-#include <fstream>
-
 #include "app/scene/scene.h"
 #include "tests/catch.h"
 
-namespace fs = std::filesystem;
 using namespace tumble;
 
 namespace {
@@ -355,31 +351,6 @@ TEST_CASE("a file with mistakes without end is left after a hundred") {
 
 TEST_CASE("a column counts letters, not bytes") {
   check("checks = [\"é\", 7]\n" + kRight, {"", "1:16", "expected a string in quotes, found 7"});
-}
-
-TEST_CASE("a file that cannot be read is told apart from one that is not there") {
-  const fs::path folder = fs::path(TUMBLE_BINARY_DIR) / "scene-files";
-  fs::create_directories(folder);
-  const auto told = [](const fs::path& path) {
-    try {
-      readScene(path.string());
-    } catch (const SceneError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  CHECK(told(folder / "none.toml") ==
-        (folder / "none.toml").string() + ": error: there is no such file");
-  CHECK(told(folder) == folder.string() + ": error: is a folder, not a scene file");
-
-  std::ofstream(folder / "huge.toml") << std::string((4 << 20) + 1, '\n');
-  CHECK(told(folder / "huge.toml").find("larger than 4 MiB") != std::string::npos);
-
-  std::ofstream(folder / "good.toml") << kRight;
-  CHECK(told(folder / "good.toml").empty());
-  const Scene scene = readScene((folder / "good.toml").string());
-  CHECK(scene.name == "good");
-  CHECK(scene.file == (folder / "good.toml").string());
 }
 
 TEST_CASE("a refusal by the world points at the key, or at the nearest thing above it") {

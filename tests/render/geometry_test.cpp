@@ -22,6 +22,17 @@ Picture bare(double height) {
   return picture;
 }
 
+/// A white cube of 1 m in the middle of an empty page.
+Picture whiteBox() {
+  Picture picture = bare(1.0);
+  Instance box;
+  box.position = {0.0, 1.0, 0.0};
+  box.scale = {0.5, 0.5, 0.5};
+  box.colour = {1.0f, 1.0f, 1.0f};
+  picture.instances = {box};
+  return picture;
+}
+
 /// Mean place of what differs between two images, weighted by the difference [px].
 Vector2d middleOfChange(const Image& before, const Image& after) {
   Vector2d sum = Vector2d::Zero();
@@ -198,12 +209,7 @@ TEST_CASE("a line on the face of a body is not hidden by it") {
 
 // Oracle: by hand. A line through an opaque box is drawn at 45 % where the box hides it.
 TEST_CASE("the hidden part of a line is fainter") {
-  Picture picture = bare(1.0);
-  Instance box;
-  box.position = {0.0, 1.0, 0.0};
-  box.scale = {0.5, 0.5, 0.5};
-  box.colour = {1.0f, 1.0f, 1.0f};
-  picture.instances = {box};
+  Picture picture = whiteBox();
   const Image before = studio().draw(picture, kFull);
   Polyline line;
   line.points = {{-2.0, 1.2, -2.0}, {2.0, 1.2, -2.0}};
@@ -239,12 +245,7 @@ TEST_CASE("an arrow reaches from its base to its tip") {
 // Oracle: by hand; inside a white box a black arrow leaves half of the light, up to its base; where
 // it stands out of the box it is as dark as ever. Measured 0.4986 and 0, allowed 0.01 and 0.1.
 TEST_CASE("an arrow that begins inside a body is seen from its base on, fainter inside") {
-  Picture picture = bare(1.0);
-  Instance box;
-  box.position = {0.0, 1.0, 0.0};
-  box.scale = {0.5, 0.5, 0.5};
-  box.colour = {1.0f, 1.0f, 1.0f};
-  picture.instances = {box};
+  Picture picture = whiteBox();
   const Image before = studio().draw(picture, kFull);
   Arrow arrow;
   arrow.base = {0.0, 0.8, 0.0};
