@@ -1,6 +1,7 @@
 // Chapter 6, problem: the stages of the proximal augmented Lagrangian.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "sim/problem/direct.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kOpen = 1e-12;    ///< balance of momentum above which v is taken from λ
-constexpr double kClosed = 1e-14;  ///< balance that is rounding
+constexpr double kClosed = 1e-14;  ///< balance or residual that is rounding
 constexpr double kNear = 1e-9;     ///< residual below which stages that bring nothing are counted
 constexpr double kCalmTau = 1e3;   ///< ρ of the calm stages, by the weight of the system
 
@@ -28,6 +29,7 @@ class Newton {
   double solveSlips(double tau);
   double solveHard(int most);
   void settle();
+  void keepBetter(SolveReport& report);
   void closeBalance(SolveReport& report);
 
   void takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const;
@@ -44,25 +46,30 @@ double Newton::accuracy(double residual) const {
 }
 
 /// Stages of constant slip terms with one large ρ: where little has changed, one factor will do.
+/// The first go with narrow cones, so that the last find few forces on the edge of one.
 double Newton::solveCalm() {
-  constexpr int kStages = 8, kInner = 8, kMost = 40;
+  constexpr int kStages = 10, kNarrow = 2, kInner = 8, kMost = 40;
   constexpr double kRough = 1e-8;  // balance of a stage that was ended early
+  constexpr double kSlips = 1e-3;  // of the scale: a slip that is not for a stage to bring to 0
   system_.rho = kCalmTau * system_.weight;
+  system_.narrow();
   double before = kInfinity;
   for (int stage = 0; stage < kStages && system_.factorizations < kMost; ++stage) {
     if (!system_.minimise(accuracy(before), kInner)) break;
+    if (stage == 0) system_.widen(kSlips * system_.scale);
     double now = system_.residual();
     // Forces that do not yet balance may look right where nothing moves.
     if (now <= tolerance_ && system_.balance() > kRough) {
       system_.minimise(0.0, kInner);
       now = system_.residual();
     }
-    if (now > tolerance_ && now > 0.5 * before) return now;
-    system_.nextStage(false);
-    if (now <= tolerance_) {  // one stage more costs no factor and leaves rounding alone
-      system_.minimise(0.0, kInner, false);
-      return system_.residual();
+    bool stalled = stage != 1 && now > 0.5 * before;
+    if (now <= tolerance_ || stalled || stage == kNarrow) {
+      if (system_.widen(0.0)) stalled = false;
+      now = system_.residual();
     }
+    if (now <= tolerance_ || stalled) return now;
+    system_.nextStage(false);
     before = now;
   }
   return kInfinity;
@@ -172,29 +179,44 @@ void Newton::settle() {
   }
 }
 
+/// Keeps the answer at hand where it is better than what was reported, balance first; else the one
+/// before.
+void Newton::keepBetter(SolveReport& report) {
+  const double balance = system_.balance(), residual = system_.residual();
+  const bool closer = balance <= kClosed && residual < report.residual;
+  const bool closed = balance < report.balance;
+  if (closer || (closed && residual <= std::max(tolerance_, report.residual))) {
+    report.balance = balance;
+    report.residual = residual;
+  } else {
+    system_.goBack(points_, movers_);
+  }
+}
+
 /// At a solution every ρ gives the same forces; but a large one magnifies the rounding of fast
 /// slips, where a small one closes the balance of momentum.
 void Newton::closeBalance(SolveReport& report) {
-  constexpr int kStages = 8;
+  constexpr int kStages = 8, kMore = 2;
   report.balance = system_.balance();
-  for (const double rho : {system_.rho, system_.weight}) {
-    if (report.balance <= kClosed) return;
+  const auto remember = [&] {
     points_ = system_.points;
     movers_ = system_.movers;
+  };
+  for (int k = 0; k < kMore && std::max(report.residual, report.balance) > kClosed; ++k) {
+    remember();
+    if (!system_.stageMore()) break;
+    keepBetter(report);
+  }
+  for (const double rho : {system_.rho, system_.weight}) {
+    if (report.balance <= kClosed) return;
+    remember();
     system_.rho = rho;
-    double left = kInfinity;
-    for (int stage = 0; stage < kStages && !(left <= tolerance_); ++stage) {
+    for (int stage = 0; stage < kStages; ++stage) {
       system_.nextStage(true);
       settle();
-      left = system_.residual();
+      if (system_.residual() <= tolerance_) break;
     }
-    const double closed = system_.balance();
-    if (closed < report.balance && left <= std::max(tolerance_, report.residual)) {
-      report.balance = closed;
-      report.residual = left;
-    } else {
-      system_.goBack(points_, movers_);
-    }
+    keepBetter(report);
   }
 }
 

@@ -70,7 +70,9 @@ void addLower(Mat6& A, const B& b, const C& c) {
   evaluate();
 }
 
-[[gnu::flatten]] void NewtonSystem::evaluate() {
+/// The gradient M (v − vStar) − Jᵀ force, with the forces that `find(point, λ − ρ (u + s))` sets.
+template <class Find>
+void NewtonSystem::gather(const Find& find) {
   for (Mover& mover : movers) {
     const Vec6 change = mover.v - mover.star;
     mover.gradient << mover.mass * change.head<3>(), mover.inertia * change.tail<3>();
@@ -78,11 +80,38 @@ void addLower(Mat6& A, const B& b, const C& c) {
   for (Point& point : points) {
     Vec3 z = point.lambda - rho * point.u;
     z[0] -= rho * point.saxce;
-    project(point, z);
+    find(point, z);
     if (point.piece == Piece::Zero && point.kind != ConeKind::Slide) continue;
     if (point.a >= 0) movers[point.a].gradient.noalias() -= point.Ja.lazyProduct(point.force);
     if (point.b >= 0) movers[point.b].gradient.noalias() -= point.Jb.lazyProduct(point.force);
   }
+}
+
+[[gnu::flatten]] void NewtonSystem::evaluate() {
+  gather([this](Point& point, const Vec3& z) { project(point, z); });
+}
+
+/// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
+bool NewtonSystem::stageMore() {
+  if (factoredRho_ != rho) return false;
+  nextStage(false);
+  gather([this](Point& point, const Vec3& z) {
+    project(point, z);
+    if (point.factored == Piece::Zero) point.force.setZero();
+    if (point.factored == Piece::Whole) point.force.head(point.rows) = z.head(point.rows);
+    point.piece = point.factored;
+  });
+  direction(H_);
+  for (Mover& mover : movers) mover.v += mover.step;
+  for (Point& point : points) point.u += point.du;
+  gather([this](Point& point, const Vec3& z) {
+    project(point, z);
+    if (point.factored == Piece::Zero) {
+      point.force.setZero();
+      point.piece = Piece::Zero;
+    }
+  });
+  return true;
 }
 
 namespace {
@@ -189,24 +218,37 @@ template <class Factor>
   return slope;
 }
 
-/// The part of the step that Φ asks for: 1 where its slope has gone down enough.
-double NewtonSystem::searchLine() {
+double NewtonSystem::slopeHere() const {
+  double slope = 0.0;
+  for (const Mover& mover : movers) slope += mover.step.dot(mover.gradient);
+  return slope;
+}
+
+void NewtonSystem::move(double alpha) {
+  for (Mover& mover : movers) mover.v += alpha * mover.step;
+  look();
+}
+
+/// Goes the whole step; back from there where the slope of Φ has not gone down enough.
+/// @return whether it went the whole step
+bool NewtonSystem::searchLine() {
   constexpr double kEnough = 0.25;
   constexpr int kMost = 12;
-  double low = 0.0, slopeLow = 0.0;
-  for (const Mover& mover : movers) slopeLow += mover.step.dot(mover.gradient);
+  double low = 0.0, slopeLow = slopeHere();
   const double enough = kEnough * std::abs(slopeLow);
-  double high = 1.0, slopeHigh = slopeAt(high);
-  if (slopeHigh <= enough) return 1.0;
+  move(1.0);
+  double high = 1.0, slopeHigh = slopeHere();
+  if (slopeHigh <= enough) return true;
   double alpha = 1.0;
   for (int k = 0; k < kMost; ++k) {
     alpha = low + (high - low) * std::clamp(-slopeLow / (slopeHigh - slopeLow), 0.05, 0.95);
-    const double slope = slopeAt(alpha);
+    const double slope = slopeAt(alpha - 1.0);
     if (std::abs(slope) <= enough) break;
     (slope < 0.0 ? low : high) = alpha;
     (slope < 0.0 ? slopeLow : slopeHigh) = slope;
   }
-  return alpha;
+  move(alpha - 1.0);
+  return false;
 }
 
 /// Whether the last factor is that of the pieces and ρ as they are.
@@ -216,10 +258,10 @@ bool NewtonSystem::factorFits() const {
 }
 
 /// Minimises Φ until a step changes no row by more than `accuracy` [m/s].
-bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
+bool NewtonSystem::minimise(double accuracy, int most) {
   constexpr double kChord = 0.1;   // a factor whose edges have turned serves while steps shrink so
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  look();
+  evaluate();
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
     const bool edges = std::any_of(points.begin(), points.end(),
@@ -227,15 +269,17 @@ bool NewtonSystem::minimise(double accuracy, int most, bool mayFactor) {
     const bool fits = factorFits();
     double change = fits ? direction(H_) : 0.0;
     if (!fits || (edges && !(change <= std::max(accuracy, kChord * before)))) {
-      if (!mayFactor) return false;
       assemble();
       change = direction(H_);
     }
     if (!std::isfinite(change)) return false;
-    const double alpha = change <= accuracy ? 1.0 : searchLine();
-    for (Mover& mover : movers) mover.v += alpha * mover.step;
-    look();
-    if (change <= accuracy) return true;
+    if (change <= accuracy) {
+      move(1.0);
+      return true;
+    }
+    const bool whole = searchLine();
+    // Where Φ is quadratic, its minimum is reached but for rounding.
+    if (whole && accuracy > 0.0 && !edges && factorFits()) return true;
     if (fits && change > 0.5 * before && (!edges || change < kSmall * scale)) return true;
     before = change;
   }

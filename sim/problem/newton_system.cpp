@@ -35,7 +35,7 @@ void NewtonSystem::addPoints(const Problem& problem) {
     Point& point = points[c];
     point = Point{};
     point.kind = cone.kind;
-    point.mu = cone.mu;
+    point.mu = point.muTrue = cone.mu;
     point.rows = coneRows(cone.kind);
     const Row& first = problem.rows[cone.row];
     point.a = moverOf_[first.a];
@@ -125,6 +125,22 @@ void NewtonSystem::nextStage(bool renewSlip) {
   if (renewSlip) takeSlip();
 }
 
+void NewtonSystem::narrow() {
+  constexpr double kInside = 0.8;
+  for (Point& point : points)
+    if (point.kind == ConeKind::Friction) point.mu = kInside * point.muTrue;
+}
+
+bool NewtonSystem::widen(double slip) {
+  bool any = false;
+  for (Point& point : points) {
+    if (point.mu == point.muTrue || std::hypot(point.u[1], point.u[2]) < slip) continue;
+    point.mu = point.muTrue;
+    any = true;
+  }
+  return any;
+}
+
 /// De Saxcé's term from the velocities as they are.
 void NewtonSystem::takeSlip() {
   for (Point& point : points)
@@ -145,7 +161,10 @@ void NewtonSystem::restart(const Solution& start) {
     if (!mover.moves) mover.v.head<3>() = mover.star.head<3>();
     if (!mover.turns) mover.v.tail<3>() = mover.star.tail<3>();
   }
-  for (Point& point : points) point.lambda.setZero();
+  for (Point& point : points) {
+    point.lambda.setZero();
+    point.mu = point.muTrue;
+  }
   guess_ = true;
   look(true);
 }

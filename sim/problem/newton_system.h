@@ -23,6 +23,7 @@ struct Point {
   int a = -1, b = -1;  ///< of the moving bodies; −1: does not move
   int edge = -1;       ///< if both move: their block off the diagonal
   double mu = 0.0;
+  double muTrue = 0.0;  ///< what mu is but in narrowed cones
   double length = 1.0;  ///< what the rows of a turn are multiplied with, to be in m/s
   double mobility = 0.0;
   Mat63 Ja = Mat63::Zero(), Jb = Mat63::Zero();  ///< u = Jaᵀ va + Jbᵀ vb + bias
@@ -56,10 +57,20 @@ class NewtonSystem {
   /// u, forces and gradient at v; with `slipFollows` s follows u.
   void look(bool slipFollows = false);
   /// Minimises Φ by at most that many steps, until one changes no row by more than `accuracy`
-  /// [m/s]; with the factor at hand alone, if it may not take another.
-  bool minimise(double accuracy, int most, bool mayFactor = true);
+  /// [m/s].
+  bool minimise(double accuracy, int most);
   /// The same where s = mu |u_t| follows v, so that there is no Φ, only its gradient to bring to 0.
   bool followSlip(double accuracy, int most);
+  /// Friction cones narrower than they are, until `widen`: forces that stick come to lie inside the
+  /// true ones wherever others can take what that leaves, and none on the edge between two pieces.
+  void narrow();
+  /// True cones for all that slips at this speed [m/s] or faster.
+  /// @return whether any was narrow
+  bool widen(double slip);
+  /// One stage more by the last factor alone, forces on the pieces that it was made for. False
+  /// where there is no factor for this ρ.
+  bool stageMore();
+  void loosen(double f);
   /// λ becomes the forces; and s = mu |u_t|, if asked for.
   void nextStage(bool renewSlip);
   /// s = mu |u_t| at v (de Saxcé).
@@ -84,6 +95,8 @@ class NewtonSystem {
   const BlockStructure& structureFor(int rows, std::span<const BlockEdge> edges);
 
   void project(Point& point, const Vec3& z) const;
+  template <class Find>
+  void gather(const Find& find);
   void evaluate();
   template <class Factor>
   void beginMasses(Factor& factor);
@@ -94,7 +107,9 @@ class NewtonSystem {
   template <class Factor>
   double direction(Factor& factor);
   double slopeAt(double alpha);
-  double searchLine();
+  double slopeHere() const;
+  void move(double alpha);
+  bool searchLine();
   double merit() const;
   void shorten();
 
