@@ -58,41 +58,47 @@ void BlockStructure::fill() {
   }
 }
 
-void BlockCholesky::begin(const BlockStructure& structure) {
+template <int N>
+void BlockCholesky<N>::begin(const BlockStructure& structure) {
   structure_ = &structure;
   diagonal_.resize(structure.rows_);
   blocks_.resize(structure.below_.size());
   moved_.resize(structure.rows_);
-  for (Mat6& block : diagonal_) block.setZero();
-  for (Mat6& block : blocks_) block.setZero();
+  for (Block& block : diagonal_) block.setZero();
+  for (Block& block : blocks_) block.setZero();
 }
 
-int BlockCholesky::edgeRow(int e) const {
+template <int N>
+int BlockCholesky<N>::edgeRow(int e) const {
   const auto& [i, j] = structure_->edges_[e];
   return structure_->place_[i] > structure_->place_[j] ? i : j;
 }
 
 namespace {
 
+template <int N>
+using BlockOf = Eigen::Matrix<double, N, N>;
+
 /// Turns a block A into the inverse of its Cholesky factor. False if A is not positive definite.
-[[gnu::flatten]] bool invertFactor(Mat6& A) {
-  Mat6 L = Mat6::Zero();
-  for (int j = 0; j < 6; ++j) {
+template <int N>
+[[gnu::flatten]] bool invertFactor(BlockOf<N>& A) {
+  BlockOf<N> L = BlockOf<N>::Zero();
+  for (int j = 0; j < N; ++j) {
     double pivot = A(j, j);
     for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
     if (!(pivot > 0.0)) return false;
     L(j, j) = std::sqrt(pivot);
     const double scale = 1.0 / L(j, j);
-    for (int i = j + 1; i < 6; ++i) {
+    for (int i = j + 1; i < N; ++i) {
       double sum = A(i, j);
       for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
       L(i, j) = sum * scale;
     }
   }
   A.setZero();
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < N; ++j) {
     A(j, j) = 1.0 / L(j, j);
-    for (int i = j + 1; i < 6; ++i) {
+    for (int i = j + 1; i < N; ++i) {
       double sum = 0.0;
       for (int k = j; k < i; ++k) sum -= L(i, k) * A(k, j);
       A(i, j) = sum / L(i, i);
@@ -101,7 +107,12 @@ namespace {
   return true;
 }
 
-/// A Lᵀ for a lower triangle L: each column of it ends where its row of L does.
+/// A Lᵀ for a lower triangle L.
+Mat3 timesUpper(const Mat3& A, const Mat3& L) {
+  return A.lazyProduct(L.transpose());
+}
+
+/// The same: each column of the product ends where its row of L does.
 Mat6 timesUpper(const Mat6& A, const Mat6& L) {
   Mat6 product;
   product.leftCols<2>().noalias() =
@@ -111,7 +122,12 @@ Mat6 timesUpper(const Mat6& A, const Mat6& L) {
   return product;
 }
 
-/// The lower triangle of A − B Bᵀ, in pairs of columns.
+/// A − B Bᵀ, of which the lower triangle counts.
+void takeSquare(Mat3& A, const Mat3& B) {
+  A.noalias() -= B.lazyProduct(B.transpose());
+}
+
+/// The same, in pairs of columns.
 void takeSquare(Mat6& A, const Mat6& B) {
   A.leftCols<2>().noalias() -= B.lazyProduct(B.topRows<2>().transpose());
   A.block<4, 2>(2, 2).noalias() -= B.bottomRows<4>().lazyProduct(B.middleRows<2>(2).transpose());
@@ -121,9 +137,10 @@ void takeSquare(Mat6& A, const Mat6& B) {
 }  // namespace
 
 /// Divides a column by its diagonal, and takes its products off the columns to the right.
-[[gnu::flatten]] void BlockCholesky::eliminate(int column) {
+template <int N>
+[[gnu::flatten]] void BlockCholesky<N>::eliminate(int column) {
   const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
-  const Mat6& inverse = diagonal_[column];
+  const Block& inverse = diagonal_[column];
   const int first = begin[column], end = begin[column + 1];
   for (int s = first; s < end; ++s) {
     blocks_[s] = timesUpper(blocks_[s], inverse);
@@ -139,26 +156,28 @@ void takeSquare(Mat6& A, const Mat6& B) {
   }
 }
 
-bool BlockCholesky::factor() {
+template <int N>
+bool BlockCholesky<N>::factor() {
   for (int c = 0; c < structure_->rows_; ++c) {
-    if (!invertFactor(diagonal_[c])) return false;
+    if (!invertFactor<N>(diagonal_[c])) return false;
     eliminate(c);
   }
   return true;
 }
 
-[[gnu::flatten]] void BlockCholesky::solve(std::span<Vec6> x) {
+template <int N>
+[[gnu::flatten]] void BlockCholesky<N>::solve(std::span<Part> x) {
   const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
   const int n = structure_->rows_;
   for (int i = 0; i < n; ++i) moved_[structure_->place_[i]] = x[i];
   for (int c = 0; c < n; ++c) {
-    const Vec6 y = diagonal_[c].lazyProduct(moved_[c]);
+    const Part y = diagonal_[c].lazyProduct(moved_[c]);
     moved_[c] = y;
     for (int s = begin[c]; s < begin[c + 1]; ++s)
       moved_[below[s]].noalias() -= blocks_[s].lazyProduct(y);
   }
   for (int c = n - 1; c >= 0; --c) {
-    Vec6 y = moved_[c];
+    Part y = moved_[c];
     for (int s = begin[c]; s < begin[c + 1]; ++s)
       y.noalias() -= blocks_[s].transpose().lazyProduct(moved_[below[s]]);
     moved_[c].noalias() = diagonal_[c].transpose().lazyProduct(y);
@@ -166,18 +185,20 @@ bool BlockCholesky::factor() {
   for (int i = 0; i < n; ++i) x[i] = moved_[structure_->place_[i]];
 }
 
-void BlockLU::begin(const BlockStructure& structure) {
+template <int N>
+void BlockLU<N>::begin(const BlockStructure& structure) {
   structure_ = &structure;
-  diagonal_.assign(structure.rows_, Mat6::Zero());
-  lower_.assign(structure.below_.size(), Mat6::Zero());
-  upper_.assign(structure.below_.size(), Mat6::Zero());
+  diagonal_.assign(structure.rows_, Block::Zero());
+  lower_.assign(structure.below_.size(), Block::Zero());
+  upper_.assign(structure.below_.size(), Block::Zero());
   moved_.resize(structure.rows_);
 }
 
-void BlockLU::factor() {
+template <int N>
+void BlockLU<N>::factor() {
   const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
   for (int c = 0; c < structure_->rows_; ++c) {
-    diagonal_[c] = Mat6(diagonal_[c].partialPivLu().inverse());
+    diagonal_[c] = Block(diagonal_[c].partialPivLu().inverse());
     for (int s = begin[c]; s < begin[c + 1]; ++s) lower_[s] *= diagonal_[c];
     for (int s = begin[c]; s < begin[c + 1]; ++s) {
       const int j = below[s];
@@ -192,7 +213,8 @@ void BlockLU::factor() {
   }
 }
 
-void BlockLU::solve(std::span<Vec6> x) {
+template <int N>
+void BlockLU<N>::solve(std::span<Part> x) {
   const std::vector<int>&begin = structure_->begin_, &below = structure_->below_;
   const int n = structure_->rows_;
   for (int i = 0; i < n; ++i) moved_[structure_->place_[i]] = x[i];
@@ -200,12 +222,17 @@ void BlockLU::solve(std::span<Vec6> x) {
     for (int s = begin[c]; s < begin[c + 1]; ++s)
       moved_[below[s]].noalias() -= lower_[s].lazyProduct(moved_[c]);
   for (int c = n - 1; c >= 0; --c) {
-    Vec6 y = moved_[c];
+    Part y = moved_[c];
     for (int s = begin[c]; s < begin[c + 1]; ++s)
       y.noalias() -= upper_[s].lazyProduct(moved_[below[s]]);
     moved_[c].noalias() = diagonal_[c].lazyProduct(y);
   }
   for (int i = 0; i < n; ++i) x[i] = moved_[structure_->place_[i]];
 }
+
+template class BlockCholesky<3>;
+template class BlockCholesky<6>;
+template class BlockLU<3>;
+template class BlockLU<6>;
 
 }  // namespace tumble

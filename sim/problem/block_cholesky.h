@@ -1,4 +1,4 @@
-// Chapter 6, problem: Cholesky factors of sparse symmetric matrices made of 6 × 6 blocks.
+// Chapter 6, problem: Cholesky factors of sparse symmetric matrices made of 3 × 3 or 6 × 6 blocks.
 #pragma once
 
 #include <span>
@@ -24,7 +24,9 @@ class BlockStructure {
   bool isFor(int rows, std::span<const BlockEdge> edges) const;
 
  private:
+  template <int N>
   friend class BlockCholesky;
+  template <int N>
   friend class BlockLU;
   void order();
   void fill();
@@ -39,16 +41,21 @@ class BlockStructure {
 
 /// H = L Lᵀ for a positive definite H, and solutions of H x = b. Of a diagonal block only the lower
 /// triangle is read.
-/// Set H block by block: `begin`, then add to `diagonal` and `edge`, then `factor`.
+/// Set H block by block: `begin`, then add to `diagonal` and `lower`, then `factor`.
+template <int N>
 class BlockCholesky {
  public:
+  static constexpr bool kHasUpper = false;
+  using Block = Eigen::Matrix<double, N, N>;
+  using Part = Eigen::Matrix<double, N, 1>;
+
   /// Starts a matrix of zeros. The structure must outlive the use.
   void begin(const BlockStructure& structure);
 
-  Mat6& diagonal(int row) { return diagonal_[structure_->place_[row]]; }
+  Block& diagonal(int row) { return diagonal_[structure_->place_[row]]; }
 
   /// Block of an edge (i, j): row `edgeRow`, column the other one.
-  Mat6& edge(int e) { return blocks_[structure_->slot_[e]]; }
+  Block& lower(int e) { return blocks_[structure_->slot_[e]]; }
   /// Which end of the edge is the row of its block.
   int edgeRow(int e) const;
 
@@ -56,36 +63,41 @@ class BlockCholesky {
   bool factor();
 
   /// x ← H⁻¹ x.
-  void solve(std::span<Vec6> x);
+  void solve(std::span<Part> x);
 
  private:
   void eliminate(int column);
 
   const BlockStructure* structure_ = nullptr;
-  std::vector<Mat6> diagonal_;  ///< by place; after `factor` the inverse of the diagonal of L
-  std::vector<Mat6> blocks_;
-  std::vector<Vec6> moved_;
+  std::vector<Block> diagonal_;  ///< by place; after `factor` the inverse of the diagonal of L
+  std::vector<Block> blocks_;
+  std::vector<Part> moved_;
 };
 
 /// H = L U for an H whose blocks stand where those of a symmetric matrix would, without exchange of
 /// rows: for matrices that are nearly symmetric and positive definite.
+template <int N>
 class BlockLU {
  public:
+  static constexpr bool kHasUpper = true;
+  using Block = Eigen::Matrix<double, N, N>;
+  using Part = Eigen::Matrix<double, N, 1>;
+
   void begin(const BlockStructure& structure);
 
-  Mat6& diagonal(int row) { return diagonal_[structure_->place_[row]]; }
+  Block& diagonal(int row) { return diagonal_[structure_->place_[row]]; }
   /// Blocks of an edge (i, j): row `BlockCholesky::edgeRow` and column the other one, and the other
   /// way round.
-  Mat6& lower(int e) { return lower_[structure_->slot_[e]]; }
-  Mat6& upper(int e) { return upper_[structure_->slot_[e]]; }
+  Block& lower(int e) { return lower_[structure_->slot_[e]]; }
+  Block& upper(int e) { return upper_[structure_->slot_[e]]; }
 
   void factor();
-  void solve(std::span<Vec6> x);
+  void solve(std::span<Part> x);
 
  private:
   const BlockStructure* structure_ = nullptr;
-  std::vector<Mat6> diagonal_, lower_, upper_;  ///< after `factor`: D⁻¹, L D⁻¹, U
-  std::vector<Vec6> moved_;
+  std::vector<Block> diagonal_, lower_, upper_;  ///< after `factor`: D⁻¹, L D⁻¹, U
+  std::vector<Part> moved_;
 };
 
 }  // namespace tumble

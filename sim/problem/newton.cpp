@@ -18,6 +18,7 @@ constexpr double kClosed = 1e-14;  ///< balance or residual that is rounding
 constexpr double kNear = 1e-9;     ///< residual below which stages that bring nothing are counted
 constexpr double kCalmTau = 1e3;   ///< ρ of the calm stages, by the weight of the system
 
+template <int N>
 class Newton {
  public:
   SolveReport solve(const Problem& problem, const SolveSettings& settings, Solution& solution);
@@ -34,20 +35,22 @@ class Newton {
 
   void takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const;
 
-  NewtonSystem system_;
+  NewtonSystem<N> system_;
   double tolerance_ = 1e-12;
-  std::vector<Point> points_, pointsBefore_;
-  std::vector<Mover> movers_, moversBefore_;
+  std::vector<typename NewtonSystem<N>::Point> points_, pointsBefore_;
+  std::vector<typename NewtonSystem<N>::Mover> movers_, moversBefore_;
 };
 
 /// How little [m/s] a step must change any row to be the last of its stage.
-double Newton::accuracy(double residual) const {
+template <int N>
+double Newton<N>::accuracy(double residual) const {
   return system_.scale * std::max(0.1 * tolerance_, 0.01 * std::min(1.0, residual));
 }
 
 /// Stages of constant slip terms with one large ρ: where little has changed, one factor will do.
 /// The first go with narrow cones, so that the last find few forces on the edge of one.
-double Newton::solveCalm() {
+template <int N>
+double Newton<N>::solveCalm() {
   constexpr int kStages = 10, kNarrow = 2, kInner = 8, kMost = 40;
   constexpr double kRough = 1e-8;  // balance of a stage that was ended early
   constexpr double kSlips = 1e-3;  // of the scale: a slip that is not for a stage to bring to 0
@@ -76,7 +79,8 @@ double Newton::solveCalm() {
 }
 
 /// Stages with slip terms that are renewed after each, and a ρ that grows while stages are easy.
-double Newton::solveCold(int most) {
+template <int N>
+double Newton<N>::solveCold(int most) {
   constexpr double kGrowth = 10.0, kLastTau = 1e5;
   constexpr int kStages = 60, kInner = 60, kEasy = 6, kPatience = 4, kShrinks = 4;
   double before = kInfinity, best = kInfinity;
@@ -109,7 +113,8 @@ double Newton::solveCold(int most) {
 }
 
 /// Stages in which the slip terms follow the velocities.
-double Newton::solveSlips(double tau) {
+template <int N>
+double Newton<N>::solveSlips(double tau) {
   constexpr int kStages = 10, kInner = 15, kFailures = 4, kPatience = 2;
   system_.rho = tau * system_.weight;
   double before = system_.residual();
@@ -136,7 +141,8 @@ double Newton::solveSlips(double tau) {
 }
 
 /// Both in turn, with more patience each time.
-double Newton::solveHard(int most) {
+template <int N>
+double Newton<N>::solveHard(int most) {
   struct Round {
     int cold;    // factorizations
     double tau;  // of the stages that follow
@@ -168,7 +174,8 @@ double Newton::solveHard(int most) {
 }
 
 /// Minimises to rounding, as far as that closes the balance of momentum.
-void Newton::settle() {
+template <int N>
+void Newton<N>::settle() {
   constexpr int kSteps = 4;
   double before = kInfinity;
   for (int k = 0; k < kSteps; ++k) {
@@ -181,7 +188,8 @@ void Newton::settle() {
 
 /// Keeps the answer at hand where it is better than what was reported, balance first; else the one
 /// before.
-void Newton::keepBetter(SolveReport& report) {
+template <int N>
+void Newton<N>::keepBetter(SolveReport& report) {
   const double balance = system_.balance(), residual = system_.residual();
   const bool closer = balance <= kClosed && residual < report.residual;
   const bool closed = balance < report.balance;
@@ -195,7 +203,8 @@ void Newton::keepBetter(SolveReport& report) {
 
 /// At a solution every ρ gives the same forces; but a large one magnifies the rounding of fast
 /// slips, where a small one closes the balance of momentum.
-void Newton::closeBalance(SolveReport& report) {
+template <int N>
+void Newton<N>::closeBalance(SolveReport& report) {
   constexpr int kStages = 8, kMore = 2;
   report.balance = system_.balance();
   const auto remember = [&] {
@@ -220,8 +229,9 @@ void Newton::closeBalance(SolveReport& report) {
   }
 }
 
-SolveReport Newton::solve(const Problem& problem, const SolveSettings& settings,
-                          Solution& solution) {
+template <int N>
+SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settings,
+                             Solution& solution) {
   tolerance_ = settings.tolerance;
   system_.prepare(problem);
   system_.restart(solution);
@@ -242,7 +252,8 @@ SolveReport Newton::solve(const Problem& problem, const SolveSettings& settings,
 
 /// Where v is not what λ gives, momentum would be lost: λ decides, unless that leaves more than the
 /// tolerance where v does not, as under loads that outweigh a body a million times.
-void Newton::takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const {
+template <int N>
+void Newton<N>::takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const {
   if (report.balance == 0.0) return;
   const bool open = report.balance > kOpen;
   const std::vector<Vec6> own = solution.v;
@@ -258,13 +269,25 @@ void Newton::takeLambda(const Problem& problem, Solution& solution, SolveReport&
   report.balance = 0.0;
 }
 
+/// Whether a row turns a body, by more than rounding.
+bool turns(const Problem& problem) {
+  constexpr double kNothing = 1e-28;  // of the mobility that a row gives
+  return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const Row& row) {
+    const double turning = row.angularA.dot(problem.Iinv[row.a] * row.angularA) +
+                           row.angularB.dot(problem.Iinv[row.b] * row.angularB);
+    const double moving = problem.invM[row.a] + problem.invM[row.b];
+    return turning > kNothing * moving * row.linear.squaredNorm();
+  });
+}
+
 }  // namespace
 
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution) {
   if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
-  thread_local Newton newton;  // keeps its memory from call to call
+  thread_local Newton<3> straight;  // both keep their memory from call to call
+  thread_local Newton<6> turning;
   const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {
-    return newton.solve(p, to, answer);
+    return turns(p) ? turning.solve(p, to, answer) : straight.solve(p, to, answer);
   };
   SolveReport report = alone(problem, settings, solution);
   if (report.status == SolveStatus::Solved) return report;

@@ -10,26 +10,86 @@
 
 namespace tumble {
 
-void NewtonSystem::addMovers(const Problem& problem) {
+template <int N>
+auto NewtonSystem<N>::Mover::momentum(const Twist& twist) const -> Twist {
+  if constexpr (N == 3) return mass * twist;
+  Twist result;
+  result.template head<3>() = mass * twist.template head<3>();
+  result.template tail<3>().noalias() = inertia * twist.template tail<3>();
+  return result;
+}
+
+template <int N>
+void NewtonSystem<N>::addMovers(const Problem& problem) {
   movers.clear();
   moverOf_.assign(problem.invM.size(), -1);
   for (std::size_t i = 0; i < problem.invM.size(); ++i) {
-    const bool moves = problem.invM[i] > 0.0, turns = !problem.Iinv[i].isZero(0.0);
+    const bool moves = problem.invM[i] > 0.0, turns = N == 6 && !problem.Iinv[i].isZero(0.0);
     if (!moves && !turns) continue;
     moverOf_[i] = static_cast<int>(movers.size());
     Mover& mover = movers.emplace_back();
     mover.body = static_cast<int>(i);
     mover.mass = moves ? 1.0 / problem.invM[i] : 1.0;
-    mover.inertiaInv = turns ? problem.Iinv[i] : Mat3(Mat3::Identity());
-    mover.inertia = mover.inertiaInv.llt().solve(Mat3::Identity());
-    mover.star = problem.vStar[i];
+    if (turns) {
+      mover.inertiaInv = problem.Iinv[i];
+      mover.inertia = mover.inertiaInv.llt().solve(Mat3::Identity());
+    }
+    mover.star = problem.vStar[i].template head<N>();
     mover.moves = moves;
     mover.turns = turns;
   }
 }
 
-void NewtonSystem::addPoints(const Problem& problem) {
+/// What cannot move of a body goes from its part of a row into the bias.
+/// @return the share of the body in the mobility of the row
+template <int N>
+double NewtonSystem<N>::split(const Problem& problem, int body, Vec6& J, double& bias) const {
+  const int mover = moverOf_[body];
+  const bool moves = mover >= 0 && movers[mover].moves, turns = mover >= 0 && movers[mover].turns;
+  if (!moves) {
+    bias += J.head<3>().dot(problem.vStar[body].template head<3>());
+    J.head<3>().setZero();
+  }
+  if (!turns) {
+    bias += J.tail<3>().dot(problem.vStar[body].template tail<3>());
+    J.tail<3>().setZero();
+  }
+  double mobility = 0.0;
+  if (moves) mobility += problem.invM[body] * J.head<3>().squaredNorm();
+  if (turns) mobility += J.tail<3>().dot(problem.Iinv[body] * J.tail<3>());
+  return mobility;
+}
+
+/// Reads the rows of a cone into a point. @return those of body b
+template <int N>
+auto NewtonSystem<N>::readRows(const Problem& problem, const Cone& cone, Point& point) const
+    -> Rows {
+  Rows ofB = Rows::Zero();
+  for (int k = 0; k < point.rows; ++k) {
+    const Row& row = problem.rows[cone.row + k];
+    Vec6 Ja, Jb;
+    Ja << row.linear, row.angularA;
+    Jb << -row.linear, row.angularB;
+    double bias = row.bias;
+    const double mobility = split(problem, row.a, Ja, bias) + split(problem, row.b, Jb, bias);
+    point.mobility = std::max(point.mobility, mobility);
+    if (row.linear.isZero(0.0) && mobility > 0.0) {
+      const double invM = problem.invM[row.a] + problem.invM[row.b];
+      if (invM > 0.0) point.length = std::sqrt(invM / mobility);
+    }
+    point.J.col(k) = point.length * Ja.head<N>();
+    ofB.col(k) = point.length * Jb.head<N>();
+    point.bias[k] = point.length * bias;
+  }
+  return ofB;
+}
+
+template <int N>
+void NewtonSystem<N>::addPoints(const Problem& problem) {
   points.resize(problem.cones.size());
+  patches_.clear();
+  others_.clear();
+  rubs_ = false;
   for (std::size_t c = 0; c < points.size(); ++c) {
     const Cone& cone = problem.cones[c];
     Point& point = points[c];
@@ -37,43 +97,73 @@ void NewtonSystem::addPoints(const Problem& problem) {
     point.kind = cone.kind;
     point.mu = point.muTrue = cone.mu;
     point.rows = coneRows(cone.kind);
+    rubs_ = rubs_ || cone.kind == ConeKind::Friction;
+    const Rows ofB = readRows(problem, cone, point);
     const Row& first = problem.rows[cone.row];
-    point.a = moverOf_[first.a];
-    point.b = moverOf_[first.b];
-    for (int k = 0; k < point.rows; ++k) {
-      const Row& row = problem.rows[cone.row + k];
-      Vec6 Ja, Jb;
-      Ja << row.linear, row.angularA;
-      Jb << -row.linear, row.angularB;
-      point.bias[k] = row.bias;
-      // What cannot move goes into the bias.
-      const auto split = [&](int body, Vec6& J) {
-        const Vec6& v = problem.vStar[body];
-        if (problem.invM[body] == 0.0) {
-          point.bias[k] += J.head<3>().dot(v.head<3>());
-          J.head<3>().setZero();
-        }
-        if (problem.Iinv[body].isZero(0.0)) {
-          point.bias[k] += J.tail<3>().dot(v.tail<3>());
-          J.tail<3>().setZero();
-        }
-        return problem.invM[body] * J.head<3>().squaredNorm() +
-               J.tail<3>().dot(problem.Iinv[body] * J.tail<3>());
-      };
-      const double mobility = split(row.a, Ja) + split(row.b, Jb);
-      point.mobility = std::max(point.mobility, mobility);
-      if (row.linear.isZero(0.0) && mobility > 0.0) {
-        const double invM = problem.invM[row.a] + problem.invM[row.b];
-        if (invM > 0.0) point.length = std::sqrt(invM / mobility);
-      }
-      point.Ja.col(k) = point.length * Ja;
-      point.Jb.col(k) = point.length * Jb;
-      point.bias[k] *= point.length;
-    }
+    place(static_cast<int>(c), moverOf_[first.a], moverOf_[first.b], ofB);
   }
 }
 
-const BlockStructure& NewtonSystem::structureFor(int rows, std::span<const BlockEdge> edges) {
+namespace {
+
+/// The arm from b to a for which rows act on b as on a:  the turning parts of both and  arm × n
+/// add up to 0. Of orthonormal n; any part of the arm that they leave open is 0.
+template <class Rows>
+Vec3 armOf(const Rows& ofA, const Rows& ofB) {
+  const auto across = [&](int k) {
+    const Vec3 n = ofA.col(k).template head<3>();
+    return Vec3((ofA.col(k).template tail<3>() + ofB.col(k).template tail<3>()).cross(n));
+  };
+  const Vec3 n = ofA.col(0).template head<3>();
+  return across(0) + n.dot(across(1)) * n;
+}
+
+template <class Rows>
+bool fits(const Vec3& arm, const Rows& ofA, const Rows& ofB) {
+  constexpr double kSame = 4e-15;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 a = ofA.col(k).template tail<3>(), b = ofB.col(k).template tail<3>();
+    const Vec3 n = ofA.col(k).template head<3>();
+    const Vec3 open = a + b + arm.cross(n);
+    if (!(open.cwiseAbs().sum() <= kSame * (a.cwiseAbs().sum() + b.cwiseAbs().sum()))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+/// Adds a point to the last patch, or to a new one.
+template <int N>
+void NewtonSystem<N>::place(int point, int a, int b, const Rows& ofB) {
+  Rows& J = points[point].J;
+  if (a < 0 && b >= 0) {
+    std::swap(a, b);
+    J = ofB;
+  }
+  if (!patches_.empty()) {
+    Patch& last = patches_.back();
+    bool same = last.a == a && last.b == b && last.shares;
+    if constexpr (N == 6) same = same && (b < 0 || fits(last.arm, J, ofB));
+    if (same) {
+      last.end = point + 1;
+      return;
+    }
+  }
+  Patch patch{.a = a, .b = b, .begin = point, .end = point + 1};
+  if constexpr (N == 6) {
+    if (b >= 0) {
+      const auto free = [&](int mover) { return movers[mover].moves && movers[mover].turns; };
+      patch.arm = armOf(J, ofB);
+      patch.shares = free(a) && free(b) && fits(patch.arm, J, ofB);
+      patch.other = static_cast<int>(others_.size());
+      if (!patch.shares) others_.push_back(ofB);
+    }
+  }
+  patches_.push_back(patch);
+}
+
+template <int N>
+const BlockStructure& NewtonSystem<N>::structureFor(int rows, std::span<const BlockEdge> edges) {
   constexpr std::size_t kMost = 64;
   for (auto& structure : structures_)
     if (structure->isFor(rows, edges)) return *structure;
@@ -82,28 +172,27 @@ const BlockStructure& NewtonSystem::structureFor(int rows, std::span<const Block
   return *structures_.back();
 }
 
-/// Finds the pairs of moving bodies, and puts the body of a block's row first.
-void NewtonSystem::linkBodies() {
+/// Finds the pairs of moving bodies, and which of them is the row of their block.
+template <int N>
+void NewtonSystem<N>::linkBodies() {
   edges_.clear();
-  for (const Point& point : points)
-    if (point.a >= 0 && point.b >= 0) edges_.emplace_back(std::minmax(point.a, point.b));
+  for (const Patch& patch : patches_)
+    if (patch.b >= 0) edges_.emplace_back(std::minmax(patch.a, patch.b));
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
   structure_ = &structureFor(static_cast<int>(movers.size()), edges_);
   H_.begin(*structure_);
-  for (Point& point : points) {
-    if (point.a < 0 || point.b < 0) continue;
-    const BlockEdge edge = std::minmax(point.a, point.b);
-    point.edge =
+  for (Patch& patch : patches_) {
+    if (patch.b < 0) continue;
+    const BlockEdge edge = std::minmax(patch.a, patch.b);
+    patch.edge =
         static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
-    if (H_.edgeRow(point.edge) == point.b) {
-      std::swap(point.a, point.b);
-      point.Ja.swap(point.Jb);
-    }
+    patch.aIsRow = H_.edgeRow(patch.edge) == patch.a;
   }
 }
 
-void NewtonSystem::prepare(const Problem& problem) {
+template <int N>
+void NewtonSystem<N>::prepare(const Problem& problem) {
   addMovers(problem);
   addPoints(problem);
   linkBodies();
@@ -117,7 +206,8 @@ void NewtonSystem::prepare(const Problem& problem) {
 }
 
 /// λ becomes the forces; and mu |u_t| what it is now, if asked for.
-void NewtonSystem::nextStage(bool renewSlip) {
+template <int N>
+void NewtonSystem<N>::nextStage(bool renewSlip) {
   for (Point& point : points) {
     point.lambda = point.force;
     if (point.kind == ConeKind::Slide) point.lambda[1] = -point.mu * point.force[0];
@@ -125,13 +215,15 @@ void NewtonSystem::nextStage(bool renewSlip) {
   if (renewSlip) takeSlip();
 }
 
-void NewtonSystem::narrow() {
+template <int N>
+void NewtonSystem<N>::narrow() {
   constexpr double kInside = 0.8;
   for (Point& point : points)
     if (point.kind == ConeKind::Friction) point.mu = kInside * point.muTrue;
 }
 
-bool NewtonSystem::widen(double slip) {
+template <int N>
+bool NewtonSystem<N>::widen(double slip) {
   bool any = false;
   for (Point& point : points) {
     if (point.mu == point.muTrue || std::hypot(point.u[1], point.u[2]) < slip) continue;
@@ -142,24 +234,30 @@ bool NewtonSystem::widen(double slip) {
 }
 
 /// De Saxcé's term from the velocities as they are.
-void NewtonSystem::takeSlip() {
+template <int N>
+void NewtonSystem<N>::takeSlip() {
   for (Point& point : points)
     if (point.kind == ConeKind::Friction)
       point.saxce = point.mu * std::hypot(point.u[1], point.u[2]);
 }
 
-void NewtonSystem::goBack(const std::vector<Point>& atPoints, const std::vector<Mover>& atMovers) {
+template <int N>
+void NewtonSystem<N>::goBack(const std::vector<Point>& atPoints,
+                             const std::vector<Mover>& atMovers) {
   points = atPoints;
   movers = atMovers;
   factoredRho_ = 0.0;
 }
 
-void NewtonSystem::restart(const Solution& start) {
+template <int N>
+void NewtonSystem<N>::restart(const Solution& start) {
   const bool known = static_cast<int>(start.v.size()) == static_cast<int>(moverOf_.size());
   for (Mover& mover : movers) {
-    mover.v = known ? start.v[mover.body] : mover.star;
-    if (!mover.moves) mover.v.head<3>() = mover.star.head<3>();
-    if (!mover.turns) mover.v.tail<3>() = mover.star.tail<3>();
+    mover.v = mover.star;
+    if (!known) continue;
+    const Vec6& v = start.v[mover.body];
+    if (mover.moves) mover.v.template head<3>() = v.template head<3>();
+    if (mover.turns) mover.v.template tail<3>() = v.template tail<3>();
   }
   for (Point& point : points) {
     point.lambda.setZero();
@@ -169,7 +267,8 @@ void NewtonSystem::restart(const Solution& start) {
   look(true);
 }
 
-double NewtonSystem::residual() const {
+template <int N>
+double NewtonSystem<N>::residual() const {
   double worst = 0.0;
   for (const Point& point : points) {
     const double rho = point.mobility > 0.0 ? 1.0 / point.mobility : 1.0;
@@ -181,37 +280,45 @@ double NewtonSystem::residual() const {
   return worst / scale;
 }
 
-double NewtonSystem::balance() {
+template <int N>
+double NewtonSystem<N>::balance() {
   work_.resize(movers.size());
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    const Mover& mover = movers[i];
-    const Vec6 change = mover.v - mover.star;
-    work_[i] << mover.mass * change.head<3>(), mover.inertia * change.tail<3>();
-    work_[i] = work_[i].cwiseAbs();
-  }
-  for (const Point& point : points) {
-    if (point.a >= 0) work_[point.a] += point.Ja.lazyProduct(point.force).cwiseAbs();
-    if (point.b >= 0) work_[point.b] += point.Jb.lazyProduct(point.force).cwiseAbs();
+  for (std::size_t i = 0; i < movers.size(); ++i)
+    work_[i] = movers[i].momentum(movers[i].v - movers[i].star).cwiseAbs();
+  for (const Patch& patch : patches_) {
+    if (patch.a < 0) continue;
+    for (int p = patch.begin; p < patch.end; ++p) {
+      const Vec3& force = points[p].force;
+      const Twist wrench = points[p].J.lazyProduct(force);
+      work_[patch.a] += wrench.cwiseAbs();
+      if (patch.b < 0) continue;
+      const Twist back = patch.shares ? atCentreOfB(patch, wrench)
+                                      : Twist(others_[patch.other].lazyProduct(force));
+      work_[patch.b] += back.cwiseAbs();
+    }
   }
   double worst = 0.0;
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    const auto part = [&](int first) {
-      const double gross = work_[i].segment<3>(first).maxCoeff();
-      const double open = movers[i].gradient.segment<3>(first).cwiseAbs().maxCoeff();
-      return gross > 0.0 ? open / gross : 0.0;
-    };
-    worst = std::max({worst, part(0), part(3)});
+    for (int first = 0; first < N; first += 3) {
+      const double gross = work_[i].template segment<3>(first).maxCoeff();
+      const double open = movers[i].gradient.template segment<3>(first).cwiseAbs().maxCoeff();
+      if (gross > 0.0) worst = std::max(worst, open / gross);
+    }
   }
   return worst;
 }
 
-void NewtonSystem::write(const Problem& problem, Solution& solution) const {
+template <int N>
+void NewtonSystem<N>::write(const Problem& problem, Solution& solution) const {
   solution.lambda.resize(problem.rows.size());
   solution.v = problem.vStar;
   for (std::size_t c = 0; c < points.size(); ++c)
     for (int k = 0; k < points[c].rows; ++k)
       solution.lambda[problem.cones[c].row + k] = points[c].length * points[c].force[k];
-  for (const Mover& mover : movers) solution.v[mover.body] = mover.v;
+  for (const Mover& mover : movers) solution.v[mover.body].template head<N>() = mover.v;
 }
+
+template class NewtonSystem<3>;
+template class NewtonSystem<6>;
 
 }  // namespace tumble

@@ -11,43 +11,46 @@
 
 namespace tumble {
 
-using Mat63 = Eigen::Matrix<double, 6, 3>;
-
 /// Which smooth piece of Π_K a multiplier lies on.
 enum class Piece : signed char { Zero, Whole, Edge };
 
-/// A cone between the bodies that move, with all that belongs to it.
-struct Point {
-  ConeKind kind = ConeKind::Push;
-  int rows = 1;
-  int a = -1, b = -1;  ///< of the moving bodies; −1: does not move
-  int edge = -1;       ///< if both move: their block off the diagonal
-  double mu = 0.0;
-  double muTrue = 0.0;  ///< what mu is but in narrowed cones
-  double length = 1.0;  ///< what the rows of a turn are multiplied with, to be in m/s
-  double mobility = 0.0;
-  Mat63 Ja = Mat63::Zero(), Jb = Mat63::Zero();  ///< u = Jaᵀ va + Jbᵀ vb + bias
-  Vec3 bias = Vec3::Zero();
-  Vec3 lambda = Vec3::Zero();  ///< of the last stage
-  double saxce = 0.0;          ///< mu |u_t| of the last stage
-  Vec3 u = Vec3::Zero(), du = Vec3::Zero();
-  Vec3 force = Vec3::Zero();  ///< Π_K(λ − ρ(u + s))
-  Piece piece = Piece::Zero, factored = Piece::Zero;
-};
-
-/// Bodies that move.
-struct Mover {
-  int body = 0;
-  bool moves = true, turns = true;
-  double mass = 1.0;                                               ///< [kg]
-  Mat3 inertia = Mat3::Identity(), inertiaInv = Mat3::Identity();  ///< [kg m²] and its inverse
-  Vec6 star, v, gradient, step;
-};
-
 /// Φ of solvers.h (solveNewton) at the velocities that its movers carry, for the λ, s and ρ of a
-/// stage.
+/// stage. N is 6, or 3 where no row turns a body: then twists are linear velocities alone.
+template <int N>
 class NewtonSystem {
  public:
+  using Twist = Eigen::Matrix<double, N, 1>;
+  using Rows = Eigen::Matrix<double, N, 3>;
+  using Block = Eigen::Matrix<double, N, N>;
+
+  /// A cone.
+  struct Point {
+    ConeKind kind = ConeKind::Push;
+    Piece piece = Piece::Zero, factored = Piece::Zero;
+    int rows = 1;
+    double mu = 0.0;
+    double muTrue = 0.0;  ///< what mu is but in narrowed cones
+    double length = 1.0;  ///< what the rows of a turn are multiplied with, to be in m/s
+    double mobility = 0.0;
+    double saxce = 0.0;                               ///< mu |u_t| of the last stage
+    Rows J = Rows::Zero();                            ///< of body a of its patch
+    Vec3 bias = Vec3::Zero(), lambda = Vec3::Zero();  ///< λ of the last stage
+    Vec3 u = Vec3::Zero(), du = Vec3::Zero();
+    Vec3 force = Vec3::Zero();  ///< Π_K(λ − ρ(u + s))
+  };
+
+  /// Body that moves.
+  struct Mover {
+    int body = 0;
+    bool moves = true, turns = true;
+    double mass = 1.0;                                               ///< [kg]
+    Mat3 inertia = Mat3::Identity(), inertiaInv = Mat3::Identity();  ///< [kg m²] and its inverse
+    Twist star, v, gradient, step;
+
+    /// M times a twist.
+    Twist momentum(const Twist& twist) const;
+  };
+
   /// Reads the problem. λ = 0, v = vStar.
   void prepare(const Problem& problem);
   /// λ = 0, v as in `start`, s = mu |u_t| at v.
@@ -61,16 +64,15 @@ class NewtonSystem {
   bool minimise(double accuracy, int most);
   /// The same where s = mu |u_t| follows v, so that there is no Φ, only its gradient to bring to 0.
   bool followSlip(double accuracy, int most);
+  /// One stage more by the last factor alone, forces on the pieces that it was made for. False
+  /// where there is no factor for this ρ.
+  bool stageMore();
   /// Friction cones narrower than they are, until `widen`: forces that stick come to lie inside the
   /// true ones wherever others can take what that leaves, and none on the edge between two pieces.
   void narrow();
   /// True cones for all that slips at this speed [m/s] or faster.
   /// @return whether any was narrow
   bool widen(double slip);
-  /// One stage more by the last factor alone, forces on the pieces that it was made for. False
-  /// where there is no factor for this ρ.
-  bool stageMore();
-  void loosen(double f);
   /// λ becomes the forces; and s = mu |u_t|, if asked for.
   void nextStage(bool renewSlip);
   /// s = mu |u_t| at v (de Saxcé).
@@ -89,39 +91,94 @@ class NewtonSystem {
   std::vector<Point> points;
 
  private:
+  /// Points, one after the other, between the same two bodies. Where rows act on b as on a but for
+  /// the arm, they share the relative twist  w = va − X vb  of the bodies at the centre of a, by
+  /// which  u = Jᵀ w + bias.
+  struct Patch {
+    int a = -1, b = -1;  ///< movers; −1: does not move, b before a
+    int begin = 0, end = 0;
+    int edge = -1;  ///< if both move: their block off the diagonal
+    bool aIsRow = true;
+    bool shares = true;
+    int other = 0;            ///< where not: place of the J of b of its point in `others_`
+    Vec3 arm = Vec3::Zero();  ///< [m] from the centre of b to that of a
+  };
+
+  // newton_system.cpp
   void addMovers(const Problem& problem);
   void addPoints(const Problem& problem);
+  double split(const Problem& problem, int body, Vec6& J, double& bias) const;
+  Rows readRows(const Problem& problem, const Cone& cone, Point& point) const;
+  void place(int point, int a, int b, const Rows& ofB);
   void linkBodies();
   const BlockStructure& structureFor(int rows, std::span<const BlockEdge> edges);
 
+  // newton_hessian.cpp
+  template <class Factor>
+  void beginMasses(Factor& factor);
+  void guessPieces();
+  void assemble();
+  void assembleLive();
+  template <class Factor>
+  void addAlone(Factor& factor, const Patch& patch, const Point& point, const Mat3& slope);
+
+  // newton_step.cpp
   void project(Point& point, const Vec3& z) const;
   template <class Find>
   void gather(const Find& find);
   void evaluate();
-  template <class Factor>
-  void beginMasses(Factor& factor);
-  Piece guess(const Point& point) const;
-  bool factorFits() const;
-  void assemble();
-  void assembleLive();
   template <class Factor>
   double direction(Factor& factor);
   double slopeAt(double alpha);
   double slopeHere() const;
   void move(double alpha);
   bool searchLine();
+  bool factorFits() const;
   double merit() const;
   void shorten();
 
+  /// Gives `take` each point with Jᵀ of the twists of its bodies.
+  template <class Take>
+  void forRows(Twist Mover::*twist, const Take& take) {
+    for (const Patch& patch : patches_) {
+      Twist w = Twist::Zero();
+      if (patch.a >= 0) w = movers[patch.a].*twist;
+      if (patch.b >= 0 && patch.shares) w -= atCentreOfA(patch, movers[patch.b].*twist);
+      for (int p = patch.begin; p < patch.end; ++p) {
+        Vec3 rows = timesRows(points[p].J, w);
+        if (!patch.shares) rows += timesRows(others_[patch.other], movers[patch.b].*twist);
+        take(points[p], rows);
+      }
+    }
+  }
+
+  static Vec3 timesRows(const Rows& J, const Twist& v) {
+    return {J.col(0).dot(v), J.col(1).dot(v), J.col(2).dot(v)};
+  }
+  /// X vb.
+  static Twist atCentreOfA(const Patch& patch, Twist v) {
+    if constexpr (N == 6) v.template head<3>() += Vec3(v.template tail<3>()).cross(patch.arm);
+    return v;
+  }
+  /// Xᵀ times a wrench at the centre of a: the same about the centre of b.
+  static Twist atCentreOfB(const Patch& patch, Twist wrench) {
+    if constexpr (N == 6)
+      wrench.template tail<3>() += patch.arm.cross(Vec3(wrench.template head<3>()));
+    return wrench;
+  }
+
   std::vector<int> moverOf_;
+  std::vector<Patch> patches_;
+  std::vector<Rows> others_;
   std::vector<BlockEdge> edges_;
   std::vector<std::unique_ptr<BlockStructure>> structures_;
   const BlockStructure* structure_ = nullptr;
-  BlockCholesky H_;
-  BlockLU live_;
-  std::vector<Vec6> work_;
+  BlockCholesky<N> H_;
+  BlockLU<N> live_;
+  std::vector<Twist> work_;
   double factoredRho_ = 0.0;
   bool guess_ = false;  ///< the first step of all goes by what contacts are expected to do
+  bool rubs_ = false;   ///< a contact has friction
 };
 
 }  // namespace tumble
