@@ -74,15 +74,9 @@ int BlockCholesky<N>::edgeRow(int e) const {
   return structure_->place_[i] > structure_->place_[j] ? i : j;
 }
 
-namespace {
-
 template <int N>
-using BlockOf = Eigen::Matrix<double, N, N>;
-
-/// Turns a block A into the inverse of its Cholesky factor. False if A is not positive definite.
-template <int N>
-[[gnu::flatten]] bool invertFactor(BlockOf<N>& A) {
-  BlockOf<N> L = BlockOf<N>::Zero();
+[[gnu::flatten]] bool invertFactor(Eigen::Matrix<double, N, N>& A) {
+  Eigen::Matrix<double, N, N> L = Eigen::Matrix<double, N, N>::Zero();
   for (int j = 0; j < N; ++j) {
     double pivot = A(j, j);
     for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
@@ -106,6 +100,8 @@ template <int N>
   }
   return true;
 }
+
+namespace {
 
 /// A Lᵀ for a lower triangle L.
 Mat3 timesUpper(const Mat3& A, const Mat3& L) {
@@ -159,7 +155,7 @@ template <int N>
 template <int N>
 bool BlockCholesky<N>::factor() {
   for (int c = 0; c < structure_->rows_; ++c) {
-    if (!invertFactor<N>(diagonal_[c])) return false;
+    if (!invertFactor(diagonal_[c])) return false;
     eliminate(c);
   }
   return true;
@@ -230,6 +226,8 @@ void BlockLU<N>::solve(std::span<Part> x) {
   for (int i = 0; i < n; ++i) x[i] = moved_[structure_->place_[i]];
 }
 
+template bool invertFactor(Mat3& A);
+template bool invertFactor(Mat6& A);
 template class BlockCholesky<3>;
 template class BlockCholesky<6>;
 template class BlockLU<3>;

@@ -9,6 +9,11 @@
 
 namespace tumble {
 
+/// Turns A into the inverse of its Cholesky factor, a lower triangle. False if A is not positive
+/// definite.
+template <int N>
+bool invertFactor(Eigen::Matrix<double, N, N>& A);
+
 /// Two different rows of blocks that share a block.
 using BlockEdge = std::pair<int, int>;
 

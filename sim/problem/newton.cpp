@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kOpen = 1e-12;    ///< balance of momentum above which v is taken from λ
 constexpr double kClosed = 1e-14;  ///< balance or residual that is rounding
 constexpr double kNear = 1e-9;     ///< residual below which stages that bring nothing are counted
-constexpr double kCalmTau = 1e3;   ///< ρ of the calm stages, by the weight of the system
+constexpr double kCalmTau = 1e4;   ///< ρ of the calm stages, by the weight of the system
 
 template <int N>
 class Newton {
@@ -51,14 +51,15 @@ double Newton<N>::accuracy(double residual) const {
 /// The first go with narrow cones, so that the last find few forces on the edge of one.
 template <int N>
 double Newton<N>::solveCalm() {
-  constexpr int kStages = 10, kNarrow = 2, kInner = 8, kMost = 40;
-  constexpr double kRough = 1e-8;  // balance of a stage that was ended early
-  constexpr double kSlips = 1e-3;  // of the scale: a slip that is not for a stage to bring to 0
+  constexpr int kStages = 10, kNarrow = 2, kInner = 12, kMost = 40;
+  constexpr double kRoughest = 1e-2;  // residual that the first stage is measured by: a large ρ
+  constexpr double kRough = 1e-8;     // balance of a stage that was ended early
+  constexpr double kSlips = 1e-3;     // of the scale: a slip that is not for a stage to bring to 0
   system_.rho = kCalmTau * system_.weight;
   system_.narrow();
   double before = kInfinity;
   for (int stage = 0; stage < kStages && system_.factorizations < kMost; ++stage) {
-    if (!system_.minimise(accuracy(before), kInner)) break;
+    if (!system_.minimise(accuracy(std::min(kRoughest, before)), kInner)) break;
     if (stage == 0) system_.widen(kSlips * system_.scale);
     double now = system_.residual();
     // Forces that do not yet balance may look right where nothing moves.

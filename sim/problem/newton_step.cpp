@@ -178,6 +178,10 @@ template <int N>
 bool NewtonSystem<N>::minimise(double accuracy, int most) {
   constexpr double kChord = 0.1;   // a factor whose edges have turned serves while steps shrink so
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
+  // The first steps of all are whole, as those of an active set: along a line, contacts would be
+  // met one by one.
+  constexpr int kFree = 8;
+  const bool first = factorizations == 0;
   evaluate();
   double before = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most; ++k) {
@@ -194,10 +198,12 @@ bool NewtonSystem<N>::minimise(double accuracy, int most) {
       move(1.0);
       return true;
     }
-    const bool whole = searchLine();
+    const bool free = first && k < kFree;
+    if (free) move(1.0);
+    const bool whole = free || searchLine();
     // Where Φ is quadratic, its minimum is reached but for rounding.
     if (whole && accuracy > 0.0 && !edges && factorFits()) return true;
-    if (fits && change > 0.5 * before && (!edges || change < kSmall * scale)) return true;
+    if (!free && fits && change > 0.5 * before && (!edges || change < kSmall * scale)) return true;
     before = change;
   }
   return false;

@@ -20,7 +20,7 @@ auto NewtonSystem<N>::Mover::momentum(const Twist& twist) const -> Twist {
 }
 
 template <int N>
-void NewtonSystem<N>::addMovers(const Problem& problem) {
+[[gnu::flatten]] void NewtonSystem<N>::addMovers(const Problem& problem) {
   movers.clear();
   moverOf_.assign(problem.invM.size(), -1);
   for (std::size_t i = 0; i < problem.invM.size(); ++i) {
@@ -32,7 +32,9 @@ void NewtonSystem<N>::addMovers(const Problem& problem) {
     mover.mass = moves ? 1.0 / problem.invM[i] : 1.0;
     if (turns) {
       mover.inertiaInv = problem.Iinv[i];
-      mover.inertia = mover.inertiaInv.llt().solve(Mat3::Identity());
+      Mat3 factor = mover.inertiaInv;
+      invertFactor(factor);
+      mover.inertia.noalias() = factor.transpose().lazyProduct(factor);
     }
     mover.star = problem.vStar[i].template head<N>();
     mover.moves = moves;
@@ -62,8 +64,8 @@ double NewtonSystem<N>::split(const Problem& problem, int body, Vec6& J, double&
 
 /// Reads the rows of a cone into a point. @return those of body b
 template <int N>
-auto NewtonSystem<N>::readRows(const Problem& problem, const Cone& cone, Point& point) const
-    -> Rows {
+[[gnu::flatten]] auto NewtonSystem<N>::readRows(const Problem& problem, const Cone& cone,
+                                                Point& point) const -> Rows {
   Rows ofB = Rows::Zero();
   for (int k = 0; k < point.rows; ++k) {
     const Row& row = problem.rows[cone.row + k];
