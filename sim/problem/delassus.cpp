@@ -20,15 +20,18 @@ double coupling(const Problem& problem, const Row& i, const Row& j) {
 
 }  // namespace
 
-Delassus delassus(const Problem& problem) {
+void delassus(const Problem& problem, Eigen::Ref<MatX> A, Eigen::Ref<VecX> b) {
   const int n = static_cast<int>(problem.rows.size());
-  Delassus result;
-  result.A.resize(n, n);
-  result.b.resize(n);
-  rowVelocities(problem, problem.vStar, {result.b.data(), problem.rows.size()});
+  rowVelocities(problem, problem.vStar, {b.data(), problem.rows.size()});
   for (int i = 0; i < n; ++i)
     for (int j = 0; j <= i; ++j)
-      result.A(i, j) = result.A(j, i) = coupling(problem, problem.rows[i], problem.rows[j]);
+      A(i, j) = A(j, i) = coupling(problem, problem.rows[i], problem.rows[j]);
+}
+
+Delassus delassus(const Problem& problem) {
+  const auto n = static_cast<Eigen::Index>(problem.rows.size());
+  Delassus result{MatX(n, n), VecX(n)};
+  delassus(problem, result.A, result.b);
   return result;
 }
 

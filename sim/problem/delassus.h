@@ -14,4 +14,7 @@ struct Delassus {
 
 Delassus delassus(const Problem& problem);
 
+/// The same into A (n × n) and b (n), for n rows.
+void delassus(const Problem& problem, Eigen::Ref<MatX> A, Eigen::Ref<VecX> b);
+
 }  // namespace tumble

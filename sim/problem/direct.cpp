@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "sim/math/least_squares.h"
 #include "sim/problem/cone.h"
@@ -37,26 +39,51 @@ void solveContact(const Problem& problem, std::vector<double>& found) {
   found.assign(lambda.data(), lambda.data() + rows);
 }
 
+constexpr std::size_t kMostDependent = 60;  ///< rows that depend on each other
+
+/// What solveEqualities works with; kept for the sake of its storage, which only grows.
+struct EqualityWork {
+  std::vector<double> A, L, u;
+  std::vector<Vec6> v;
+  std::array<LeastSquares, kMostDependent + 1> dependent;  ///< per number of rows
+};
+
 /// λ of equalities: A λ + b = 0 by Cholesky, or the smallest λ by least squares where rows depend
 /// on each other; and what rounding left of it twice again. False where that would take too long.
 bool solveEqualities(const Problem& problem, std::vector<double>& found) {
   constexpr int kAgain = 2;
-  constexpr std::size_t kMostDependent = 60;
   constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
-  const Delassus d = delassus(problem);
-  const Eigen::LLT<MatX> factor(d.A);
-  const auto pivots = factor.matrixLLT().diagonal().array();
+  thread_local EqualityWork work;
+  const std::size_t rows = problem.rows.size();
+  const auto n = static_cast<Eigen::Index>(rows);
+  work.A.resize(rows * rows);
+  work.L.resize(rows * rows);
+  work.u.resize(rows);
+  Eigen::Map<MatX> A(work.A.data(), n, n), L(work.L.data(), n, n);
+  Eigen::Map<VecX> u(work.u.data(), n);
+  delassus(problem, A, u);
+  L = A;
+  const Eigen::LLT<Eigen::Ref<MatX>> factor(L);  // in its place
+  const auto pivots = L.diagonal().array();
   const bool regular =
-      factor.info() == Eigen::Success && (pivots > kSingular * d.A.diagonal().array().sqrt()).all();
-  if (!regular && problem.rows.size() > kMostDependent) return false;
-  VecX lambda = VecX::Zero(d.b.size()), u = d.b;
-  std::vector<Vec6> v(problem.vStar.size());
+      factor.info() == Eigen::Success && (pivots > kSingular * A.diagonal().array().sqrt()).all();
+  if (!regular && rows > kMostDependent) return false;
+  LeastSquares* const dependent = regular ? nullptr : &work.dependent[rows];
+  if (dependent) dependent->factor(A);
+
+  found.assign(rows, 0.0);
+  Eigen::Map<VecX> lambda(found.data(), n);
+  work.v.resize(problem.vStar.size());
   for (int k = 0; k <= kAgain; ++k) {
-    lambda -= regular ? VecX(factor.solve(u)) : leastSquares(d.A, u);
-    velocitiesFromLambda(problem, {lambda.data(), problem.rows.size()}, v);
-    rowVelocities(problem, v, {u.data(), problem.rows.size()});
+    if (dependent) {
+      lambda -= dependent->solve(u);
+    } else {
+      factor.solveInPlace(u);
+      lambda -= u;
+    }
+    velocitiesFromLambda(problem, found, work.v);
+    rowVelocities(problem, work.v, work.u);
   }
-  found.assign(lambda.data(), lambda.data() + lambda.size());
   return true;
 }
 
