@@ -86,7 +86,8 @@ double naturalResidual(const Problem& problem, const Solution& solution, double 
 
 double roundingFloor(const Problem& problem, const Solution& solution) {
   // The sums of rowVelocities and velocitiesFromLambda with every term made positive.
-  std::vector<Vec6> v(problem.vStar.size(), Vec6::Zero());
+  thread_local std::vector<Vec6> v;  // keeps its storage from call to call
+  v.assign(problem.vStar.size(), Vec6::Zero());
   for (std::size_t i = 0; i < problem.rows.size(); ++i) {
     const Row& row = problem.rows[i];
     const double size = std::abs(solution.lambda[i]);
