@@ -13,7 +13,7 @@ namespace {
 /// Calls see(joint, row) for all rows of all joints.
 template <class See>
 void forRows(std::span<const RigidBody> bodies, std::span<const Joint> joints, See see) {
-  std::vector<JointRow> rows;
+  thread_local std::vector<JointRow> rows;  // keeps its storage from call to call
   for (int k = 0; k < static_cast<int>(joints.size()); ++k) {
     jointRows(bodies, joints[k], rows);
     for (const JointRow& row : rows) see(k, row);
@@ -122,9 +122,9 @@ double limitApproach(std::span<const RigidBody> bodies, std::span<const Joint> j
   return fastest;
 }
 
-std::vector<JointForce> jointForces(std::span<const RigidBody> bodies,
-                                    std::span<const Joint> joints, const Bonds& bonds, double h) {
-  std::vector<JointForce> forces(joints.size());
+void jointForces(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                 const Bonds& bonds, double h, std::vector<JointForce>& forces) {
+  forces.assign(joints.size(), {});
   for (std::size_t k = 0; k < joints.size(); ++k) {
     forces[k].joint = static_cast<int>(k);
     forces[k].a = joints[k].a;
@@ -138,7 +138,6 @@ std::vector<JointForce> jointForces(std::span<const RigidBody> bodies,
     force.force += part;
     force.torque += bonds.lambda[i] / h * row.angularA - (force.p - bodies[row.a].x).cross(part);
   }
-  return forces;
 }
 
 }  // namespace tumble

@@ -48,9 +48,9 @@ std::vector<Limit> restingLimits(std::span<const RigidBody> bodies, std::span<co
 double limitApproach(std::span<const RigidBody> bodies, std::span<const Joint> joints,
                      double touch);
 
-/// What every joint exerts, from the λ of its rows at these poses; λ may be impulses over `h` [s].
-std::vector<JointForce> jointForces(std::span<const RigidBody> bodies,
-                                    std::span<const Joint> joints, const Bonds& bonds,
-                                    double h = 1.0);
+/// What every joint exerts, from the λ of its rows at these poses.
+/// @param h  [s] over which λ are impulses; 1 where they are forces
+void jointForces(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                 const Bonds& bonds, double h, std::vector<JointForce>& forces);
 
 }  // namespace tumble

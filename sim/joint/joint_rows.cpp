@@ -148,8 +148,8 @@ void jointRows(std::span<const RigidBody> bodies, const Joint& joint, std::vecto
 }
 
 double largestJointGap(std::span<const RigidBody> bodies, std::span<const Joint> joints) {
+  thread_local std::vector<JointRow> rows;  // keeps its storage from call to call
   double largest = 0.0;
-  std::vector<JointRow> rows;
   for (const Joint& joint : joints) {
     jointRows(bodies, joint, rows);
     for (const JointRow& row : rows)

@@ -2,30 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "sim/joint/joint_bonds.h"
 
 namespace tumble {
 namespace {
 
-/// The force across a rod that comes of moving its ends across it.
-struct Tension {
-  int a = 0, b = 0;  ///< b = the number of bodies: the world
-  Vec3 ra, rb;       ///< [m] from the centres of mass to the ends
-  Mat3 across;       ///< [N/m]
-};
-
 /// K, and what moves against it. Twists are per body, the last one the world.
 class Stiffness {
  public:
   Stiffness(std::span<const RigidBody> bodies, std::span<const Joint> joints,
-            std::span<const JointForce> forces);
+            std::span<const JointForce> forces, SwingWork& work);
 
   /// [1/s²] No frequency's square is above this, whatever holds the bodies.
   double bound() const;
-  /// M⁻¹ K v.
-  std::vector<Vec6> pull(std::span<const Vec6> v) const;
+  /// M⁻¹ K v, into `force`.
+  void pull(std::span<const Vec6> v, std::vector<Vec6>& force) const;
   /// vᵀ M v [J]
   double square(std::span<const Vec6> v) const;
   bool turns(std::size_t body) const { return !bodies_[body].fixed() && !bodies_[body].particle; }
@@ -34,13 +27,15 @@ class Stiffness {
   void add(int body, const Vec3& force, const Vec3& r);
 
   std::span<const RigidBody> bodies_;
-  std::vector<Mat3> turn_;  ///< [N m] per body
-  std::vector<Tension> tensions_;
+  std::vector<Mat3>& turn_;
+  std::vector<Tension>& tensions_;
 };
 
 Stiffness::Stiffness(std::span<const RigidBody> bodies, std::span<const Joint> joints,
-                     std::span<const JointForce> forces)
-    : bodies_(bodies), turn_(bodies.size(), Mat3::Zero()) {
+                     std::span<const JointForce> forces, SwingWork& work)
+    : bodies_(bodies), turn_(work.turn), tensions_(work.tensions) {
+  turn_.assign(bodies.size(), Mat3::Zero());
+  tensions_.clear();
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Joint& joint = joints[k];
     const Vec3& force = forces[k].force;
@@ -79,8 +74,8 @@ double Stiffness::bound() const {
   return most + rods;
 }
 
-std::vector<Vec6> Stiffness::pull(std::span<const Vec6> v) const {
-  std::vector<Vec6> force(v.size(), Vec6::Zero());
+void Stiffness::pull(std::span<const Vec6> v, std::vector<Vec6>& force) const {
+  force.assign(v.size(), Vec6::Zero());
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (turns(i)) force[i].tail<3>() = turn_[i] * v[i].tail<3>();
   for (const Tension& rod : tensions_) {
@@ -97,7 +92,6 @@ std::vector<Vec6> Stiffness::pull(std::span<const Vec6> v) const {
     force[i].tail<3>() = turns(i) ? Vec3(bodies_[i].Iinv * force[i].tail<3>()) : Vec3(Vec3::Zero());
   }
   force.back().setZero();
-  return force;
 }
 
 double Stiffness::square(std::span<const Vec6> v) const {
@@ -114,42 +108,28 @@ double Stiffness::square(std::span<const Vec6> v) const {
   return sum;
 }
 
-/// The part of velocities that all joints allow, in the metric of the masses.
-class Allowed {
- public:
-  Allowed(std::span<const RigidBody> bodies, std::span<const Joint> joints, const Solver& solver)
-      : solver_(solver) {
-    Bonds bonds;
-    beginAllowedVelocities(bodies, joints, bonds, problem_);
-  }
-
-  std::vector<Vec6> of(std::vector<Vec6> v) {
-    constexpr double kTolerance = 1e-6;
-    problem_.vStar = std::move(v);
-    Solution solution;
-    solveByIslands(solver_, problem_, {.tolerance = kTolerance, .maxIterations = 200}, solution);
-    return solution.v;
-  }
-
- private:
-  const Solver& solver_;
-  Problem problem_;
-};
-
-/// ω² by power iteration.
-double squareOfFastest(std::span<const RigidBody> bodies, const Stiffness& K, Allowed allowed) {
+/// ω² by power iteration: of M⁻¹ K v the part that all joints allow, in the metric of the masses.
+double squareOfFastest(std::span<const RigidBody> bodies, std::span<const Joint> joints,
+                       const Stiffness& K, const Solver& solver, SwingWork& work) {
   constexpr int kRounds = 8;
-  std::vector<Vec6> v(bodies.size() + 1, Vec6::Zero());
+  constexpr double kTolerance = 1e-6;
+  beginAllowedVelocities(bodies, joints, work.bonds, work.problem);
+  work.v.assign(bodies.size() + 1, Vec6::Zero());
   for (std::size_t i = 0; i < bodies.size(); ++i)  // nothing that symmetry would leave out
     if (!bodies[i].fixed())
-      for (int k = 0; k < 6; ++k) v[i][k] = std::sin(1.0 + static_cast<double>(6 * i + k));
+      for (int k = 0; k < 6; ++k) work.v[i][k] = std::sin(1.0 + static_cast<double>(6 * i + k));
   double square = 0.0;
   for (int round = 0; round < kRounds; ++round) {
-    v = allowed.of(K.pull(v));
-    const double size = std::sqrt(K.square(v));
+    K.pull(work.v, work.problem.vStar);
+    work.solution.lambda.clear();
+    work.solution.v.clear();
+    solveByIslands(solver, work.problem, {.tolerance = kTolerance, .maxIterations = 200},
+                   work.solution);
+    std::swap(work.v, work.solution.v);
+    const double size = std::sqrt(K.square(work.v));
     if (!(size > 0.0)) return 0.0;
     if (round > 0) square = size;
-    for (Vec6& part : v) part /= size;
+    for (Vec6& part : work.v) part /= size;
   }
   return square;
 }
@@ -158,13 +138,13 @@ double squareOfFastest(std::span<const RigidBody> bodies, const Stiffness& K, Al
 
 double fastestSwing(std::span<const RigidBody> bodies, std::span<const Joint> joints,
                     std::span<const JointForce> forces, const Solver& solver, double atLeast,
-                    Swing& last) {
+                    Swing& last, SwingWork& work) {
   constexpr double kChange = 1.25;
-  const Stiffness K(bodies, joints, forces);
+  const Stiffness K(bodies, joints, forces, work);
   const double bound = K.bound();
   if (bound < atLeast * atLeast) return 0.0;
   if (bound > kChange * last.bound || last.bound > kChange * bound)
-    last = {bound, squareOfFastest(bodies, K, Allowed(bodies, joints, solver))};
+    last = {bound, squareOfFastest(bodies, joints, K, solver, work)};
   return std::sqrt(last.square * bound / last.bound);
 }
 

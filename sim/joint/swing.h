@@ -1,6 +1,7 @@
 // Chapter 8, joint: how fast what joints hold can swing under the forces that they carry.
 #pragma once
 
+#include "sim/contact/bonds.h"
 #include "sim/joint/joint.h"
 #include "sim/problem/problem.h"
 
@@ -10,6 +11,23 @@ namespace tumble {
 struct Swing {
   double bound = 0.0;   ///< [1/s²] its square is no higher, whatever holds the bodies; 0: never
   double square = 0.0;  ///< [1/s²]
+};
+
+/// The force across a rod that comes of moving its ends across it.
+struct Tension {
+  int a = 0, b = 0;  ///< b = the number of bodies: the world
+  Vec3 ra, rb;       ///< [m] from the centres of mass to the ends
+  Mat3 across;       ///< [N/m]
+};
+
+/// What fastestSwing works with and then forgets; kept for the sake of its storage.
+struct SwingWork {
+  std::vector<Mat3> turn;         ///< [N m] per body
+  std::vector<Tension> tensions;  ///< of rods and ropes
+  std::vector<Vec6> v;            ///< per body, the last one the world
+  Bonds bonds;
+  Problem problem;  ///< of what the joints allow
+  Solution solution;
 };
 
 /// The highest frequency [rad/s] at which jointed bodies swing, or fall over, while the forces of
@@ -25,6 +43,6 @@ struct Swing {
 /// @param last     what was found before: where stiffness has hardly changed since, it is scaled
 double fastestSwing(std::span<const RigidBody> bodies, std::span<const Joint> joints,
                     std::span<const JointForce> forces, const Solver& solver, double atLeast,
-                    Swing& last);
+                    Swing& last, SwingWork& work);
 
 }  // namespace tumble

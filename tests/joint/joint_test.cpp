@@ -36,7 +36,9 @@ struct Held {
     appendBonds(bonds, problem);
     report = findSolver("pivoting")->solve(problem, {}, solution);
     if (report.status == SolveStatus::Solved) readBonds(solution.lambda, 0, bonds);
-    return jointForces(bodies, joints, bonds);
+    std::vector<JointForce> forces;
+    jointForces(bodies, joints, bonds, 1.0, forces);
+    return forces;
   }
   Vec3 spinUp(int body) const { return solution.v[body].tail<3>(); }
 };

@@ -55,7 +55,9 @@ class CourseSystem : public System {
   const std::vector<Contact>& contacts() const { return contacts_->contacts(); }
   /// Of the same moment.
   std::vector<JointForce> jointForces(std::span<const RigidBody> bodies) const {
-    return tumble::jointForces(bodies, model_.joints, contacts_->bonds());
+    std::vector<JointForce> forces;
+    tumble::jointForces(bodies, model_.joints, contacts_->bonds(), 1.0, forces);
+    return forces;
   }
 
   /// Worst residual of the contact problems of this stretch, and whether one was left unsolved.

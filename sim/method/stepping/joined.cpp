@@ -24,8 +24,8 @@ void Stepping::bookJoints(double h) {
       rate += 0.5 * rowSpeed(row, (*v)[row.a], (*v)[row.b]);
     report_.certificate.energy_lost_impact -= work_.bonds.lambda[i] * rate;
   }
-  state_.trail.back().joints =
-      jointForces(state_.trail.back().start, model_.joints, work_.bonds, h);
+  Segment& segment = state_.trail.back();
+  jointForces(segment.start, model_.joints, work_.bonds, h, segment.joints);
 }
 
 const Joint* Stepping::brokenJoint() const {
@@ -44,12 +44,12 @@ void Stepping::meetJoints(double h) {
                  work_.solution);
   readBonds(work_.solution.lambda, 0, work_.bonds);
   bookOuter();
-  const std::vector<JointForce> forces = jointForces(state_.bodies, model_.joints, work_.bonds, h);
+  jointForces(state_.bodies, model_.joints, work_.bonds, h, work_.joints);
   addBondImpulses(work_.bonds, state_.bodies);
-  for (std::size_t k = 0; k < forces.size(); ++k) {
+  for (std::size_t k = 0; k < work_.joints.size(); ++k) {
     JointForce& sum = state_.trail.back().joints[k];
-    sum.force += forces[k].force;
-    sum.torque += forces[k].torque;
+    sum.force += work_.joints[k].force;
+    sum.torque += work_.joints[k].torque;
   }
 }
 
@@ -59,7 +59,7 @@ void Stepping::divideNext(double h) {
   constexpr int kMostParts = 1000;
   if (model_.joints.empty()) return;
   double rate = fastestSwing(state_.bodies, model_.joints, state_.trail.back().joints, solver_,
-                             kSwing / h, memory_.swing) /
+                             kSwing / h, memory_.swing, work_.swing) /
                 kSwing;
   for (const Joint& joint : model_.joints) {
     for (const int i : {joint.a, joint.b}) {

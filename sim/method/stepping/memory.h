@@ -67,6 +67,8 @@ struct SteppingWork {
   std::vector<int> movers;
   Problem problem;
   Solution solution;
+  std::vector<JointForce> joints;  ///< that bring velocities to what joints allow
+  SwingWork swing;
   /// Per body: twists at both ends of the step, and what they would be without contacts.
   std::vector<Vec6> before, star, after;
   std::vector<char> touched;  ///< per body: a contact pushed it in this step
