@@ -1,15 +1,29 @@
-// Counts what a test program allocates. To be included once in a program: it replaces the global
-// operator new. GCC 12 takes the free of an inlined delete for a mismatch.
+// Counts what a test program allocates: calls of malloc, by new or by Eigen; where a sanitizer
+// brings a malloc of its own, calls of new. To be included once in a program.
 #pragma once
 
 #include <cstdlib>
 #include <new>
 
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-
 namespace tumble::test {
 inline long allocations = 0;
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+
+extern "C" {
+void* __libc_malloc(std::size_t size) noexcept;
+
+void* malloc(std::size_t size) noexcept {
+  ++tumble::test::allocations;
+  return __libc_malloc(size);
+}
+}
+
+#else
+
+// GCC 12 takes the free of an inlined delete for a mismatch.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 
 void* operator new(std::size_t size) {
   ++tumble::test::allocations;
@@ -26,3 +40,5 @@ void operator delete(void* p) noexcept {
 void operator delete(void* p, std::size_t) noexcept {
   std::free(p);
 }
+
+#endif

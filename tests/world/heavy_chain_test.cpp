@@ -3,35 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "tests/catch.h"
-#include "tests/world/scenes.h"
+#include "tests/world/joints.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
 
 namespace {
-
-constexpr double kLink = 0.2;  // [m] from pin to pin
-
-/// Balls on rods that hang from (0, 0, 0) straight out at this angle from the vertical.
-WorldDef chain(const char* method, int links, double ratio, double angle) {
-  WorldDef def = worldOf(method, 2.0, {});
-  const Vec3 along(std::sin(angle), -std::cos(angle), 0.0);
-  for (int k = 0; k < links; ++k) {
-    BodyDef link = ball("link" + std::to_string(k), 0.05, (k + 1) * kLink * along);
-    link.mass = k + 1 == links ? ratio : 1.0;
-    def.bodies.push_back(link);
-    def.joints.push_back({.name = "pin" + std::to_string(k),
-                          .kind = JointKind::Ball,
-                          .a = k,
-                          .b = k == 0 ? kNoBody : k - 1,
-                          .anchorA = k * kLink * along,
-                          .anchorB = k * kLink * along});
-  }
-  return def;
-}
 
 constexpr double kLevel = 0.5 * std::numbers::pi;
 
@@ -45,7 +24,7 @@ TEST_CASE("stepping: a chain with a load of up to a million links swings and sta
           "[figures]") {
   const int links = GENERATE(2, 3, 8);
   const double ratio = GENERATE(10.0, 1e3, 1e6);
-  World world(chain("stepping", links, ratio, kLevel));
+  World world(chainOf("stepping", links, ratio, kLevel));
   const double scale = ratio * 9.81 * links * kLink;
   double farthest = 0.0, energy = 0.0;
   for (int k = 1; k <= 40 && !world.report().stopped; ++k) {
@@ -67,7 +46,7 @@ TEST_CASE("stepping: a chain with a load of up to a million links swings and sta
 // Oracle: two methods agree. The end falls 0.6 m; after 0.45 s at 240 steps a second it is
 // 3.2e-5 m beside the exact one, allowed 1e-3.
 TEST_CASE("stepping: a heavy chain swings as in the exact method") {
-  World steps(chain("stepping", 3, 1e3, kLevel)), exact(chain("exact", 3, 1e3, kLevel));
+  World steps(chainOf("stepping", 3, 1e3, kLevel)), exact(chainOf("exact", 3, 1e3, kLevel));
   steps.advance(0.45);
   exact.advance(0.45);
   const double off =
@@ -80,7 +59,7 @@ TEST_CASE("stepping: a heavy chain swings as in the exact method") {
 // step costs one look at the forces. Measured: forces off by 2e-10 of the load, allowed 1e-9.
 TEST_CASE("exact: a chain that hangs at rest stays there under any load, for nothing") {
   const double ratio = GENERATE(1.0, 1e5, 1e6);
-  World world(chain("exact", 8, ratio, 0.0));
+  World world(chainOf("exact", 8, ratio, 0.0));
   world.advance(2.0);
   const Sample start = world.sample(1.99 - 1e-3), end = world.sample(2.0);
   double off = 0.0;
@@ -96,7 +75,7 @@ TEST_CASE("exact: a chain that hangs at rest stays there under any load, for not
 
 // Oracle: the count of evaluations, and the chain as above.
 TEST_CASE("auto leaves a heavy chain to stepping after so much work, and swings it on") {
-  World world(chain("auto", 3, 1e6, kLevel));
+  World world(chainOf("auto", 3, 1e6, kLevel));
   world.advance(2.0);
   const Report& report = world.report();
   CAPTURE(report.certificate.evaluations, report.certificate.energy_end);

@@ -199,15 +199,7 @@ TEST_CASE("closed loops of joints move as if no row were told twice") {
   CHECK(omega[1] == Approx(omega[0]).epsilon(1e-10));
 
   WorldDef def = careful("course");
-  const Vec3 feet[] = {{0.0, 0.0, 0.0}, {1.2, 0.0, 0.0}},
-             pins[] = {{-0.3, -0.6, 0.0}, {1.0, -0.9, 0.0}};
-  const auto between = [](const std::string& name, const Vec3& p, const Vec3& q) {
-    return bar(name, (q - p).norm(), 1.0, p, std::atan2((q - p).x(), (p - q).y()));
-  };
-  def.bodies = {between("crank", feet[0], pins[0]), between("coupler", pins[0], pins[1]),
-                between("rocker", feet[1], pins[1])};
-  def.joints = {hinge(0, kNoBody, feet[0], "h.0"), hinge(1, 0, pins[0], "h.1"),
-                hinge(2, kNoBody, feet[1], "h.2"), hinge(2, 1, pins[1], "h.3")};
+  addFourBars(def);
   World world(def);
   world.advance(5.0);
   CHECK(world.report().certificate.max_joint_gap < 1e-12);
