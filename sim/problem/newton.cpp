@@ -33,12 +33,13 @@ class Newton {
   void keepBetter(SolveReport& report);
   void closeBalance(SolveReport& report);
 
-  void takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const;
+  void takeLambda(const Problem& problem, Solution& solution, SolveReport& report);
 
   NewtonSystem<N> system_;
   double tolerance_ = 1e-12;
   std::vector<typename NewtonSystem<N>::Point> points_, pointsBefore_;
   std::vector<typename NewtonSystem<N>::Mover> movers_, moversBefore_;
+  std::vector<Vec6> own_;  ///< v where λ might decide
 };
 
 /// How little [m/s] a step must change any row to be the last of its stage.
@@ -254,16 +255,16 @@ SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settin
 /// Where v is not what λ gives, momentum would be lost: λ decides, unless that leaves more than the
 /// tolerance where v does not, as under loads that outweigh a body a million times.
 template <int N>
-void Newton<N>::takeLambda(const Problem& problem, Solution& solution, SolveReport& report) const {
+void Newton<N>::takeLambda(const Problem& problem, Solution& solution, SolveReport& report) {
   if (report.balance == 0.0) return;
   const bool open = report.balance > kOpen;
-  const std::vector<Vec6> own = solution.v;
+  own_ = solution.v;
   for (double& lambda : solution.lambda)
     if (!std::isfinite(lambda)) lambda = 0.0;
   velocitiesFromLambda(problem, solution.lambda, solution.v);
   const double residual = naturalResidual(problem, solution);
   if (!open && residual > tolerance_) {
-    solution.v = own;
+    std::swap(solution.v, own_);
     return;
   }
   report.residual = residual;
