@@ -8,19 +8,17 @@ namespace tumble {
 
 namespace {
 
+/// Iinv = R IbodyInv Rᵀ. One function for all, as Eigen rounds by the way in which a product is
+/// stored.
+void turnInertia(const RigidBody& body, const Mat3& R, Mat3& Iinv) {
+  Iinv = R * body.IbodyInv * R.transpose();
+}
+
 /// Everything that follows from R and the momenta.
 void derive(RigidBody& body) {
-  if (body.particle) {
-    body.v = body.invM * body.P;
-    return;
-  }
-  if (body.fixed()) {
-    body.Iinv.setZero();
-    return;
-  }
-  body.Iinv = body.R * body.IbodyInv * body.R.transpose();
-  body.v = body.invM * body.P;
-  body.omega = body.Iinv * body.L;
+  if (!body.particle && body.fixed()) body.Iinv.setZero();
+  if (!body.particle && !body.fixed()) turnInertia(body, body.R, body.Iinv);
+  updateVelocities(body);
 }
 
 void put(const Vec3& v, double* y) {
@@ -40,7 +38,7 @@ void quaternionRate(const Quat& q, const Vec3& omega, double* rate) {
 
 }  // namespace
 
-void updateDerived(RigidBody& body) {
+[[gnu::flatten]] void updateDerived(RigidBody& body) {
   body.R = rotationMatrix(body.q);
   derive(body);
 }
@@ -49,6 +47,17 @@ void updateDerived(RigidBody& body, const Mat3& R) {
   body.R = R;
   body.q = nearestRotation(R);
   derive(body);
+}
+
+[[gnu::flatten]] void updateVelocities(RigidBody& body) {
+  if (body.particle || !body.fixed()) body.v = body.invM * body.P;
+  if (!body.particle && !body.fixed()) body.omega = body.Iinv * body.L;
+}
+
+[[gnu::flatten]] Vec3 angularVelocityAt(const RigidBody& body, const Quat& q, const Vec3& L) {
+  Mat3 Iinv;
+  turnInertia(body, rotationMatrix(q), Iinv);
+  return Iinv * L;
 }
 
 void stateToArray(const RigidBody& body, std::span<double> y, Attitude attitude) {

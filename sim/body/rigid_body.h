@@ -63,6 +63,13 @@ void updateDerived(RigidBody& body);
 /// becomes the rotation nearest to R.
 void updateDerived(RigidBody& body, const Mat3& R);
 
+/// Brings v and omega up to date with P and L, where R and Iinv are.
+void updateVelocities(RigidBody& body);
+
+/// ω [rad/s] of a body that has the angular momentum L [kg m²/s] at the attitude q:
+///   ω = R IbodyInv Rᵀ L.
+Vec3 angularVelocityAt(const RigidBody& body, const Quat& q, const Vec3& L);
+
 /// Copies the state into y[0..stateSize).
 void stateToArray(const RigidBody& body, std::span<double> y,
                   Attitude attitude = Attitude::Quaternion);

@@ -124,7 +124,7 @@ Quat turnBetween(const Vec3& from, const Vec3& to) {
   return acute(-a, b) * Quat(0.0, across.x(), across.y(), across.z());
 }
 
-Quat rotated(const Quat& q, const Vec3& w) {
+[[gnu::flatten]] Quat rotated(const Quat& q, const Vec3& w) {
   const double angle2 = w.squaredNorm();
   double scale, c;  // sin(|w|/2)/|w| and cos(|w|/2)
   if (angle2 < 1e-8) {
@@ -140,7 +140,7 @@ Quat rotated(const Quat& q, const Vec3& w) {
   return Quat(c, scale * w.x(), scale * w.y(), scale * w.z()) * q;
 }
 
-Mat3 rotationMatrix(const Quat& q) {
+[[gnu::flatten]] Mat3 rotationMatrix(const Quat& q) {
   const double s = 2.0 / q.squaredNorm();
   const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
   Mat3 R;

@@ -139,7 +139,7 @@ void Stepping::applyTwists(double h) {
       body.P += body.M * change.head<3>();
       if (!body.particle) body.L += body.R * (body.Ibody * (body.R.transpose() * change.tail<3>()));
     }
-    updateDerived(body);
+    updateVelocities(body);
   }
   books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, state_.bodies));
 }
@@ -167,14 +167,11 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
   constexpr int kMostTurns = 1000;
   const double turns = std::min(std::ceil(h * body.omega.norm() / kTurn), double{kMostTurns});
   const double part = h / std::max(1.0, turns);
-  RigidBody middle = body;
-  middle.L = L;
+  if (body.particle || L.isZero(0.0)) return body.q.normalize();
   for (int k = 0; k < std::max(1.0, turns); ++k) {
-    middle.q = body.q;
-    updateDerived(middle);
-    middle.q = rotated(body.q, 0.5 * part * middle.omega);
-    updateDerived(middle);
-    body.q = rotated(body.q, part * middle.omega).normalized();
+    const Vec3 first = k == 0 ? Vec3(body.Iinv * L) : angularVelocityAt(body, body.q, L);
+    const Quat middle = rotated(body.q, 0.5 * part * first);
+    body.q = rotated(body.q, part * angularVelocityAt(body, middle, L)).normalized();
   }
 }
 
@@ -182,6 +179,7 @@ void Stepping::moveBodies(double h) {
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
     if (body.fixed() && body.v.isZero(0.0) && body.omega.isZero(0.0)) continue;
+    const Quat before = body.q;
     if (body.fixed()) {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
@@ -192,7 +190,8 @@ void Stepping::moveBodies(double h) {
       coast(body, work_.before[i].head<3>(), h);
     }
     body.q.normalize();
-    updateDerived(body);
+    // What is derived follows from q and from momenta, which stay.
+    if (body.q.coeffs() != before.coeffs()) updateDerived(body);
   }
 }
 
