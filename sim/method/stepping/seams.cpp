@@ -13,14 +13,17 @@ bool Stepping::closed(const Touch& touch) const {
 }
 
 /// Takes away the points of pairs that a contact with a third body keeps apart already. Pairs are
-/// asked once after each look; those with a face on another are not.
+/// asked once after each look; those with a face on another, or with a half-space, which has no
+/// edge, are not.
 void Stepping::leaveSeams() {
   constexpr int kFace = 3;  // closed points
   const auto isClosed = [&](const Touch& touch) { return closed(touch); };
+  const auto isPlane = [&](int i) { return std::holds_alternative<HalfSpace>(model_.shapes[i]); };
   work_.crossing.clear();
   for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
     if (memory_.pairs[k].look <= memory_.asked || touches.empty()) continue;
+    if (isPlane(state_.near[k].first) || isPlane(state_.near[k].second)) continue;
     if (std::count_if(touches.begin(), touches.end(), isClosed) < kFace)
       work_.crossing.push_back(k);
   }
@@ -44,7 +47,6 @@ bool Stepping::keptApart(int pair, int body) const {
   constexpr double kAlike = 1.0 - 1e-12;  // cosine of normals of faces that are flush
   const auto [b, a] = state_.near[pair];
   const int other = a == body ? b : a;
-  if (std::holds_alternative<HalfSpace>(model_.shapes[other])) return false;  // it has no edge
   const Vec3& n = memory_.pairs[pair].touches.front().contact.point.n;
   return std::any_of(work_.holders[body].begin(), work_.holders[body].end(), [&](int k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
