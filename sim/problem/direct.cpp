@@ -16,27 +16,37 @@ namespace {
 
 /// M⁻¹ Jᵀ of one row, for both bodies.
 std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
-  Vec6 a, b;
-  a << problem.invM[row.a] * row.linear, problem.Iinv[row.a] * row.angularA;
-  b << -problem.invM[row.b] * row.linear, problem.Iinv[row.b] * row.angularB;
-  return {a, b};
+  std::pair<Vec6, Vec6> yield;
+  yield.first.head<3>() = problem.invM[row.a] * row.linear;
+  yield.first.tail<3>() = problem.Iinv[row.a] * row.angularA;
+  yield.second.head<3>() = -problem.invM[row.b] * row.linear;
+  yield.second.tail<3>() = problem.Iinv[row.b] * row.angularB;
+  return yield;
 }
 
-/// λ of one contact: solveFrictionBlock finds it.
-void solveContact(const Problem& problem, std::vector<double>& found) {
+/// λ of one contact without friction:  λ = −u/W  where u < 0.
+[[gnu::flatten]] double pushOf(const Problem& problem) {
+  const Row& row = problem.rows[problem.cones[0].row];
+  const double u = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]) + row.bias;
+  if (u >= 0.0) return 0.0;
+  const auto [a, b] = yieldTo(problem, row);
+  return -u / rowSpeed(row, a, b);
+}
+
+/// λ of one contact: solveFrictionBlock finds it where there is friction.
+[[gnu::flatten]] void solveContact(const Problem& problem, std::vector<double>& found) {
   const Cone& cone = problem.cones[0];
-  const int rows = coneRows(cone.kind);
-  Mat3 W = Mat3::Identity();
-  Vec3 c = Vec3::Zero();
-  for (int j = 0; j < rows; ++j) {
+  if (cone.kind == ConeKind::Push) return found.assign(1, pushOf(problem));
+  Mat3 W;
+  Vec3 c;
+  for (int j = 0; j < 3; ++j) {
     const Row& row = problem.rows[cone.row + j];
     const auto [a, b] = yieldTo(problem, row);
-    for (int i = 0; i < rows; ++i) W(i, j) = rowSpeed(problem.rows[cone.row + i], a, b);
+    for (int i = 0; i < 3; ++i) W(i, j) = rowSpeed(problem.rows[cone.row + i], a, b);
     c[j] = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]) + row.bias;
   }
-  const double mu = cone.kind == ConeKind::Friction ? cone.mu : 0.0;
-  const Vec3 lambda = solveFrictionBlock(W, c, mu, Vec3::Zero());
-  found.assign(lambda.data(), lambda.data() + rows);
+  const Vec3 lambda = solveFrictionBlock(W, c, cone.mu, Vec3::Zero());
+  found.assign(lambda.data(), lambda.data() + 3);
 }
 
 constexpr std::size_t kMostDependent = 60;  ///< rows that depend on each other
