@@ -34,8 +34,8 @@ void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<do
   for (std::size_t i = 0; i < problem.rows.size(); ++i) u[i] = rowVelocity(problem.rows[i], v);
 }
 
-void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda,
-                          std::span<Vec6> v) {
+[[gnu::flatten]] void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda,
+                                           std::span<Vec6> v) {
   // First the impulses on each body, then the velocities they give.
   for (Vec6& twist : v) twist.setZero();
   for (std::size_t i = 0; i < problem.rows.size(); ++i) {
@@ -52,7 +52,7 @@ void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda
   }
 }
 
-double velocityScale(const Problem& problem) {
+[[gnu::flatten]] double velocityScale(const Problem& problem) {
   constexpr double kNothing = 1e8 * std::numeric_limits<double>::epsilon();
   double largest = 0.0, terms = 0.0;
   for (const Row& row : problem.rows) {
@@ -67,7 +67,8 @@ double naturalResidual(const Problem& problem, const Solution& solution) {
   return naturalResidual(problem, solution, velocityScale(problem));
 }
 
-double naturalResidual(const Problem& problem, const Solution& solution, double scale) {
+[[gnu::flatten]] double naturalResidual(const Problem& problem, const Solution& solution,
+                                        double scale) {
   double worst = 0.0;
   for (const Cone& cone : problem.cones) {
     double u[3] = {}, mobility = 0.0;
