@@ -53,13 +53,17 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n) {
 
 }  // namespace
 
-Witness witnessOf(const ContactPoint& plane, const Pose& poseA, const Pose& poseB) {
+[[gnu::flatten]] Witness witnessOf(const ContactPoint& plane, const Pose& poseA,
+                                   const Pose& poseB) {
+  Witness witness{.known = plane.separation > 0.0, .tie = plane.tie};
+  if (!witness.known) return witness;
   const bool onA = plane.tie == NormalTie::FaceOfA || plane.tie == NormalTie::EdgeOfA;
-  return {.known = plane.separation > 0.0,
-          .tie = plane.tie,
-          .n_B = (onA ? poseA.q : poseB.q).conjugate() * plane.n,
-          .ea_B = poseA.q.conjugate() * plane.ea,
-          .eb_B = poseB.q.conjugate() * plane.eb};
+  witness.n_B = (onA ? poseA.q : poseB.q).conjugate() * plane.n;
+  if (plane.tie == NormalTie::Edges) {
+    witness.ea_B = poseA.q.conjugate() * plane.ea;
+    witness.eb_B = poseB.q.conjugate() * plane.eb;
+  }
+  return witness;
 }
 
 Vec3 normalOf(const Witness& w, const Quat& qa, const Quat& qb) {

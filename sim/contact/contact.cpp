@@ -77,11 +77,12 @@ ContactTolerance ContactTolerance::forSize(double size) {
   return t;
 }
 
-double approachVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+[[gnu::flatten]] double approachVelocity(const RigidBody& a, const RigidBody& b,
+                                         const ContactPoint& c) {
   return c.n.dot(pointVelocity(a, c.p) - pointVelocity(b, c.p));
 }
 
-Vec3 slipVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+[[gnu::flatten]] Vec3 slipVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
   return across(pointVelocity(a, c.p) - pointVelocity(b, c.p), c.n);
 }
 
@@ -90,18 +91,18 @@ ContactClass classify(double vrel, double tolerance) {
   return vrel > tolerance ? ContactClass::Separating : ContactClass::Resting;
 }
 
-Anchor anchorOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+[[gnu::flatten]] Anchor anchorOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
   Anchor anchor;
   anchor.pa_B = toBody(a.pose(), c.pa);
   anchor.pb_B = toBody(b.pose(), c.pb);
   const Quat& tied = c.tie == NormalTie::FaceOfA ? a.q : b.q;
   anchor.n_B = tied.conjugate() * c.n;
-  anchor.ea_B = a.q.conjugate() * c.ea;
-  anchor.eb_B = b.q.conjugate() * c.eb;
+  if (!c.ea.isZero(0.0)) anchor.ea_B = a.q.conjugate() * c.ea;
+  if (!c.eb.isZero(0.0)) anchor.eb_B = b.q.conjugate() * c.eb;
   return anchor;
 }
 
-void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
+[[gnu::flatten]] void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   ContactPoint& c = contact.point;
   const Anchor& anchor = contact.anchor;
   c.pa = toWorld(a.pose(), anchor.pa_B);
@@ -237,7 +238,7 @@ Vec3 slipAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint
   return rate;
 }
 
-void tangents(const Vec3& n, const Vec3& preferred, Vec3& t1, Vec3& t2) {
+[[gnu::flatten]] void tangents(const Vec3& n, const Vec3& preferred, Vec3& t1, Vec3& t2) {
   t1 = across(preferred, n);
   const double length = t1.norm();
   if (length > 1e-9 * preferred.norm() && length > 0.0) {

@@ -17,17 +17,6 @@ void beginProblem(std::span<const RigidBody> bodies, Problem& problem) {
 
 }  // namespace
 
-Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec3& p, const Vec3& d,
-             double bias) {
-  const Vec3 armA = p - bodies[ia].x, armB = p - bodies[ib].x;
-  return {.a = ia,
-          .b = ib,
-          .linear = d,
-          .angularA = armA.cross(d),
-          .angularB = -armB.cross(d),
-          .bias = bias};
-}
-
 void beginVelocityProblem(std::span<const RigidBody> bodies, Problem& problem) {
   beginProblem(bodies, problem);
   for (const RigidBody& body : bodies) {

@@ -9,8 +9,16 @@
 namespace tumble {
 
 /// The row  u = d·(ṗa − ṗb) + bias  of bodies ia and ib at world point p [m] along unit d.
-Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec3& p, const Vec3& d,
-             double bias);
+inline Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec3& p, const Vec3& d,
+                    double bias) {
+  const Vec3 armA = p - bodies[ia].x, armB = p - bodies[ib].x;
+  return {.a = ia,
+          .b = ib,
+          .linear = d,
+          .angularA = armA.cross(d),
+          .angularB = -armB.cross(d),
+          .bias = bias};
+}
 
 /// Empties the problem and writes inverse masses and inertias; vStar = twists of the bodies now.
 void beginVelocityProblem(std::span<const RigidBody> bodies, Problem& problem);

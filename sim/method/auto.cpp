@@ -76,7 +76,7 @@ void handOver(const Model& model, State& state, Report& report) {
   for (const Contact& c : before->lasting)
     if (state.stepping.lasting.empty() || state.stepping.lasting.back().a != c.a ||
         state.stepping.lasting.back().b != c.b)
-      state.stepping.lasting.push_back(c);
+      state.stepping.lasting.push_back(lastingPair(c));
   state.before = std::move(before);
   report.stopped = false;
   report.note(("from t = " + shortNumber(state.t) + " s by stepping: " + report.reason).c_str());

@@ -51,9 +51,12 @@ void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
 void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pair<int, int> pair,
                   double margin, std::vector<Contact>& contacts);
 
-/// The same for the near pair k of the state, at its bodies' poses, but first asks the plane that
-/// parted the pair when it was last looked at. The answer is the same, bit by bit; the certificate
-/// counts how often the plane gave it.
+/// The points that `collide` finds of the near pair k of the state, at its bodies' poses; but first
+/// asks the plane that parted the pair when it was last looked at. The answer is the same, bit by
+/// bit; the certificate counts how often the plane gave it.
+void findNearPoints(const Model& model, State& state, std::size_t k, double margin,
+                    Manifold& points, Report& report);
+/// The same with restitution and friction of the pair. Appends to `contacts`.
 void findNearContacts(const Model& model, State& state, std::size_t k, double margin,
                       std::vector<Contact>& contacts, Report& report);
 

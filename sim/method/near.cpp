@@ -17,6 +17,21 @@ void passWitnesses(std::span<const std::pair<int, int>> near, State& state) {
   state.witnesses.swap(passed);
 }
 
+void addContacts(const Model& model, std::pair<int, int> pair, const Manifold& points,
+                 std::vector<Contact>& contacts) {
+  if (points.empty()) return;
+  const auto [b, a] = pair;
+  const Surface surface = model.surface(a, b);
+  for (const ContactPoint& point : points) {
+    Contact& c = contacts.emplace_back();
+    c.a = a;
+    c.b = b;
+    c.point = point;
+    c.restitution = surface.restitution;
+    c.friction = surface.friction;
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
@@ -66,16 +81,7 @@ void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pa
   const auto [b, a] = pair;
   thread_local Manifold manifold;  // keeps its storage from call to call
   collide(model.shapes[a], bodies[a].pose(), model.shapes[b], bodies[b].pose(), margin, manifold);
-  const Surface surface = model.surface(a, b);
-  for (const ContactPoint& point : manifold) {
-    Contact c;
-    c.a = a;
-    c.b = b;
-    c.point = point;
-    c.restitution = surface.restitution;
-    c.friction = surface.friction;
-    contacts.push_back(c);
-  }
+  addContacts(model, pair, manifold, contacts);
 }
 
 bool planeShowsApart(const Model& model, const State& state, std::span<const RigidBody> bodies,
@@ -89,18 +95,25 @@ bool planeShowsApart(const Model& model, const State& state, std::span<const Rig
   return apart;
 }
 
-void findNearContacts(const Model& model, State& state, std::size_t k, double margin,
-                      std::vector<Contact>& contacts, Report& report) {
+void findNearPoints(const Model& model, State& state, std::size_t k, double margin,
+                    Manifold& points, Report& report) {
+  points.clear();
   if (planeShowsApart(model, state, state.bodies, k, margin, report)) return;
-  const std::size_t before = contacts.size();
-  findContacts(model, state.bodies, state.near[k], margin, contacts);
-  if (!model.def.rememberPlanes) return;
   const auto [b, a] = state.near[k];
   const Pose poseA = state.bodies[a].pose(), poseB = state.bodies[b].pose();
-  const ContactPoint plane = contacts.size() > before
-                                 ? contacts[before].point
-                                 : separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB);
-  state.witnesses[k] = witnessOf(plane, poseA, poseB);
+  collide(model.shapes[a], poseA, model.shapes[b], poseB, margin, points);
+  if (!model.def.rememberPlanes) return;
+  state.witnesses[k] =
+      points.empty()
+          ? witnessOf(separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB), poseA, poseB)
+          : witnessOf(points.front(), poseA, poseB);
+}
+
+void findNearContacts(const Model& model, State& state, std::size_t k, double margin,
+                      std::vector<Contact>& contacts, Report& report) {
+  thread_local Manifold manifold;  // keeps its storage from call to call
+  findNearPoints(model, state, k, margin, manifold, report);
+  addContacts(model, state.near[k], manifold, contacts);
 }
 
 }  // namespace tumble

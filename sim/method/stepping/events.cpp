@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-bool sooner(const Contact& p, const Contact& q) {
+bool sooner(const LastingPair& p, const LastingPair& q) {
   return std::pair(p.b, p.a) < std::pair(q.b, q.a);
 }
 
@@ -57,7 +57,7 @@ void Stepping::recordEvents(double t) {
       touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
       touch.arrivalSpeed = arriving ? touch.approach : 0.0;
     }
-    if (lasting) work_.lasting.push_back(*lasting);
+    if (lasting) work_.lasting.push_back(lastingPair(*lasting));
   }
   if (allKept_) return;
   std::swap(work_.lasting, memory_.lasting);
@@ -66,13 +66,12 @@ void Stepping::recordEvents(double t) {
 }
 
 /// Both lists have one contact of a pair, in order of pairs.
-void Stepping::recordLasting(const std::vector<Contact>& before, double t) {
-  const auto tell = [&](EventKind kind, const Contact& c) {
-    report_.events.push_back(
-        {.t = t, .kind = kind, .a = c.a, .b = c.b, .p = c.point.p, .n = c.point.n});
+void Stepping::recordLasting(const std::vector<LastingPair>& before, double t) {
+  const auto tell = [&](EventKind kind, const LastingPair& c) {
+    report_.events.push_back({.t = t, .kind = kind, .a = c.a, .b = c.b, .p = c.p, .n = c.n});
   };
   auto old = before.begin();
-  for (const Contact& c : memory_.lasting) {
+  for (const LastingPair& c : memory_.lasting) {
     for (; old != before.end() && sooner(*old, c); ++old) tell(EventKind::Separate, *old);
     const bool known = old != before.end() && !sooner(c, *old);
     if (!known) tell(EventKind::Rest, c);

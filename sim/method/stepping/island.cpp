@@ -19,12 +19,7 @@ std::pair<int, int> Stepping::ends(Link link) const {
 
 void Stepping::solveIslands(double h) {
   const std::size_t n = state_.bodies.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const RigidBody& body = state_.bodies[i];
-    work_.star[i] = work_.before[i];
-    if (!body.fixed())
-      work_.star[i] << body.v + h * body.invM * body.force, body.Iinv * (body.L + h * body.torque);
-  }
+  foreseeTwists(h);
   work_.after = work_.star;
   work_.bonds.clear();
   if (!model_.joints.empty()) stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
@@ -37,6 +32,17 @@ void Stepping::solveIslands(double h) {
     solveIsland(std::span(work_.order).subspan(work_.begin[i], work_.begin[i + 1] - work_.begin[i]),
                 h);
   if (!model_.joints.empty()) bookJoints(h);
+}
+
+[[gnu::flatten]] void Stepping::foreseeTwists(double h) {
+  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+    const RigidBody& body = state_.bodies[i];
+    Vec6& star = work_.star[i];
+    star = work_.before[i];
+    if (body.fixed()) continue;
+    star.head<3>() = body.v + h * body.invM * body.force;
+    star.tail<3>() = body.Iinv * (body.L + h * body.torque);
+  }
 }
 
 void Stepping::partBodies() {
@@ -63,31 +69,31 @@ void Stepping::groupLinks(double h) {
   };
   const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
   partBodies();
+  work_.island.assign(count, -1);
   for (Link link = 0; link < count; ++link) {
+    if (!joins(link)) continue;
     const auto [b, a] = ends(link);
-    if (joins(link)) joinBodies(a, b);
+    joinBodies(a, b);
+    work_.island[link] = fixed(a) ? b : a;
   }
   // Count, then place: `work_.local` numbers the islands for a moment.
   work_.local.assign(world + 1, -1);
   work_.begin.assign(1, 0);
-  const auto islandOf = [&](Link link) -> int& {
-    const auto [b, a] = ends(link);
-    return work_.local[islandRoot(work_.root, fixed(a) ? b : a)];
-  };
-  for (Link link = 0; link < count; ++link) {
-    if (!joins(link)) continue;
-    int& island = islandOf(link);
-    if (island < 0) {
-      island = static_cast<int>(work_.begin.size()) - 1;
+  for (int& island : work_.island) {
+    if (island < 0) continue;
+    int& number = work_.local[islandRoot(work_.root, island)];
+    if (number < 0) {
+      number = static_cast<int>(work_.begin.size()) - 1;
       work_.begin.push_back(0);
     }
+    island = number;
     ++work_.begin[island + 1];
   }
   std::partial_sum(work_.begin.begin(), work_.begin.end(), work_.begin.begin());
   work_.order.resize(work_.begin.back());
   work_.movers.assign(work_.begin.begin(), work_.begin.end());
   for (Link link = 0; link < count; ++link)
-    if (joins(link)) work_.order[work_.movers[islandOf(link)]++] = link;
+    if (work_.island[link] >= 0) work_.order[work_.movers[work_.island[link]]++] = link;
   std::fill(work_.local.begin(), work_.local.end(), -1);
 }
 
@@ -214,7 +220,7 @@ int Stepping::localOf(int body) {
   return work_.local[body];
 }
 
-void Stepping::build(std::span<const Link> links, double h) {
+[[gnu::flatten]] void Stepping::build(std::span<const Link> links, double h) {
   work_.problem.invM.clear();
   work_.problem.Iinv.clear();
   work_.problem.vStar.clear();
@@ -238,17 +244,24 @@ void Stepping::build(std::span<const Link> links, double h) {
   }
 }
 
-void Stepping::addRow(Row row) {
-  row.a = localOf(row.a);
-  row.b = localOf(row.b);
-  work_.problem.rows.push_back(row);
+/// Adds a row between bodies of the world as one between bodies of the island.
+Row& Stepping::addRow(const Row& row) {
+  Row& added = work_.problem.rows.emplace_back(row);
+  added.a = localOf(row.a);
+  added.b = localOf(row.b);
+  return added;
 }
 
 /// Adds a point of a pair, of which all points touch or not.
 void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const Contact& contact = touch.contact;
   const ContactPoint& c = contact.point;
-  Row normal = pointRow(state_.bodies, contact.a, contact.b, c.p, c.n, 0.0);
+  const auto addAlong = [&](const Vec3& d) -> Row& {
+    return addRow(pointRow(state_.bodies, contact.a, contact.b, c.p, d, 0.0));
+  };
+  Cone& cone = work_.problem.cones.emplace_back(
+      Cone{.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});
+  Row& normal = addAlong(c.n);
 
   // A gap may be closed by the end of the step and no further. Gaps of one face go together: all
   // are as found, or, where all touch, none is left of them.
@@ -258,21 +271,16 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
   normal.bias = gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
 
-  Cone cone{.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())};
-  addRow(normal);
-  if (contact.friction > 0.0) {
-    cone.kind = ConeKind::Friction;
-    cone.mu = contact.friction;
-    Vec3 t1, t2;
-    tangents(c.n, slipVelocity(state_.bodies[contact.a], state_.bodies[contact.b], c), t1, t2);
-    for (const Vec3& t : {t1, t2})
-      addRow(pointRow(state_.bodies, contact.a, contact.b, c.p, t, 0.0));
-  }
-  work_.problem.cones.push_back(cone);
+  if (contact.friction <= 0.0) return;
+  cone.kind = ConeKind::Friction;
+  cone.mu = contact.friction;
+  Vec3 t1, t2;
+  tangents(c.n, slipVelocity(state_.bodies[contact.a], state_.bodies[contact.b], c), t1, t2);
+  for (const Vec3& t : {t1, t2}) addAlong(t);
 }
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
-void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
+[[gnu::flatten]] void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
   memory.bodies = work_.movers;
   memory.looks.clear();
   memory.forms.clear();

@@ -34,6 +34,16 @@ struct PairMemory {
   std::vector<Touch> touches;
 };
 
+/// The first lasting contact of a pair that has one.
+struct LastingPair {
+  int a = 0, b = 0;
+  bool sliding = false;
+  Vec3 p = Vec3::Zero(), n = Vec3::UnitY();  ///< of its point
+};
+inline LastingPair lastingPair(const Contact& c) {
+  return {.a = c.a, .b = c.b, .sliding = c.sliding, .p = c.point.p, .n = c.point.n};
+}
+
 /// Sums over the contacts of an island in one step, for the books.
 struct IslandBooks {
   double lostImpact = 0.0, lostFriction = 0.0, work = 0.0;  ///< [J]
@@ -57,11 +67,12 @@ struct SteppingWork {
   std::vector<Aabb> boxes;
   std::vector<std::pair<int, int>> near;
   std::vector<PairMemory> passed;
-  std::vector<Contact> found;
+  Manifold found;
   std::vector<int> crossing;              ///< pairs that may meet at a seam
   std::vector<std::vector<int>> holders;  ///< per body: the pairs that touch and may hold it
   Bonds bonds;                            ///< rows of joints
   std::vector<int> root, order, begin;    ///< of islands: forest of bodies; links by island
+  std::vector<int> island;                ///< per link: its island; < 0: it joins nothing now
   std::vector<char> open;                 ///< per root: an overlap in its island
   std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
   std::vector<int> movers;
@@ -74,13 +85,13 @@ struct SteppingWork {
   std::vector<char> touched;  ///< per body: a contact pushed it in this step
   std::vector<char> held;     ///< per body: it moves, and a contact or joint acts on it
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
-  std::vector<Contact> lasting;
+  std::vector<LastingPair> lasting;
 };
 
 struct SteppingMemory {
   std::vector<PairMemory> pairs;      ///< as State::near
   std::vector<IslandMemory> islands;  ///< by the first of their bodies
-  std::vector<Contact> lasting;       ///< the first lasting contact of each pair that has one
+  std::vector<LastingPair> lasting;   ///< of the step before, in order of pairs
   int parts = 1;                      ///< equal ones that the next step is made in
   Swing swing;                        ///< the fastest in joints
   SteppingWork work;

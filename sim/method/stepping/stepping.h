@@ -48,7 +48,7 @@ class Stepping {
   double marginOf(std::size_t pair, double h) const;
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
-  void matchFeatures(PairMemory& memory);
+  void matchFeatures(PairMemory& memory, std::pair<int, int> pair);
 
   // seams.cpp: what a third body keeps apart.
   bool closed(const Touch& touch) const;
@@ -79,6 +79,8 @@ class Stepping {
 
   // island.cpp: the contact problem of each island.
   void solveIslands(double h);
+  /// The velocities at the end of the step, were there nothing to touch or hold.
+  void foreseeTwists(double h);
   void groupLinks(double h);
   /// The forest of islands: each body alone, and two bodies that something joins as one.
   void partBodies();
@@ -94,7 +96,7 @@ class Stepping {
   void stretch(IslandMemory& memory, std::span<const Link> links, double h);
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);
-  void addRow(Row row);
+  Row& addRow(const Row& row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
   int localOf(int body);
@@ -132,7 +134,7 @@ class Stepping {
   // events.cpp
   void recordEvents(double t);
   void recordImpact(double t, const PairMemory& pair);
-  void recordLasting(const std::vector<Contact>& before, double t);
+  void recordLasting(const std::vector<LastingPair>& before, double t);
   bool arrives(const Touch& touch) const;
   /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
   double landingSpeed() const;

@@ -51,7 +51,7 @@ void Stepping::findNear(double h) {
 
 /// As far [m] as the two surfaces can come towards each other within the step, and no less than
 /// what the projection wants to see; rounded up to a power of two, so that it seldom changes.
-double Stepping::marginOf(std::size_t pair, double h) const {
+[[gnu::flatten]] double Stepping::marginOf(std::size_t pair, double h) const {
   constexpr double kNeighbour = 1e-4;
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &b = state_.bodies[ib], &a = state_.bodies[ia];
@@ -62,10 +62,11 @@ double Stepping::marginOf(std::size_t pair, double h) const {
     if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
   }
   const double margin = std::max(kNeighbour, h * speed + 2.0 * g * h * h + tolerance_.touch);
-  return std::exp2(std::ceil(std::log2(margin)));
+  const double below = std::ldexp(1.0, std::ilogb(margin));
+  return below < margin ? 2.0 * below : below;
 }
 
-void Stepping::look(std::size_t pair, double margin) {
+[[gnu::flatten]] void Stepping::look(std::size_t pair, double margin) {
   PairMemory& memory = memory_.pairs[pair];
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
@@ -73,8 +74,7 @@ void Stepping::look(std::size_t pair, double margin) {
   if (memory.margin == margin && samePose(memory.poseA, poseA, model_.size) &&
       samePose(memory.poseB, poseB, model_.size))
     return;
-  work_.found.clear();
-  findNearContacts(model_, state_, pair, margin, work_.found, report_);
+  findNearPoints(model_, state_, pair, margin, work_.found, report_);
   const bool hadNone = memory.touches.empty() && memory.margin >= 0.0;
   memory.poseA = poseA;
   memory.poseB = poseB;
@@ -83,40 +83,43 @@ void Stepping::look(std::size_t pair, double margin) {
   if (work_.found.empty() && hadNone) return;  // still nothing
 
   memory.look = ++memory_.looks;
-  memory.bounces = !work_.found.empty() && work_.found.front().restitution > 0.0;
   const bool sameForm =
       std::equal(memory.touches.begin(), memory.touches.end(), work_.found.begin(),
-                 work_.found.end(), [&](const Touch& touch, const Contact& contact) {
-                   return touch.contact.point.feature == contact.point.feature &&
-                          closed(touch) == (contact.point.separation <= tolerance_.touch);
+                 work_.found.end(), [&](const Touch& touch, const ContactPoint& point) {
+                   return touch.contact.point.feature == point.feature &&
+                          closed(touch) == (point.separation <= tolerance_.touch);
                  });
   if (!sameForm) {
     memory.form = memory.look;
-    matchFeatures(memory);
+    matchFeatures(memory, state_.near[pair]);
   }
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
     Contact& contact = memory.touches[i].contact;
-    const Vec3 force = contact.force;
-    const bool lasting = contact.lasting, sliding = contact.sliding;
-    contact = work_.found[i];
+    contact.point = work_.found[i];
     contact.anchor = anchorOf(a, b, contact.point);
-    contact.force = force;
-    contact.lasting = lasting;
-    contact.sliding = sliding;
     memory.deepest = std::max(memory.deepest, -contact.point.separation);
   }
 }
 
 /// Makes as many touches as were found. Hits under way go on where the same features touch.
-void Stepping::matchFeatures(PairMemory& memory) {
+void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
   thread_local std::vector<Touch> old;
   old.clear();
   for (const Touch& touch : memory.touches)
     if (touch.arrivalSpeed > 0.0) old.push_back(touch);
-  memory.touches.assign(work_.found.size(), Touch{});
+  Touch fresh;
+  fresh.contact.a = pair.second;
+  fresh.contact.b = pair.first;
+  if (!work_.found.empty()) {
+    const Surface surface = model_.surface(pair.second, pair.first);
+    fresh.contact.restitution = surface.restitution;
+    fresh.contact.friction = surface.friction;
+  }
+  memory.bounces = fresh.contact.restitution > 0.0;
+  memory.touches.assign(work_.found.size(), fresh);
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
     for (const Touch& before : old) {
-      if (before.contact.point.feature != work_.found[i].point.feature) continue;
+      if (before.contact.point.feature != work_.found[i].feature) continue;
       memory.touches[i].arrivalSpeed = before.arrivalSpeed;
       memory.touches[i].arrivalImpulse = before.arrivalImpulse;
     }
