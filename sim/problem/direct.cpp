@@ -10,6 +10,7 @@
 #include "sim/problem/cone.h"
 #include "sim/problem/delassus.h"
 #include "sim/problem/friction_block.h"
+#include "sim/problem/row.h"
 
 namespace tumble {
 namespace {
@@ -24,19 +25,32 @@ std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
   return yield;
 }
 
-/// λ of one contact without friction:  λ = −u/W  where u < 0.
-[[gnu::flatten]] double pushOf(const Problem& problem) {
+/// One contact without friction, λ = −u/W where u < 0: λ, v and the residual that they leave.
+[[gnu::flatten]] double solvePush(const Problem& problem, Solution& found) {
   const Row& row = problem.rows[problem.cones[0].row];
-  const double u = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]) + row.bias;
-  if (u >= 0.0) return 0.0;
-  const auto [a, b] = yieldTo(problem, row);
-  return -u / rowSpeed(row, a, b);
+  const double u = rowVelocity(row, problem.vStar), terms = termsOf(row, problem.vStar);
+  const Vec3 turnA = problem.Iinv[row.a] * row.angularA, turnB = problem.Iinv[row.b] * row.angularB;
+  const Vec3 moveA = problem.invM[row.a] * row.linear, moveB = -problem.invM[row.b] * row.linear;
+  const double W =
+      row.linear.dot(moveA - moveB) + row.angularA.dot(turnA) + row.angularB.dot(turnB);
+  const double lambda = u >= 0.0 ? 0.0 : -u / W;
+
+  found.lambda.assign(1, lambda);
+  found.v = problem.vStar;
+  const auto push = [&](int body, const Vec3& linear, const Vec3& angular) {
+    const Vec3 turn = problem.Iinv[body] * angular;
+    found.v[body].head<3>() += problem.invM[body] * linear;
+    found.v[body].tail<3>() += turn;
+  };
+  push(row.a, lambda * row.linear, lambda * row.angularA);
+  push(row.b, -lambda * row.linear, lambda * row.angularB);
+  const double left = rowVelocity(row, found.v), rho = W > 0.0 ? 1.0 / W : 1.0;
+  return coneResidual(problem.cones[0], &lambda, &left, rho) / velocityScale(std::abs(u), terms);
 }
 
-/// λ of one contact: solveFrictionBlock finds it where there is friction.
-[[gnu::flatten]] void solveContact(const Problem& problem, std::vector<double>& found) {
+/// λ of one contact with friction: solveFrictionBlock finds it.
+[[gnu::flatten]] void solveFriction(const Problem& problem, std::vector<double>& found) {
   const Cone& cone = problem.cones[0];
-  if (cone.kind == ConeKind::Push) return found.assign(1, pushOf(problem));
   Mat3 W;
   Vec3 c;
   for (int j = 0; j < 3; ++j) {
@@ -97,19 +111,24 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
   return true;
 }
 
-/// λ, where the problem is one of those that need no search.
-bool findForces(const Problem& problem, std::vector<double>& found) {
+/// λ and v, where the problem is one of those that need no search; and @return the residual.
+std::optional<double> solveAtOnce(const Problem& problem, Solution& found) {
   constexpr std::size_t kMostRows = 300;  // sparse factors are faster beyond
   const auto is = [&](ConeKind kind) {
     return std::all_of(problem.cones.begin(), problem.cones.end(),
                        [&](const Cone& cone) { return cone.kind == kind; });
   };
-  if (problem.cones.size() == 1 && (is(ConeKind::Push) || is(ConeKind::Friction))) {
-    solveContact(problem, found);
-    return true;
-  }
+  const bool one = problem.cones.size() == 1;
   const bool few = !problem.cones.empty() && problem.rows.size() <= kMostRows;
-  return few && is(ConeKind::Equality) && solveEqualities(problem, found);
+  if (one && is(ConeKind::Push)) return solvePush(problem, found);
+  if (one && is(ConeKind::Friction)) {
+    solveFriction(problem, found.lambda);
+  } else if (!few || !is(ConeKind::Equality) || !solveEqualities(problem, found.lambda)) {
+    return std::nullopt;
+  }
+  found.v.resize(problem.vStar.size());
+  velocitiesFromLambda(problem, found.lambda, found.v);
+  return naturalResidual(problem, found);
 }
 
 }  // namespace
@@ -117,14 +136,12 @@ bool findForces(const Problem& problem, std::vector<double>& found) {
 std::optional<SolveReport> solveDirect(const Problem& problem, double tolerance,
                                        Solution& solution) {
   thread_local Solution found;  // keeps its storage from call to call
-  if (!findForces(problem, found.lambda)) return std::nullopt;
-  found.v.resize(problem.vStar.size());
-  velocitiesFromLambda(problem, found.lambda, found.v);
-  SolveReport report;
-  report.residual = naturalResidual(problem, found);
-  if (!(report.residual <= tolerance) && !atRounding(problem, found, report.residual))
+  const std::optional<double> residual = solveAtOnce(problem, found);
+  if (!residual || (!(*residual <= tolerance) && !atRounding(problem, found, *residual)))
     return std::nullopt;
   std::swap(solution, found);
+  SolveReport report;
+  report.residual = *residual;
   return report;
 }
 

@@ -5,30 +5,9 @@
 #include <limits>
 
 #include "sim/problem/cone.h"
+#include "sim/problem/row.h"
 
 namespace tumble {
-namespace {
-
-double rowVelocity(const Row& row, std::span<const Vec6> v) {
-  return rowSpeed(row, v[row.a], v[row.b]) + row.bias;
-}
-
-/// Diagonal entry of J M⁻¹ Jᵀ: how much u of the row changes per unit of its λ.
-double rowMobility(const Problem& problem, const Row& row) {
-  return (problem.invM[row.a] + problem.invM[row.b]) * row.linear.squaredNorm() +
-         row.angularA.dot(problem.Iinv[row.a] * row.angularA) +
-         row.angularB.dot(problem.Iinv[row.b] * row.angularB);
-}
-
-/// Sum of the sizes of all terms of J v + bias of one row.
-double termsOf(const Row& row, std::span<const Vec6> v) {
-  const Vec6 a = v[row.a].cwiseAbs(), b = v[row.b].cwiseAbs();
-  return row.linear.cwiseAbs().dot(a.head<3>() + b.head<3>()) +
-         row.angularA.cwiseAbs().dot(a.tail<3>()) + row.angularB.cwiseAbs().dot(b.tail<3>()) +
-         std::abs(row.bias);
-}
-
-}  // namespace
 
 void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<double> u) {
   for (std::size_t i = 0; i < problem.rows.size(); ++i) u[i] = rowVelocity(problem.rows[i], v);
@@ -53,14 +32,12 @@ void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<do
 }
 
 [[gnu::flatten]] double velocityScale(const Problem& problem) {
-  constexpr double kNothing = 1e8 * std::numeric_limits<double>::epsilon();
   double largest = 0.0, terms = 0.0;
   for (const Row& row : problem.rows) {
     largest = std::max(largest, std::abs(rowVelocity(row, problem.vStar)));
     terms = std::max(terms, termsOf(row, problem.vStar));
   }
-  largest = std::max(largest, kNothing * terms);
-  return largest > 0.0 ? largest : 1.0;
+  return velocityScale(largest, terms);
 }
 
 double naturalResidual(const Problem& problem, const Solution& solution) {
