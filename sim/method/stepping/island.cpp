@@ -212,7 +212,10 @@ int Stepping::localOf(int body) {
     work_.local[body] = static_cast<int>(work_.problem.invM.size());
     const bool world = body == static_cast<int>(state_.bodies.size());
     work_.problem.invM.push_back(world ? 0.0 : state_.bodies[body].invM);
-    work_.problem.Iinv.push_back(world ? Mat3(Mat3::Zero()) : state_.bodies[body].Iinv);
+    if (world)
+      work_.problem.Iinv.push_back(Mat3::Zero());
+    else
+      work_.problem.Iinv.push_back(state_.bodies[body].Iinv);
     work_.problem.vStar.push_back(work_.star[body]);
     work_.solution.v.push_back(work_.before[body]);
     work_.bodies.push_back(body);
@@ -312,36 +315,40 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
 
 void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h) {
   Contact& contact = touch.contact;
-  touch.impulse.setZero();
+  const bool fixedA = model_.fixed(contact.a), fixedB = model_.fixed(contact.b);
+  Vec3 impulse = Vec3::Zero();
   for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
     const Row& row = work_.problem.rows[r];
     const double lambda = work_.solution.lambda[r];
-    touch.impulse += lambda * row.linear;
+    impulse += lambda * row.linear;
     // Work over the step is λ times the mean of the velocities before and after.
     const Vec6 a = 0.5 * (work_.before[contact.a] + work_.solution.v[row.a]);
     const Vec6 b = 0.5 * (work_.before[contact.b] + work_.solution.v[row.b]);
     const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
     const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
     (r == cone.row ? books.lostImpact : books.lostFriction) -= lambda * (ofA + ofB);
-    if (model_.fixed(contact.a)) books.work -= lambda * ofA;
-    if (model_.fixed(contact.b)) books.work -= lambda * ofB;
+    if (fixedA) books.work -= lambda * ofA;
+    if (fixedB) books.work -= lambda * ofB;
   }
-  if (model_.fixed(contact.b)) books.external += touch.impulse;
-  if (model_.fixed(contact.a)) books.external -= touch.impulse;
-  contact.force = touch.impulse / h;
-
-  const double j = touch.impulse.dot(contact.point.n);
-  const Vec3 tangential = touch.impulse - j * contact.point.n;
-  const Row& first = work_.problem.rows[cone.row];
-  const Vec6 &va = work_.solution.v[first.a], &vb = work_.solution.v[first.b];
-  const Vec3 rate = va.head<3>() +
-                    va.tail<3>().cross(contact.point.p - state_.bodies[contact.a].x) -
-                    vb.head<3>() - vb.tail<3>().cross(contact.point.p - state_.bodies[contact.b].x);
-  const Vec3 slip = rate - rate.dot(contact.point.n) * contact.point.n;
-  contact.sliding = contact.friction > 0.0 &&
-                    tangential.norm() >= contact.friction * j * (1.0 - 1e-9) &&
-                    slip.norm() > tolerance_.stick;
+  if (fixedB) books.external += impulse;
+  if (fixedA) books.external -= impulse;
+  touch.impulse = impulse;
+  contact.force = impulse / h;
+  contact.sliding = contact.friction > 0.0 && slides(touch, work_.problem.rows[cone.row]);
   contact.lasting = !arrives(touch);
+}
+
+/// Whether the friction of a touch is all that its cone gives, and its bodies slip.
+bool Stepping::slides(const Touch& touch, const Row& row) const {
+  const Contact& contact = touch.contact;
+  const ContactPoint& c = contact.point;
+  const double j = touch.impulse.dot(c.n);
+  const Vec3 tangential = touch.impulse - j * c.n;
+  const Vec6 &va = work_.solution.v[row.a], &vb = work_.solution.v[row.b];
+  const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[contact.a].x) -
+                    vb.head<3>() - vb.tail<3>().cross(c.p - state_.bodies[contact.b].x);
+  const Vec3 slip = rate - rate.dot(c.n) * c.n;
+  return tangential.norm() >= contact.friction * j * (1.0 - 1e-9) && slip.norm() > tolerance_.stick;
 }
 
 }  // namespace tumble

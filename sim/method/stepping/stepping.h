@@ -99,6 +99,7 @@ class Stepping {
   Row& addRow(const Row& row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
+  bool slides(const Touch& touch, const Row& row) const;
   int localOf(int body);
 
   // joined.cpp
