@@ -17,7 +17,9 @@ bool Stepping::arrives(const Touch& touch) const {
 }
 
 /// What began as an arrival is told when it has arrived, with all that it got.
-void Stepping::recordImpact(double t, const PairMemory& pair) {
+void Stepping::recordImpact(double t, const PairMemory& pair, double landing) {
+  const auto lands = [&](const Touch& touch) { return -touch.approach < landing; };
+  if (std::none_of(pair.touches.begin(), pair.touches.end(), lands)) return;
   Event event{.t = t, .kind = EventKind::Impact};
   event.p.setZero();
   for (const Touch& touch : pair.touches) {
@@ -33,7 +35,7 @@ void Stepping::recordImpact(double t, const PairMemory& pair) {
     event.j += j;
     event.vrel = std::min(event.vrel, -touch.approach);
   }
-  if (event.vrel >= landingSpeed()) return;
+  if (event.vrel >= landing) return;
   event.p /= event.j;
   report_.events.push_back(event);
 }
@@ -41,11 +43,12 @@ void Stepping::recordImpact(double t, const PairMemory& pair) {
 void Stepping::recordEvents(double t) {
   Segment& segment = state_.trail.back();
   const std::size_t firstEvent = report_.events.size();
+  const double landing = landingSpeed();
   work_.lasting.clear();
   segment.contacts.clear();
   for (PairMemory& pair : memory_.pairs) {
     const Contact* lasting = nullptr;
-    if (!allKept_) recordImpact(t, pair);
+    if (!allKept_) recordImpact(t, pair, landing);
     for (Touch& touch : pair.touches) {
       const double j = touch.impulse.dot(touch.contact.point.n);
       if (j > 0.0) {
@@ -83,7 +86,7 @@ void Stepping::recordLasting(const std::vector<LastingPair>& before, double t) {
 }
 
 double Stepping::landingSpeed() const {
-  return -2.0 * model_.def.gravity.norm() * model_.def.stepping.step;
+  return -2.0 * gravity_ * model_.def.stepping.step;
 }
 
 }  // namespace tumble

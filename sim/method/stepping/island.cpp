@@ -58,7 +58,7 @@ void Stepping::joinBodies(int a, int b) {
 }
 
 /// Deals what joins bodies out to islands, in the order of their first links.
-void Stepping::groupLinks(double h) {
+[[gnu::flatten]] void Stepping::groupLinks(double h) {
   const int count = static_cast<int>(state_.near.size() + work_.bonds.rows.size());
   const int world = static_cast<int>(state_.bodies.size());
   const auto joins = [&](Link link) {
@@ -175,7 +175,7 @@ void Stepping::swing(std::span<const Link> links, double h) {
   }
 }
 
-void Stepping::solveIsland(std::span<const Link> links, double h) {
+[[gnu::flatten]] void Stepping::solveIsland(std::span<const Link> links, double h) {
   Certificate& certificate = report_.certificate;
   collectBodies(links);
   if (work_.movers.empty()) return;
@@ -223,7 +223,7 @@ int Stepping::localOf(int body) {
   return work_.local[body];
 }
 
-[[gnu::flatten]] void Stepping::build(std::span<const Link> links, double h) {
+void Stepping::build(std::span<const Link> links, double h) {
   work_.problem.invM.clear();
   work_.problem.Iinv.clear();
   work_.problem.vStar.clear();
@@ -283,7 +283,7 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
 }
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
-[[gnu::flatten]] void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
+void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
   memory.bodies = work_.movers;
   memory.looks.clear();
   memory.forms.clear();

@@ -32,6 +32,7 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       memory_(state.stepping),
       work_(state.stepping.work),
       tolerance_(ContactTolerance::forSize(model.size)),
+      gravity_(model.def.gravity.norm()),
       solver_(*findSolver(model.def.stepping.solver)) {}
 
 bool Stepping::finite() const {
@@ -112,7 +113,10 @@ void Stepping::beginSegment(double t1) {
   work_.star.resize(n + 1);
   work_.before[n].setZero();
   work_.star[n].setZero();
-  for (std::size_t i = 0; i < n; ++i) work_.before[i] << state_.bodies[i].v, state_.bodies[i].omega;
+  for (std::size_t i = 0; i < n; ++i) {
+    work_.before[i].head<3>() = state_.bodies[i].v;
+    work_.before[i].tail<3>() = state_.bodies[i].omega;
+  }
 }
 
 void Stepping::endSegment(double t1) {
@@ -125,7 +129,7 @@ void Stepping::endSegment(double t1) {
 }
 
 /// Momenta at the end of the step: those of the forces, and what contacts changed.
-void Stepping::applyTwists(double h) {
+[[gnu::flatten]] void Stepping::applyTwists(double h) {
   Certificate& books = report_.certificate;
   const double powerBefore = powerOfForces(model_.def.forces, state_.bodies);
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
@@ -136,8 +140,10 @@ void Stepping::applyTwists(double h) {
     state_.externalImpulse += h * body.force;
     if (work_.touched[i]) {
       const Vec6 change = work_.after[i] - work_.star[i];
+      const Vec3 turn = change.tail<3>();
       body.P += body.M * change.head<3>();
-      if (!body.particle) body.L += body.R * (body.Ibody * (body.R.transpose() * change.tail<3>()));
+      if (!body.particle && !turn.isZero(0.0))
+        body.L += body.R * (body.Ibody * (body.R.transpose() * turn));
     }
     updateVelocities(body);
   }
@@ -165,9 +171,9 @@ void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {
 void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
   constexpr double kTurn = 0.05;  // [rad]
   constexpr int kMostTurns = 1000;
+  if (body.particle || L.isZero(0.0)) return body.q.normalize();
   const double turns = std::min(std::ceil(h * body.omega.norm() / kTurn), double{kMostTurns});
   const double part = h / std::max(1.0, turns);
-  if (body.particle || L.isZero(0.0)) return body.q.normalize();
   for (int k = 0; k < std::max(1.0, turns); ++k) {
     const Vec3 first = k == 0 ? Vec3(body.Iinv * L) : angularVelocityAt(body, body.q, L);
     const Quat middle = rotated(body.q, 0.5 * part * first);
@@ -175,7 +181,7 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
   }
 }
 
-void Stepping::moveBodies(double h) {
+[[gnu::flatten]] void Stepping::moveBodies(double h) {
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
     if (body.fixed() && body.v.isZero(0.0) && body.omega.isZero(0.0)) continue;

@@ -44,7 +44,8 @@ class Stepping {
 
   // touching.cpp: which pairs are near, and where they touch.
   void findTouching(double h);
-  void findNear(double h);
+  /// @return whether other pairs are near than before.
+  bool findNear(double h);
   double marginOf(std::size_t pair, double h) const;
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
@@ -134,7 +135,7 @@ class Stepping {
 
   // events.cpp
   void recordEvents(double t);
-  void recordImpact(double t, const PairMemory& pair);
+  void recordImpact(double t, const PairMemory& pair, double landing);
   void recordLasting(const std::vector<LastingPair>& before, double t);
   bool arrives(const Touch& touch) const;
   /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
@@ -146,6 +147,7 @@ class Stepping {
   SteppingMemory& memory_;
   SteppingWork& work_;  ///< empty of meaning between steps
   ContactTolerance tolerance_;
+  double gravity_;  ///< [m/s²] its size
   const Solver& solver_;
 
   bool allKept_ = false;

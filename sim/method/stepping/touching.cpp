@@ -17,21 +17,20 @@ bool samePose(const Pose& p, const Pose& q, double size) {
 }  // namespace
 
 void Stepping::findTouching(double h) {
-  findNear(h);
-  if (stopAtUnknownPair(model_, state_.near, report_)) return;
+  if (findNear(h) && stopAtUnknownPair(model_, state_.near, report_)) return;
   for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, marginOf(k, h));
   leaveSeams();
 }
 
-void Stepping::findNear(double h) {
-  sweptBoxes(model_, state_.bodies, h, model_.def.gravity.norm(), tolerance_.touch, work_.boxes);
+bool Stepping::findNear(double h) {
+  sweptBoxes(model_, state_.bodies, h, gravity_, tolerance_.touch, work_.boxes);
   state_.broadPhase.update(work_.boxes);
   work_.near.clear();
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];
     if (model_.mayTouch(a, b)) work_.near.emplace_back(b, a);
   }
-  if (work_.near == state_.near && memory_.pairs.size() == work_.near.size()) return;
+  if (work_.near == state_.near && memory_.pairs.size() == work_.near.size()) return false;
 
   // What is known of pairs that stay goes with them. Both lists are sorted.
   work_.passed.clear();
@@ -47,6 +46,7 @@ void Stepping::findNear(double h) {
   std::swap(state_.near, work_.near);
   std::swap(memory_.pairs, work_.passed);
   std::swap(state_.witnesses, witnesses);
+  return true;
 }
 
 /// As far [m] as the two surfaces can come towards each other within the step, and no less than
@@ -55,13 +55,12 @@ void Stepping::findNear(double h) {
   constexpr double kNeighbour = 1e-4;
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &b = state_.bodies[ib], &a = state_.bodies[ia];
-  const double g = model_.def.gravity.norm();
   double speed = (a.v - b.v).norm();
   for (int i : {ib, ia}) {
     const double radius = boundingRadius(model_.shapes[i]);
     if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
   }
-  const double margin = std::max(kNeighbour, h * speed + 2.0 * g * h * h + tolerance_.touch);
+  const double margin = std::max(kNeighbour, h * speed + 2.0 * gravity_ * h * h + tolerance_.touch);
   const double below = std::ldexp(1.0, std::ilogb(margin));
   return below < margin ? 2.0 * below : below;
 }
