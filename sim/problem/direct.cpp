@@ -26,7 +26,7 @@ std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
 }
 
 /// One contact without friction, λ = −u/W where u < 0: λ, v and the residual that they leave.
-[[gnu::flatten]] double solvePush(const Problem& problem, Solution& found) {
+[[gnu::flatten]] SolveReport solvePush(const Problem& problem, Solution& found) {
   const Row& row = problem.rows[problem.cones[0].row];
   const double u = rowVelocity(row, problem.vStar), terms = termsOf(row, problem.vStar);
   const Vec3 turnA = problem.Iinv[row.a] * row.angularA, turnB = problem.Iinv[row.b] * row.angularB;
@@ -45,7 +45,9 @@ std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
   push(row.a, lambda * row.linear, lambda * row.angularA);
   push(row.b, -lambda * row.linear, lambda * row.angularB);
   const double left = rowVelocity(row, found.v), rho = W > 0.0 ? 1.0 / W : 1.0;
-  return coneResidual(problem.cones[0], &lambda, &left, rho) / velocityScale(std::abs(u), terms);
+  SolveReport report{.scale = velocityScale(std::abs(u), terms)};
+  report.residual = coneResidual(problem.cones[0], &lambda, &left, rho) / report.scale;
+  return report;
 }
 
 /// λ of one contact with friction: solveFrictionBlock finds it.
@@ -111,8 +113,8 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
   return true;
 }
 
-/// λ and v, where the problem is one of those that need no search; and @return the residual.
-std::optional<double> solveAtOnce(const Problem& problem, Solution& found) {
+/// λ and v, where the problem is one of those that need no search, whatever residual they leave.
+std::optional<SolveReport> solveAtOnce(const Problem& problem, Solution& found) {
   constexpr std::size_t kMostRows = 300;  // sparse factors are faster beyond
   const auto is = [&](ConeKind kind) {
     return std::all_of(problem.cones.begin(), problem.cones.end(),
@@ -128,7 +130,9 @@ std::optional<double> solveAtOnce(const Problem& problem, Solution& found) {
   }
   found.v.resize(problem.vStar.size());
   velocitiesFromLambda(problem, found.lambda, found.v);
-  return naturalResidual(problem, found);
+  SolveReport report{.scale = velocityScale(problem)};
+  report.residual = naturalResidual(problem, found, report.scale);
+  return report;
 }
 
 }  // namespace
@@ -136,12 +140,11 @@ std::optional<double> solveAtOnce(const Problem& problem, Solution& found) {
 std::optional<SolveReport> solveDirect(const Problem& problem, double tolerance,
                                        Solution& solution) {
   thread_local Solution found;  // keeps its storage from call to call
-  const std::optional<double> residual = solveAtOnce(problem, found);
-  if (!residual || (!(*residual <= tolerance) && !atRounding(problem, found, *residual)))
+  const std::optional<SolveReport> report = solveAtOnce(problem, found);
+  if (!report) return std::nullopt;
+  if (!(report->residual <= tolerance) && !atRounding(problem, found, report->residual))
     return std::nullopt;
   std::swap(solution, found);
-  SolveReport report;
-  report.residual = *residual;
   return report;
 }
 

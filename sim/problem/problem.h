@@ -64,6 +64,7 @@ struct SolveReport {
   int iterations = 0;  ///< sweeps, pivots or factorizations
   double balance = 0.0;  ///< largest entry of M (v − vStar) − Jᵀ λ, over the sum of the sizes of
                          ///< the terms of its body; 0 where v is what λ gives
+  double scale = 0.0;  ///< velocityScale of the problem, where the solver asked for it; else 0
 };
 
 struct SolveSettings {

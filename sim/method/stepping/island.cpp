@@ -193,6 +193,7 @@ void Stepping::swing(std::span<const Link> links, double h) {
     if (solved.status != SolveStatus::Solved)
       report_.note("some steps were left above the tolerance; max_complementarity has the worst");
     memory.residual = solved.residual;
+    memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     share(links, memory, h);
   }
   certificate.max_complementarity = std::max(certificate.max_complementarity, memory.residual);
@@ -289,7 +290,6 @@ void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h
   memory.forms.clear();
   memory.books = {};
   memory.length = h;
-  memory.scale = velocityScale(work_.problem);
   std::size_t cone = 0;
   for (const Link link : links) {
     if (!isPair(link)) {
