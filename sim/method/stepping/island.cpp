@@ -112,15 +112,24 @@ void Stepping::collectBodies(std::span<const Link> links) {
   for (const int i : work_.movers) work_.local[i] = -1;
 }
 
+/// Whether an island has the bodies that it had when it was solved, and as many links.
+bool Stepping::ofSame(const IslandMemory& memory, std::span<const Link> links) const {
+  return memory.seen.size() == links.size() &&
+         std::equal(memory.movers.begin(), memory.movers.end(), work_.movers.begin(),
+                    work_.movers.end(),
+                    [](const IslandMemory::Mover& mover, int body) { return mover.body == body; });
+}
+
 /// Whether an island asks what it asked when it was solved: the same points, and velocities that
 /// differ by less than the tolerance on the residual.
 bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) const {
-  if (memory.bodies != work_.movers || memory.looks.size() != links.size()) return false;
+  if (!ofSame(memory, links)) return false;
   for (std::size_t k = 0; k < links.size(); ++k)
-    if (!isPair(links[k]) || memory.looks[k] != memory_.pairs[links[k]].look) return false;
+    if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
   const double allowed = model_.def.stepping.tolerance * memory.scale;
   for (std::size_t i = 0; i < work_.movers.size(); ++i)
-    if (!((work_.star[work_.movers[i]] - memory.vStar[i]).lpNorm<Eigen::Infinity>() <= allowed))
+    if (!((work_.star[work_.movers[i]] - memory.movers[i].vStar).lpNorm<Eigen::Infinity>() <=
+          allowed))
       return false;
   for (const Link link : links)
     for (const Touch& touch : memory_.pairs[link].touches)
@@ -130,15 +139,14 @@ bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) co
 
 /// Whether an island that was at rest is asked for a step of another length: its forces stay.
 bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, double h) const {
-  if (memory.length == h || memory.bodies != work_.movers || memory.forms.size() != links.size())
-    return false;
+  if (memory.length == h || !ofSame(memory, links)) return false;
   for (std::size_t k = 0; k < links.size(); ++k)
-    if (!isPair(links[k]) || memory.forms[k] != memory_.pairs[links[k]].form) return false;
+    if (!isPair(links[k]) || memory.seen[k].form != memory_.pairs[links[k]].form) return false;
   const double s = h / memory.length, still = tolerance_.rest;
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
     const Vec6 &star = work_.star[work_.movers[i]], &before = work_.before[work_.movers[i]];
-    const Vec6 asked = before + s * (memory.vStar[i] - memory.v[i]);
-    for (const Vec6& v : {before, memory.v[i], Vec6(star - asked)})
+    const Vec6 asked = before + s * (memory.movers[i].vStar - memory.movers[i].v);
+    for (const Vec6& v : {before, memory.movers[i].v, Vec6(star - asked)})
       if (!(v.lpNorm<Eigen::Infinity>() <= still)) return false;
   }
   return true;
@@ -150,14 +158,14 @@ void Stepping::stretch(IslandMemory& memory, std::span<const Link> links, double
   memory.length = h;
   memory.books = {};
   for (std::size_t k = 0; k < links.size(); ++k) {
-    memory.looks[k] = memory_.pairs[links[k]].look;
+    memory.seen[k].look = memory_.pairs[links[k]].look;
     for (Touch& touch : memory_.pairs[links[k]].touches) touch.impulse *= s;
   }
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    memory.vStar[i] = work_.star[work_.movers[i]];
-    memory.v[i] = work_.before[work_.movers[i]];
+    memory.movers[i].vStar = work_.star[work_.movers[i]];
+    memory.movers[i].v = work_.before[work_.movers[i]];
     memory.books.external +=
-        state_.bodies[work_.movers[i]].M * (memory.v[i] - memory.vStar[i]).head<3>();
+        state_.bodies[work_.movers[i]].M * (memory.movers[i].v - memory.movers[i].vStar).head<3>();
   }
 }
 
@@ -202,8 +210,8 @@ void Stepping::swing(std::span<const Link> links, double h) {
   certificate.work_of_forces += memory.books.work;
   state_.externalImpulse += memory.books.external;
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    work_.after[work_.movers[i]] = memory.v[i];
-    work_.touched[work_.movers[i]] = memory.v[i] != memory.vStar[i];
+    work_.after[work_.movers[i]] = memory.movers[i].v;
+    work_.touched[work_.movers[i]] = memory.movers[i].v != memory.movers[i].vStar;
   }
 }
 
@@ -285,31 +293,26 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
 void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
-  memory.bodies = work_.movers;
-  memory.looks.clear();
-  memory.forms.clear();
+  memory.seen.clear();
   memory.books = {};
   memory.length = h;
   std::size_t cone = 0;
   for (const Link link : links) {
     if (!isPair(link)) {
-      memory.looks.push_back(0);
-      memory.forms.push_back(0);
+      memory.seen.push_back({});
       work_.bonds.lambda[link - state_.near.size()] =
           work_.solution.lambda[work_.problem.cones[cone++].row];
       continue;
     }
-    memory.looks.push_back(memory_.pairs[link].look);
-    memory.forms.push_back(memory_.pairs[link].form);
-    for (Touch& touch : memory_.pairs[link].touches)
+    PairMemory& pair = memory_.pairs[link];
+    memory.seen.push_back({.look = pair.look, .form = pair.form});
+    for (Touch& touch : pair.touches)
       if (!flies(touch, h)) shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
   }
-  memory.vStar.clear();
-  memory.v.clear();
-  for (const int i : work_.movers) {
-    memory.vStar.push_back(work_.star[i]);
-    memory.v.push_back(work_.solution.v[work_.local[i]]);
-  }
+  memory.movers.clear();
+  for (const int i : work_.movers)
+    memory.movers.push_back(
+        {.body = i, .vStar = work_.star[i], .v = work_.solution.v[work_.local[i]]});
   for (const int i : work_.bodies) work_.local[i] = -1;
 }
 

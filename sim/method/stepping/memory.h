@@ -52,12 +52,17 @@ struct IslandBooks {
 
 /// An island when it was last solved: the question and the answer.
 struct IslandMemory {
-  std::vector<int> bodies;     ///< that move, in order of their first contact
-  std::vector<long> looks;     ///< of its pairs
-  std::vector<long> forms;     ///< the same
-  std::vector<Vec6> vStar, v;  ///< per body
-  double length = 0.0;         ///< [s] of the step
-  double scale = 1.0;          ///< [m/s] velocityScale of the problem
+  struct Mover {
+    int body = 0;
+    Vec6 vStar, v;
+  };
+  struct Seen {
+    long look = 0, form = 0;  ///< as of PairMemory; 0 of a joint
+  };
+  std::vector<Mover> movers;  ///< in order of their first contact
+  std::vector<Seen> seen;     ///< its pairs
+  double length = 0.0;        ///< [s] of the step
+  double scale = 1.0;         ///< [m/s] velocityScale of the problem
   double residual = 0.0;
   IslandBooks books;
 };
