@@ -20,6 +20,17 @@ Vec2 turned(const Vec2& d, double tangent) {
   return Vec2(d[0] - tangent * d[1], d[1] + tangent * d[0]) * shrink;
 }
 
+/// d turned in both lanes.
+void turn(Lanes& x, Lanes& y, Lanes tangent) {
+  const Lanes square = tangent * tangent;
+  Lanes shrink = 1.0 - 0.5 * square;
+  if (!both(square < Lanes{1e-8, 1e-8}))
+    shrink = chosen(square < Lanes{1e-8, 1e-8}, shrink, 1.0 / root(1.0 + square));
+  const Lanes turned = (x - tangent * y) * shrink;
+  y = (y + tangent * x) * shrink;
+  x = turned;
+}
+
 /// λ = W⁻¹ r by Cholesky; false if W is singular.
 bool solveThree(const Mat3& W, const Vec3& r, Vec3& lambda) {
   const double floor = 1e-14 * (W(0, 0) + W(1, 1) + W(2, 2));
@@ -107,6 +118,36 @@ Vec3 slideFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& sta
     lambda = projectOnFrictionCone(lambda - rho * u, mu);
   }
   return lambda;
+}
+
+LaneMask slideAbreast(const LanesSymmetric& W, const Lanes3& c, Lanes mu, const Lanes3& start,
+                      double enough, LaneMask lanes, Lanes3& lambda) {
+  // Line by line the arithmetic of slideFrom() and slide().
+  const Lanes none{}, size = root(start.y * start.y + start.z * start.z), per = -1.0 / size;
+  const Lanes inverse = 1.0 / c.x, driftX = c.y * inverse, driftY = c.z * inverse;
+  const Lanes Txx = mu * W.yy, Txy = mu * W.yz, Tyy = mu * W.zz;
+  Lanes x = start.y * per, y = start.z * per;
+  LaneMask found{}, sought = lanes & (mu > none);
+  for (int step = 0; step < kNewtonSteps && !neither(sought); ++step) {
+    const Lanes normal = W.xx - mu * (W.xy * x + W.xz * y);
+    const Lanes slipX = W.xy - (Txx * x + Txy * y) - driftX * normal;
+    const Lanes slipY = W.xz - (Txy * x + Tyy * y) - driftY * normal;
+    const Lanes sideways = mu * (W.xy * -y + W.xz * x);
+    const Lanes rateX = driftX * sideways - (Txx * -y + Txy * x);
+    const Lanes rateY = driftY * sideways - (Txy * -y + Tyy * x);
+    const Lanes along = x * slipX + y * slipY, h = -y * slipX + x * slipY;
+    const Lanes slope = -y * rateX + x * rateY - along;
+    sought &= (normal > none) & (slope < none) & (sizeOf(h) < -slope);
+
+    const Lanes tangent = chosen(sought, -h / slope, none);
+    turn(x, y, tangent);
+    const LaneMask last = sought & (sizeOf(tangent) <= Lanes{enough, enough});
+    found |= last & (along > none);
+    sought &= ~last;
+  }
+  const Lanes push = -c.x / (W.xx - mu * (W.xy * x + W.xz * y));
+  lambda = {push, -mu * push * x, -mu * push * y};
+  return found & (push >= none);
 }
 
 Mat3 inverseOfBlock(const Mat3& W) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/math/vec.h"
+#include "sim/problem/lanes.h"
 
 namespace tumble {
 
@@ -20,6 +21,11 @@ Vec3 solveFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& sta
 /// `enough` [rad]: it then errs by the square of that.
 Vec3 slideFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& start,
                         const Vec3& stick, double enough);
+
+/// The first guess of slideFrictionBlock, that the slip goes on as in `start`, in the given lanes.
+/// Returns in which of them Newton finds λ from there; `lambda` is good in these alone.
+LaneMask slideAbreast(const LanesSymmetric& W, const Lanes3& c, Lanes mu, const Lanes3& start,
+                      double enough, LaneMask lanes, Lanes3& lambda);
 
 /// W⁻¹, or 0 if W is singular to rounding.
 Mat3 inverseOfBlock(const Mat3& W);

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "sim/problem/cone.h"
 #include "sim/problem/friction_block.h"
 
 namespace tumble {
 namespace {
-
-constexpr double kTurn = 1e-4;  ///< [rad] of a slip direction: the next sweeps do the rest
 
 /// L with A = L Lᵀ for a positive semidefinite A; a direction that A does not know gets 0.
 Mat3 rootOf(const Mat3& A) {
@@ -29,25 +28,8 @@ Mat3 rootOf(const Mat3& A) {
   return L;
 }
 
-/// λ of a cone without friction, or with that of a known direction.
-Vec3 solveOther(const SweptCone& cone, const Vec3& u, const Vec3& old) {
-  const Vec3 free = u - cone.W.lazyProduct(old);
-  if (cone.kind == ConeKind::Equality) return {-free[0] / cone.W(0, 0), 0.0, 0.0};
-  if (cone.kind == ConeKind::Push) return {std::max(-free[0] / cone.W(0, 0), 0.0), 0.0, 0.0};
-  const double mobility = cone.W(0, 0) - cone.mu * cone.W(0, 1);
-  const double push = mobility > 0.0 ? std::max(-free[0] / mobility, 0.0) : 0.0;
-  return {push, -cone.mu * push, 0.0};
-}
-
-/// λ of a contact with friction at which it is now u fast: open, or held, or sliding.
-Vec3 solveFriction(const SweptCone& cone, const Vec3& u, const Vec3& old) {
-  const Vec3 free = u - cone.W.lazyProduct(old);
-  if (free[0] >= 0.0) return Vec3::Zero();
-  const Vec3 held = old - cone.hold.lazyProduct(u);
-  const double bound = cone.mu * held[0];
-  const bool holds = cone.hold(0, 0) > 0.0;
-  if (holds && bound >= 0.0 && held[1] * held[1] + held[2] * held[2] <= bound * bound) return held;
-  return slideFrictionBlock(cone.W, free, cone.mu, old, held, kTurn);
+bool moves(const Problem& problem, int body) {
+  return problem.invM[body] > 0.0 || !problem.Iinv[body].isZero(0.0);
 }
 
 }  // namespace
@@ -59,6 +41,8 @@ void ConeSweeps::prepare(const Problem& problem) {
   mobility_.setOnes(static_cast<Eigen::Index>(problem.rows.size()));
   cones_.resize(problem.cones.size());
   for (std::size_t k = 0; k < cones_.size(); ++k) layOut(problem, problem.cones[k], cones_[k]);
+  findRuns(problem);
+  pair();
 }
 
 [[gnu::flatten]] void ConeSweeps::layOut(const Problem& problem, const Cone& from,
@@ -66,19 +50,18 @@ void ConeSweeps::prepare(const Problem& problem) {
   cone.kind = from.kind;
   cone.mu = from.mu;
   cone.row = from.row;
-  cone.a = problem.rows[from.row].a;
-  cone.b = problem.rows[from.row].b;
+  const int a = problem.rows[from.row].a, b = problem.rows[from.row].b;
   cone.Ka.setZero();
   cone.Kb.setZero();
   cone.c.setZero();
-  const double rootA = std::sqrt(problem.invM[cone.a]), rootB = std::sqrt(problem.invM[cone.b]);
+  const double rootA = std::sqrt(problem.invM[a]), rootB = std::sqrt(problem.invM[b]);
   for (int i = 0; i < coneRows(from.kind); ++i) {
     const Row& row = problem.rows[from.row + i];
     cone.Ka.col(i).head<3>() = rootA * row.linear;
-    cone.Ka.col(i).tail<3>() = roots_[cone.a].transpose().lazyProduct(row.angularA);
+    cone.Ka.col(i).tail<3>() = roots_[a].transpose().lazyProduct(row.angularA);
     cone.Kb.col(i).head<3>() = -rootB * row.linear;
-    cone.Kb.col(i).tail<3>() = roots_[cone.b].transpose().lazyProduct(row.angularB);
-    cone.c[i] = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]) + row.bias;
+    cone.Kb.col(i).tail<3>() = roots_[b].transpose().lazyProduct(row.angularB);
+    cone.c[i] = rowSpeed(row, problem.vStar[a], problem.vStar[b]) + row.bias;
   }
   cone.W = cone.Ka.transpose().lazyProduct(cone.Ka);
   cone.W += cone.Kb.transpose().lazyProduct(cone.Kb);
@@ -88,41 +71,81 @@ void ConeSweeps::prepare(const Problem& problem) {
     if (cone.W(i, i) > 0.0) mobility_[from.row + i] = cone.W(i, i);
 }
 
-[[gnu::flatten]] void ConeSweeps::take(const VecX& lambda) {
-  for (Vec6& y : y_) y.setZero();
-  for (const SweptCone& cone : cones_) {
-    Vec3 own = Vec3::Zero();
-    for (int i = 0; i < coneRows(cone.kind); ++i) own[i] = lambda[cone.row + i];
-    y_[cone.a].noalias() += cone.Ka.lazyProduct(own);
-    y_[cone.b].noalias() += cone.Kb.lazyProduct(own);
+/// Runs of the cones that move something. Each is deeper than all before it that move a body of its
+/// own, so that those of one depth may go in any order, and depth after depth gives what cone after
+/// cone gives.
+void ConeSweeps::findRuns(const Problem& problem) {
+  runs_.clear();
+  depth_.assign(problem.invM.size(), 0);
+  int last = -1;  // cone of the last run
+  for (int k = 0; k < static_cast<int>(cones_.size()); ++k) {
+    if (cones_[k].mobility <= 0.0) continue;
+    const int a = problem.rows[cones_[k].row].a, b = problem.rows[cones_[k].row].b;
+    const bool friction = cones_[k].kind == ConeKind::Friction;
+    if (last + 1 == k && last >= 0 && runs_.back().a == a && runs_.back().b == b) {
+      ++runs_.back().count;
+      runs_.back().friction &= friction;
+    } else {
+      int depth = 0;
+      for (int body : {a, b})
+        if (moves(problem, body)) depth = std::max(depth, depth_[body] + 1);
+      for (int body : {a, b})
+        if (moves(problem, body)) depth_[body] = depth;
+      runs_.push_back({a, b, k, 1, depth, friction});
+    }
+    last = k;
+  }
+  std::sort(runs_.begin(), runs_.end(), [](const Run& i, const Run& j) {
+    return std::tuple(i.depth, i.friction, i.count, i.first) <
+           std::tuple(j.depth, j.friction, j.count, j.first);
+  });
+}
+
+/// Runs depth after depth, two side by side where two of contacts with friction are equally long.
+void ConeSweeps::pair() {
+  places_.clear();
+  twins_.clear();
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const Run& one = runs_[i];
+    Place place{false, one.first, one.count, {{&y_[one.a]}, {&y_[one.b]}}};
+    if (one.friction && i + 1 < runs_.size() && runs_[i + 1].friction &&
+        runs_[i + 1].depth == one.depth && runs_[i + 1].count == one.count) {
+      const Run& other = runs_[++i];
+      place.bodies.a[1] = &y_[other.a];
+      place.bodies.b[1] = &y_[other.b];
+      place.twins = true;
+      place.first = static_cast<int>(twins_.size());
+      for (int k = 0; k < one.count; ++k) {
+        TwinCone& cone = twins_.emplace_back();
+        cone.set(0, cones_[one.first + k]);
+        cone.set(1, cones_[other.first + k]);
+      }
+    }
+    places_.push_back(place);
   }
 }
 
-/// Solves one cone and moves its bodies.
-[[gnu::flatten]] double ConeSweeps::visit(const SweptCone& cone, double* lambda) {
-  if (cone.mobility <= 0.0) return 0.0;
-  const int rows = coneRows(cone.kind);
-  Vec6 &ya = y_[cone.a], &yb = y_[cone.b];
-  Vec3 u = Vec3::Zero(), old = Vec3::Zero();
-  for (int i = 0; i < rows; ++i) {
-    u[i] = (cone.Ka.col(i).cwiseProduct(ya) + cone.Kb.col(i).cwiseProduct(yb)).sum() + cone.c[i];
-    old[i] = lambda[i];
+void ConeSweeps::take(const VecX& lambda) {
+  for (Vec6& y : y_) y.setZero();
+  for (const Place& place : places_) {
+    if (place.twins)
+      takeTwins(std::span(twins_).subspan(place.first, place.count), lambda.data(), place.bodies);
+    else
+      takeCones(std::span(cones_).subspan(place.first, place.count), lambda.data(),
+                *place.bodies.a[0], *place.bodies.b[0]);
   }
-  const Vec3 next =
-      cone.kind == ConeKind::Friction ? solveFriction(cone, u, old) : solveOther(cone, u, old);
-  const Vec3 change = next - old;
-  for (int i = 0; i < rows; ++i) lambda[i] = next[i];
-  ya += cone.Ka.lazyProduct(change);
-  yb += cone.Kb.lazyProduct(change);
-  return change.lpNorm<Eigen::Infinity>() * cone.mobility;
 }
 
 double ConeSweeps::pass(bool forwards, VecX& lambda) {
   double largest = 0.0;
-  const std::size_t n = cones_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const SweptCone& cone = cones_[forwards ? i : n - 1 - i];
-    largest = std::max(largest, visit(cone, lambda.data() + cone.row));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& place = places_[forwards ? i : places_.size() - 1 - i];
+    const double change =
+        place.twins ? sweepTwins(std::span(twins_).subspan(place.first, place.count), forwards,
+                                 lambda.data(), place.bodies)
+                    : sweepCones(std::span(cones_).subspan(place.first, place.count), forwards,
+                                 lambda.data(), *place.bodies.a[0], *place.bodies.b[0]);
+    largest = std::max(largest, change);
   }
   return largest;
 }

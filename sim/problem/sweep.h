@@ -1,34 +1,20 @@
 // Chapter 6, problem: a contact problem laid out for sweeps over its cones. Used by pgs.cpp alone.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "sim/problem/problem.h"
+#include "sim/problem/swept_cone.h"
 
 namespace tumble {
 
-/// A cone with all that one visit reads and no more.
-struct SweptCone {
-  using Mat63 = Eigen::Matrix<double, 6, 3>;
-
-  Mat63 Ka, Kb;  ///< columns: what a unit of each λ does to y of the two bodies; 0 beyond its rows
-  Mat3 W;        ///< block of K Kᵀ = J M⁻¹ Jᵀ [1/kg]
-  Mat3 hold;     ///< W⁻¹; 0 where W is singular
-  Vec3 c;        ///< J vStar + bias
-  double mu;
-  double mobility;  ///< largest diagonal entry of W [1/kg]
-  int row, a, b;
-  ConeKind kind;
-};
-
-/// Bodies go by y, with  v = vStar + B y  and  M⁻¹ = B Bᵀ.  Then one matrix K = J B says both how
-/// fast the rows are, u = K y + c, and what their multipliers do, y = Kᵀ λ.
+/// Sweeps over the cones of a problem in their order, to the last bit: only what moves no body in
+/// common changes places, to go side by side in two lanes.
 class ConeSweeps {
  public:
   void prepare(const Problem& problem);
 
-  /// y = Kᵀ λ.
+  /// y = Kᵀ λ, with y and K as in swept_cone.h.
   void take(const VecX& lambda);
   /// Solves cone after cone for its own λ, all others kept, forwards or backwards. Returns the
   /// largest change of λ in units of u.
@@ -38,10 +24,29 @@ class ConeSweeps {
   const VecX& mobility() const { return mobility_; }
 
  private:
+  /// Cones in a row between the same two bodies.
+  struct Run {
+    int a, b;
+    int first, count;  ///< cones
+    int depth;         ///< length of the longest chain of runs that it waits for
+    bool friction;     ///< contacts with friction only
+  };
+  /// A run alone, or two of one depth side by side.
+  struct Place {
+    bool twins;
+    int first, count;   ///< of cones_, or of twins_
+    TwinBodies bodies;  ///< the run that is alone has lane 0
+  };
+
   void layOut(const Problem& problem, const Cone& from, SweptCone& cone);
-  double visit(const SweptCone& cone, double* lambda);
+  void findRuns(const Problem& problem);
+  void pair();
 
   std::vector<SweptCone> cones_;
+  std::vector<Run> runs_;   ///< by depth
+  std::vector<int> depth_;  ///< per body: of its last run
+  std::vector<Place> places_;
+  std::vector<TwinCone> twins_;
   std::vector<Mat3> roots_;  ///< per body: lower triangle with B = (√invM, root)
   std::vector<Vec6> y_;
   VecX mobility_;
