@@ -15,54 +15,93 @@
 namespace tumble {
 namespace {
 
-/// M⁻¹ Jᵀ of one row, for both bodies.
-std::pair<Vec6, Vec6> yieldTo(const Problem& problem, const Row& row) {
-  std::pair<Vec6, Vec6> yield;
-  yield.first.head<3>() = problem.invM[row.a] * row.linear;
-  yield.first.tail<3>() = problem.Iinv[row.a] * row.angularA;
-  yield.second.head<3>() = -problem.invM[row.b] * row.linear;
-  yield.second.tail<3>() = problem.Iinv[row.b] * row.angularB;
-  return yield;
+/// How two bodies move, as a row sees it: a against b, and how each turns.
+struct Motion {
+  Vec3 v, omegaA, omegaB;
+};
+
+Motion motionOf(const Vec6& a, const Vec6& b) {
+  return {a.head<3>() - b.head<3>(), a.tail<3>(), b.tail<3>()};
 }
 
-/// One contact without friction, λ = −u/W where u < 0: λ, v and the residual that they leave.
-[[gnu::flatten]] SolveReport solvePush(const Problem& problem, Solution& found) {
-  const Row& row = problem.rows[problem.cones[0].row];
-  const double u = rowVelocity(row, problem.vStar), terms = termsOf(row, problem.vStar);
-  const Vec3 turnA = problem.Iinv[row.a] * row.angularA, turnB = problem.Iinv[row.b] * row.angularB;
-  const Vec3 moveA = problem.invM[row.a] * row.linear, moveB = -problem.invM[row.b] * row.linear;
-  const double W =
-      row.linear.dot(moveA - moveB) + row.angularA.dot(turnA) + row.angularB.dot(turnB);
-  const double lambda = u >= 0.0 ? 0.0 : -u / W;
-
-  found.lambda.assign(1, lambda);
-  found.v = problem.vStar;
-  const auto push = [&](int body, const Vec3& linear, const Vec3& angular) {
-    const Vec3 turn = problem.Iinv[body] * angular;
-    found.v[body].head<3>() += problem.invM[body] * linear;
-    found.v[body].tail<3>() += turn;
-  };
-  push(row.a, lambda * row.linear, lambda * row.angularA);
-  push(row.b, -lambda * row.linear, lambda * row.angularB);
-  const double left = rowVelocity(row, found.v), rho = W > 0.0 ? 1.0 / W : 1.0;
-  SolveReport report{.scale = velocityScale(std::abs(u), terms)};
-  report.residual = coneResidual(problem.cones[0], &lambda, &left, rho) / report.scale;
-  return report;
+/// The sizes of its terms.
+Motion sizesOf(const Vec6& a, const Vec6& b) {
+  return {a.head<3>().cwiseAbs() + b.head<3>().cwiseAbs(), a.tail<3>().cwiseAbs(),
+          b.tail<3>().cwiseAbs()};
 }
 
-/// λ of one contact with friction: solveFrictionBlock finds it.
-[[gnu::flatten]] void solveFriction(const Problem& problem, std::vector<double>& found) {
-  const Cone& cone = problem.cones[0];
-  Mat3 W;
-  Vec3 c;
-  for (int j = 0; j < 3; ++j) {
-    const Row& row = problem.rows[cone.row + j];
-    const auto [a, b] = yieldTo(problem, row);
-    for (int i = 0; i < 3; ++i) W(i, j) = rowSpeed(problem.rows[cone.row + i], a, b);
-    c[j] = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]) + row.bias;
+double speedOf(const Row& row, const Motion& motion) {
+  return row.linear.dot(motion.v) + row.angularA.dot(motion.omegaA) +
+         row.angularB.dot(motion.omegaB);
+}
+
+/// Sum of the sizes of all terms of u, where `sizes` has those of the motion.
+double termsOf(const Row& row, const Motion& sizes) {
+  return row.linear.cwiseAbs().dot(sizes.v) + row.angularA.cwiseAbs().dot(sizes.omegaA) +
+         row.angularB.cwiseAbs().dot(sizes.omegaB) + std::abs(row.bias);
+}
+
+/// λ of one contact, whose rows go with W λ + c: a quotient, or what solveFrictionBlock finds.
+using One = Eigen::Matrix<double, 1, 1>;
+One forceOf(const Cone&, const One& W, const One& c) {
+  return One(c[0] >= 0.0 ? 0.0 : -c[0] / W[0]);
+}
+Vec3 forceOf(const Cone& cone, const Mat3& W, const Vec3& c) {
+  return solveFrictionBlock(W, c, cone.mu, Vec3::Zero());
+}
+
+/// Adds what the λ of rows between two bodies give to their velocities.
+void push(const Problem& problem, std::span<const Row> rows, const double* lambda, Vec6& va,
+          Vec6& vb) {
+  const int a = rows[0].a, b = rows[0].b;
+  Vec3 impulse = Vec3::Zero(), twistA = Vec3::Zero(), twistB = Vec3::Zero();
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    impulse += lambda[j] * rows[j].linear;
+    twistA += lambda[j] * rows[j].angularA;
+    twistB += lambda[j] * rows[j].angularB;
   }
-  const Vec3 lambda = solveFrictionBlock(W, c, cone.mu, Vec3::Zero());
-  found.assign(lambda.data(), lambda.data() + 3);
+  va.head<3>() += problem.invM[a] * impulse;
+  vb.head<3>() -= problem.invM[b] * impulse;
+  va.tail<3>() += Vec3(problem.Iinv[a] * twistA);
+  vb.tail<3>() += Vec3(problem.Iinv[b] * twistB);
+}
+
+/// One contact of so many rows, alone: λ, v and the residual that they leave, each term once.
+template <int kRows>
+[[gnu::flatten]] SolveReport solveContact(const Problem& problem, Solution& found) {
+  const Cone& cone = problem.cones[0];
+  const Row* rows = &problem.rows[cone.row];
+  const int a = rows->a, b = rows->b;
+  const double invA = problem.invM[a], invB = problem.invM[b];
+  Vec6 va = problem.vStar[a], vb = problem.vStar[b];
+  const Motion star = motionOf(va, vb), sizes = sizesOf(va, vb);
+  Eigen::Matrix<double, kRows, kRows> W;
+  Eigen::Matrix<double, kRows, 1> c;
+  double mobility = 0.0, largest = 0.0, terms = 0.0;
+  for (int j = 0; j < kRows; ++j) {
+    const Row& row = rows[j];
+    const Motion pushed{invA * row.linear + invB * row.linear, problem.Iinv[a] * row.angularA,
+                        problem.Iinv[b] * row.angularB};
+    for (int i = 0; i < kRows; ++i) W(i, j) = speedOf(rows[i], pushed);
+    c[j] = speedOf(row, star) + row.bias;
+    mobility = std::max(mobility, W(j, j));
+    largest = std::max(largest, std::abs(c[j]));
+    terms = std::max(terms, termsOf(row, sizes));
+  }
+  const Eigen::Matrix<double, kRows, 1> lambda = forceOf(cone, W, c);
+  push(problem, {rows, kRows}, lambda.data(), va, vb);
+
+  double u[kRows];
+  const Motion after = motionOf(va, vb);
+  for (int j = 0; j < kRows; ++j) u[j] = speedOf(rows[j], after) + rows[j].bias;
+  SolveReport report{.scale = velocityScale(largest, terms)};
+  const double rho = mobility > 0.0 ? 1.0 / mobility : 1.0;
+  report.residual = coneResidual(cone, lambda.data(), u, rho) / report.scale;
+  found.lambda.assign(lambda.data(), lambda.data() + kRows);
+  found.v = problem.vStar;
+  found.v[a] = va;
+  found.v[b] = vb;
+  return report;
 }
 
 constexpr std::size_t kMostDependent = 60;  ///< rows that depend on each other
@@ -122,12 +161,10 @@ std::optional<SolveReport> solveAtOnce(const Problem& problem, Solution& found) 
   };
   const bool one = problem.cones.size() == 1;
   const bool few = !problem.cones.empty() && problem.rows.size() <= kMostRows;
-  if (one && is(ConeKind::Push)) return solvePush(problem, found);
-  if (one && is(ConeKind::Friction)) {
-    solveFriction(problem, found.lambda);
-  } else if (!few || !is(ConeKind::Equality) || !solveEqualities(problem, found.lambda)) {
+  if (one && is(ConeKind::Push)) return solveContact<1>(problem, found);
+  if (one && is(ConeKind::Friction)) return solveContact<3>(problem, found);
+  if (!few || !is(ConeKind::Equality) || !solveEqualities(problem, found.lambda))
     return std::nullopt;
-  }
   found.v.resize(problem.vStar.size());
   velocitiesFromLambda(problem, found.lambda, found.v);
   SolveReport report{.scale = velocityScale(problem)};
