@@ -1,4 +1,5 @@
-// Any instant inside a step: between its two ends by the parabola that meets both.
+// Any instant inside a step: between its two ends by the parabola that meets both. Contacts ride on
+// the features that touched at its start.
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -32,7 +33,10 @@ void lookStepping(const Model& /*model*/, const State& state, double t,
   }
   joints = segment->joints;
   contacts = segment->contacts;
-  for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
+  for (Contact& c : contacts) {
+    c.anchor = anchorOf(segment->start[c.a], segment->start[c.b], c.point);
+    follow(bodies[c.a], bodies[c.b], c);
+  }
 }
 
 }  // namespace tumble

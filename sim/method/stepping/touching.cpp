@@ -95,7 +95,6 @@ bool Stepping::findNear(double h) {
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
     Contact& contact = memory.touches[i].contact;
     contact.point = work_.found[i];
-    contact.anchor = anchorOf(a, b, contact.point);
     memory.deepest = std::max(memory.deepest, -contact.point.separation);
   }
 }
