@@ -89,8 +89,9 @@ bool planeShowsApart(const Model& model, const State& state, std::span<const Rig
   if (!model.def.rememberPlanes) return false;
   const auto [b, a] = state.near[k];
   ++report.certificate.plane_tests;
-  const bool apart = showsApart(state.witnesses[k], model.shapes[a], bodies[a].pose(),
-                                model.shapes[b], bodies[b].pose(), margin);
+  const Witness& witness = state.witnesses[k];
+  const bool apart = witness.known && showsApart(witness, model.shapes[a], bodies[a].pose(),
+                                                 model.shapes[b], bodies[b].pose(), margin);
   if (apart) ++report.certificate.plane_hits;
   return apart;
 }

@@ -147,9 +147,10 @@ std::string_view shapeName(const Shape& shape) {
   return std::visit([](const auto& s) { return name(s); }, shape);
 }
 
-Aabb boundingBox(const Shape& shape, const Pose& pose, double margin) {
-  const Mat3 R = pose.q.toRotationMatrix();
-  const Aabb box = std::visit([&](const auto& s) { return boxOf(s, R); }, shape);
+[[gnu::flatten]] Aabb boundingBox(const Shape& shape, const Pose& pose, double margin) {
+  // Each for itself: some need no R.
+  const Aabb box =
+      std::visit([&](const auto& s) { return boxOf(s, pose.q.toRotationMatrix()); }, shape);
   const Vec3 more = Vec3::Constant(margin);
   return {pose.x + (box.lo - more), pose.x + (box.hi + more)};
 }

@@ -7,11 +7,11 @@
 namespace tumble {
 namespace {
 
-/// Whether a pose is another one but for the rounding of the numbers it is made of.
-bool samePose(const Pose& p, const Pose& q, double size) {
+/// Whether a body has a pose but for the rounding of the numbers it is made of.
+bool isAt(const Pose& pose, const RigidBody& body, double size) {
   constexpr double kRounding = 4e-16;
-  return (p.x - q.x).lpNorm<Eigen::Infinity>() <= kRounding * size &&
-         (p.q.coeffs() - q.q.coeffs()).lpNorm<Eigen::Infinity>() <= kRounding;
+  return (pose.x - body.x).lpNorm<Eigen::Infinity>() <= kRounding * size &&
+         (pose.q.coeffs() - body.q.coeffs()).lpNorm<Eigen::Infinity>() <= kRounding;
 }
 
 }  // namespace
@@ -69,14 +69,13 @@ bool Stepping::findNear(double h) {
   PairMemory& memory = memory_.pairs[pair];
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
-  const Pose poseA = a.pose(), poseB = b.pose();
-  if (memory.margin == margin && samePose(memory.poseA, poseA, model_.size) &&
-      samePose(memory.poseB, poseB, model_.size))
+  if (memory.margin == margin && isAt(memory.poseA, a, model_.size) &&
+      isAt(memory.poseB, b, model_.size))
     return;
   findNearPoints(model_, state_, pair, margin, work_.found, report_);
   const bool hadNone = memory.touches.empty() && memory.margin >= 0.0;
-  memory.poseA = poseA;
-  memory.poseB = poseB;
+  memory.poseA = a.pose();
+  memory.poseB = b.pose();
   memory.margin = margin;
   memory.deepest = 0.0;
   if (work_.found.empty() && hadNone) return;  // still nothing
