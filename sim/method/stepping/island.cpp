@@ -319,14 +319,15 @@ void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h
 void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h) {
   Contact& contact = touch.contact;
   const bool fixedA = model_.fixed(contact.a), fixedB = model_.fixed(contact.b);
+  const Row& normal = work_.problem.rows[cone.row];
+  // Work over the step is λ times the mean of the velocities before and after.
+  const Vec6 a = 0.5 * (work_.before[contact.a] + work_.solution.v[normal.a]);
+  const Vec6 b = 0.5 * (work_.before[contact.b] + work_.solution.v[normal.b]);
   Vec3 impulse = Vec3::Zero();
   for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
     const Row& row = work_.problem.rows[r];
     const double lambda = work_.solution.lambda[r];
     impulse += lambda * row.linear;
-    // Work over the step is λ times the mean of the velocities before and after.
-    const Vec6 a = 0.5 * (work_.before[contact.a] + work_.solution.v[row.a]);
-    const Vec6 b = 0.5 * (work_.before[contact.b] + work_.solution.v[row.b]);
     const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
     const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
     (r == cone.row ? books.lostImpact : books.lostFriction) -= lambda * (ofA + ofB);
@@ -337,7 +338,7 @@ void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, do
   if (fixedA) books.external -= impulse;
   touch.impulse = impulse;
   contact.force = impulse / h;
-  contact.sliding = contact.friction > 0.0 && slides(touch, work_.problem.rows[cone.row]);
+  contact.sliding = contact.friction > 0.0 && slides(touch, normal);
   contact.lasting = !arrives(touch);
 }
 
