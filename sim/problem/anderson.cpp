@@ -53,7 +53,22 @@ void Anderson::weigh(Small& gamma) const {
   Gram normal = gram_;
   normal.diagonal() *= 1.0 + kRidge;
   for (int i = used_; i < kDepth; ++i) normal(i, i) = 1.0;
-  normal.ldlt().solveInPlace(gamma);
+  const Eigen::LLT<Gram> factor(normal);
+  if (factor.info() == Eigen::Success) {
+    factor.solveInPlace(gamma);
+  } else {
+    gamma.setZero();
+  }
+}
+
+/// x = g − Σ γ dg.
+void Anderson::mix(VecX& x, const VecX& g, const Small& gamma) const {
+  for (Eigen::Index first = 0; first < g.size(); first += kStrip) {
+    const Eigen::Index count = std::min(kStrip, g.size() - first);
+    auto strip = x.segment(first, count);
+    strip = g.segment(first, count);
+    for (int i = 0; i < used_; ++i) strip -= gamma[i] * dg_.col(i).segment(first, count);
+  }
 }
 
 void Anderson::next(VecX& x, const VecX& g) {
@@ -67,9 +82,8 @@ void Anderson::next(VecX& x, const VecX& g) {
     Small gamma;
     remember(x, g, gamma);
     weigh(gamma);
-    x = g;
-    if (gamma.allFinite())
-      for (int i = 0; i < used_; ++i) x -= gamma[i] * dg_.col(i);
+    if (!gamma.allFinite()) gamma.setZero();
+    mix(x, g, gamma);
   } else {
     r_ = (g - x).cwiseProduct(root_);
     x = g;

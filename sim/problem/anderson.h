@@ -24,6 +24,7 @@ class Anderson {
 
   void remember(const VecX& x, const VecX& g, Small& right);
   void weigh(Small& gamma) const;
+  void mix(VecX& x, const VecX& g, const Small& gamma) const;
 
   VecX root_;         // of the weight
   VecX r_, gBefore_;  // r times the root
