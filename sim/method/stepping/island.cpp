@@ -121,12 +121,13 @@ bool Stepping::ofSame(const IslandMemory& memory, std::span<const Link> links) c
 }
 
 /// Whether an island asks what it asked when it was solved: the same points, and velocities that
-/// differ by less than the tolerance on the residual.
+/// differ by far less than the tolerance on the residual.
 bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) const {
   if (!ofSame(memory, links)) return false;
   for (std::size_t k = 0; k < links.size(); ++k)
     if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
-  const double allowed = model_.def.stepping.tolerance * memory.scale;
+  constexpr double kKept = 0.01;  // of the tolerance: what is kept errs the same way in every step
+  const double allowed = kKept * model_.def.stepping.tolerance * memory.scale;
   for (std::size_t i = 0; i < work_.movers.size(); ++i)
     if (!((work_.star[work_.movers[i]] - memory.movers[i].vStar).lpNorm<Eigen::Infinity>() <=
           allowed))
