@@ -53,12 +53,7 @@ void Anderson::weigh(Small& gamma) const {
   Gram normal = gram_;
   normal.diagonal() *= 1.0 + kRidge;
   for (int i = used_; i < kDepth; ++i) normal(i, i) = 1.0;
-  const Eigen::LLT<Gram> factor(normal);
-  if (factor.info() == Eigen::Success) {
-    factor.solveInPlace(gamma);
-  } else {
-    gamma.setZero();
-  }
+  normal.ldlt().solveInPlace(gamma);
 }
 
 /// x = g − Σ γ dg.

@@ -1,7 +1,6 @@
 // Chapter 6, problem: the stages of the proximal augmented Lagrangian.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "sim/problem/direct.h"
@@ -30,7 +29,9 @@ class Newton {
   double solveSlips(double tau);
   double solveHard(int most);
   void settle();
+  void remember();
   void keepBetter(SolveReport& report);
+  void polish(SolveReport& report);
   void closeBalance(SolveReport& report);
 
   void takeLambda(const Problem& problem, Solution& solution, SolveReport& report);
@@ -203,21 +204,28 @@ void Newton<N>::keepBetter(SolveReport& report) {
   }
 }
 
+template <int N>
+void Newton<N>::remember() {
+  points_ = system_.points;
+  movers_ = system_.movers;
+}
+
+/// After calm stages, one or two more by the last factor leave rounding alone.
+template <int N>
+void Newton<N>::polish(SolveReport& report) {
+  constexpr int kMore = 2;
+  for (int k = 0; k < kMore && std::max(report.residual, report.balance) > kClosed; ++k) {
+    remember();
+    if (!system_.stageMore()) return;
+    keepBetter(report);
+  }
+}
+
 /// At a solution every ρ gives the same forces; but a large one magnifies the rounding of fast
 /// slips, where a small one closes the balance of momentum.
 template <int N>
 void Newton<N>::closeBalance(SolveReport& report) {
-  constexpr int kStages = 8, kMore = 2;
-  report.balance = system_.balance();
-  const auto remember = [&] {
-    points_ = system_.points;
-    movers_ = system_.movers;
-  };
-  for (int k = 0; k < kMore && std::max(report.residual, report.balance) > kClosed; ++k) {
-    remember();
-    if (!system_.stageMore()) break;
-    keepBetter(report);
-  }
+  constexpr int kStages = 8;
   for (const double rho : {system_.rho, system_.weight}) {
     if (report.balance <= kClosed) return;
     remember();
@@ -244,6 +252,8 @@ SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settin
     if (!std::isfinite(report.residual)) system_.restart(solution);
     report.residual = solveHard(settings.maxIterations);
   }
+  report.balance = system_.balance();
+  if (calm) polish(report);
   closeBalance(report);
   report.iterations = system_.factorizations;
   system_.write(problem, solution);
