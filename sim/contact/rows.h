@@ -8,15 +8,24 @@
 
 namespace tumble {
 
+/// (p − x) × d, or 0 where the arm lies along d but for the rounding of its ends: balls without
+/// friction must not begin to turn.
+inline Vec3 turnAbout(const Vec3& x, const Vec3& p, const Vec3& d) {
+  constexpr double kRounding = 1e-15;
+  const Vec3 turn = (p - x).cross(d);
+  const double least = kRounding * (p.lpNorm<1>() + x.lpNorm<1>());
+  if (turn.lpNorm<Eigen::Infinity>() <= least) return Vec3::Zero();
+  return turn;
+}
+
 /// The row  u = d·(ṗa − ṗb) + bias  of bodies ia and ib at world point p [m] along unit d.
 inline Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec3& p, const Vec3& d,
                     double bias) {
-  const Vec3 armA = p - bodies[ia].x, armB = p - bodies[ib].x;
   return {.a = ia,
           .b = ib,
           .linear = d,
-          .angularA = armA.cross(d),
-          .angularB = -armB.cross(d),
+          .angularA = turnAbout(bodies[ia].x, p, d),
+          .angularB = -turnAbout(bodies[ib].x, p, d),
           .bias = bias};
 }
 

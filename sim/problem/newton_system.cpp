@@ -127,7 +127,8 @@ bool fits(const Vec3& arm, const Rows& ofA, const Rows& ofB) {
     const Vec3 a = ofA.col(k).template tail<3>(), b = ofB.col(k).template tail<3>();
     const Vec3 n = ofA.col(k).template head<3>();
     const Vec3 open = a + b + arm.cross(n);
-    if (!(open.cwiseAbs().sum() <= kSame * (a.cwiseAbs().sum() + b.cwiseAbs().sum()))) return false;
+    const double size = arm.lpNorm<1>() + a.lpNorm<1>() + b.lpNorm<1>();
+    if (!(open.lpNorm<1>() <= kSame * size)) return false;
   }
   return true;
 }
