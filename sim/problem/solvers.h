@@ -19,12 +19,14 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
 
 /// Proximal augmented Lagrangian. In stages λ ← Π_K(λ − ρ(u + s)), where v minimises the convex
 ///   Φ(v) = ½ |v − v*|²_M + Σ |Π_K(λ − ρ(J v + bias + s))|² / 2ρ
-/// by Newton's method with H = M + ρ Jᵀ ∂Π J, a matrix of 6 × 6 blocks on the graph of bodies:
-/// points that depend on each other make it neither larger nor singular. s = mu |u_t| n follows
-/// from stage to stage, which makes the cone Coulomb's (de Saxcé & Feng 1998; Rockafellar 1976;
-/// Acary, Brémond & Huber 2018). ρ is one for the whole problem. It starts from λ = 0 whatever the
-/// solution holds, and from solution.v if that is of the right length; λ is then the smallest among
-/// equals.
+/// by Newton's method with H = M + ρ Jᵀ ∂Π J, a matrix of 6 × 6 blocks on the graph of bodies, or
+/// of 3 × 3 where no row turns one: points that depend on each other make it neither larger nor
+/// singular. The first stages go with cones of 0.8 mu: of the many λ that hold what sticks, one
+/// that lies inside its cones is found, if there is one, and rounding does not move it from piece
+/// to piece. s = mu |u_t| n follows from stage to stage, which makes the cone Coulomb's (de Saxcé &
+/// Feng 1998; Rockafellar 1976; Acary, Brémond & Huber 2018). ρ is one for the whole problem. It
+/// starts from λ = 0 whatever the solution holds, and from solution.v if that is of the right
+/// length.
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution);
 
 }  // namespace tumble
