@@ -194,7 +194,7 @@ void Newton<N>::settle() {
 template <int N>
 void Newton<N>::keepBetter(SolveReport& report) {
   const double balance = system_.balance(), residual = system_.residual();
-  const bool closer = balance <= kClosed && residual < report.residual;
+  const bool closer = balance <= kClosed && residual <= report.residual;
   const bool closed = balance < report.balance;
   if (closer || (closed && residual <= std::max(tolerance_, report.residual))) {
     report.balance = balance;
@@ -210,11 +210,13 @@ void Newton<N>::remember() {
   movers_ = system_.movers;
 }
 
-/// After calm stages, one or two more by the last factor leave rounding alone.
+/// After calm stages, one or two more by the last factor leave rounding alone. One is always due:
+/// beside a large force the residual does not see a small velocity.
 template <int N>
 void Newton<N>::polish(SolveReport& report) {
   constexpr int kMore = 2;
-  for (int k = 0; k < kMore && std::max(report.residual, report.balance) > kClosed; ++k) {
+  for (int k = 0; k < kMore; ++k) {
+    if (k > 0 && std::max(report.residual, report.balance) <= kClosed) return;
     remember();
     if (!system_.stageMore()) return;
     keepBetter(report);
