@@ -143,6 +143,13 @@ double Newton<N>::solveSlips(double tau) {
   return before;
 }
 
+/// λ and v to go back to.
+template <int N>
+void Newton<N>::remember() {
+  points_ = system_.points;
+  movers_ = system_.movers;
+}
+
 /// Both in turn, with more patience each time.
 template <int N>
 double Newton<N>::solveHard(int most) {
@@ -157,8 +164,7 @@ double Newton<N>::solveHard(int most) {
     residual = solveCold(std::min(round.cold, most));
     if (residual <= tolerance_ || system_.factorizations >= most) return residual;
     const double rho = system_.rho;
-    points_ = system_.points;
-    movers_ = system_.movers;
+    remember();
     const double slips = solveSlips(round.tau);
     if (slips <= tolerance_) return slips;
     if (slips < residual) {
@@ -202,12 +208,6 @@ void Newton<N>::keepBetter(SolveReport& report) {
   } else {
     system_.goBack(points_, movers_);
   }
-}
-
-template <int N>
-void Newton<N>::remember() {
-  points_ = system_.points;
-  movers_ = system_.movers;
 }
 
 /// After calm stages, one or two more by the last factor leave rounding alone. One is always due:
