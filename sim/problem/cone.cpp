@@ -30,9 +30,11 @@ double coneResidual(const Cone& cone, const double* lambda, const double* u, dou
   }
   const double slip = std::sqrt(u[1] * u[1] + u[2] * u[2]);
   const Vec3 force(lambda[0], lambda[1], lambda[2]);
-  const Vec3 velocity(u[0] + cone.mu * slip, u[1], u[2]);
-  const Vec3 map = force - projectOnFrictionCone(force - rho * velocity, cone.mu);
-  return map.lpNorm<Eigen::Infinity>() / rho;
+  const Vec3 velocity(u[0] + cone.mu * slip, u[1], u[2]), asked = force - rho * velocity;
+  const Vec3 taken = projectOnFrictionCone(asked, cone.mu);
+  // Inside the cone as well, no difference in which a large λ hides u.
+  if (taken == asked) return velocity.lpNorm<Eigen::Infinity>();
+  return (force - taken).lpNorm<Eigen::Infinity>() / rho;
 }
 
 }  // namespace tumble

@@ -210,13 +210,12 @@ void Newton<N>::keepBetter(SolveReport& report) {
   }
 }
 
-/// After calm stages, one or two more by the last factor leave rounding alone. One is always due:
-/// beside a large force the residual does not see a small velocity.
+/// After calm stages, one or two more by the last factor leave rounding alone.
 template <int N>
 void Newton<N>::polish(SolveReport& report) {
   constexpr int kMore = 2;
   for (int k = 0; k < kMore; ++k) {
-    if (k > 0 && std::max(report.residual, report.balance) <= kClosed) return;
+    if (std::max(report.residual, report.balance) <= kClosed) return;
     remember();
     if (!system_.stageMore()) return;
     keepBetter(report);
