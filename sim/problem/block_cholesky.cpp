@@ -18,16 +18,18 @@ bool BlockStructure::isFor(int rows, std::span<const BlockEdge> edges) const {
 }
 
 void BlockStructure::order() {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& [i, j] : edges_) {
-    entries.emplace_back(i, j, 1.0);
-    entries.emplace_back(j, i, 1.0);
+  Eigen::SparseMatrix<double> graph(rows_, rows_);  // its lower triangle
+  graph.reserve(static_cast<Eigen::Index>(edges_.size()) + rows_);
+  auto edge = edges_.begin();
+  for (int i = 0; i < rows_; ++i) {
+    graph.startVec(i);
+    graph.insertBack(i, i) = 1.0;
+    for (; edge != edges_.end() && edge->first == i; ++edge)
+      graph.insertBack(edge->second, i) = 1.0;
   }
-  for (int i = 0; i < rows_; ++i) entries.emplace_back(i, i, 1.0);
-  Eigen::SparseMatrix<double> graph(rows_, rows_);
-  graph.setFromTriplets(entries.begin(), entries.end());
+  graph.finalize();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(graph, permutation);
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
   place_.resize(rows_);
   for (int k = 0; k < rows_; ++k) place_[permutation.indices()[k]] = k;
 }
@@ -77,12 +79,13 @@ int BlockCholesky<N>::edgeRow(int e) const {
 template <int N>
 [[gnu::flatten]] bool invertFactor(Eigen::Matrix<double, N, N>& A) {
   Eigen::Matrix<double, N, N> L = Eigen::Matrix<double, N, N>::Zero();
+  double inverse[N];  // of its diagonal
   for (int j = 0; j < N; ++j) {
     double pivot = A(j, j);
     for (int k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
     if (!(pivot > 0.0)) return false;
-    L(j, j) = std::sqrt(pivot);
-    const double scale = 1.0 / L(j, j);
+    const double scale = 1.0 / std::sqrt(pivot);
+    inverse[j] = scale;
     for (int i = j + 1; i < N; ++i) {
       double sum = A(i, j);
       for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
@@ -91,11 +94,11 @@ template <int N>
   }
   A.setZero();
   for (int j = 0; j < N; ++j) {
-    A(j, j) = 1.0 / L(j, j);
+    A(j, j) = inverse[j];
     for (int i = j + 1; i < N; ++i) {
       double sum = 0.0;
       for (int k = j; k < i; ++k) sum -= L(i, k) * A(k, j);
-      A(i, j) = sum / L(i, i);
+      A(i, j) = sum * inverse[i];
     }
   }
   return true;

@@ -62,8 +62,8 @@ void NewtonSystem<N>::gather(const Find& find) {
       z[0] -= rho * point.saxce;
       find(point, z);
       if (point.piece == Piece::Zero && point.kind != ConeKind::Slide) continue;
-      wrench.noalias() += point.J.lazyProduct(point.force);
-      if (!patch.shares) back.noalias() -= others_[patch.other].lazyProduct(point.force);
+      wrench += timesForce(point, point.J);
+      if (!patch.shares) back -= timesForce(point, others_[patch.other]);
     }
     if (patch.a >= 0) movers[patch.a].gradient -= wrench;
     if (patch.b >= 0) movers[patch.b].gradient += patch.shares ? atCentreOfB(patch, wrench) : back;
@@ -77,7 +77,7 @@ template <int N>
 
 /// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
 template <int N>
-bool NewtonSystem<N>::stageMore() {
+[[gnu::flatten]] bool NewtonSystem<N>::stageMore() {
   if (factoredRho_ != rho) return false;
   nextStage(false);
   gather([this](Point& point, const Vec3& z) {

@@ -284,27 +284,31 @@ double NewtonSystem<N>::residual() const {
 }
 
 template <int N>
-double NewtonSystem<N>::balance() {
+[[gnu::flatten]] double NewtonSystem<N>::balance() {
   work_.resize(movers.size());
   for (std::size_t i = 0; i < movers.size(); ++i)
     work_[i] = movers[i].momentum(movers[i].v - movers[i].star).cwiseAbs();
   for (const Patch& patch : patches_) {
     if (patch.a < 0) continue;
     for (int p = patch.begin; p < patch.end; ++p) {
-      const Vec3& force = points[p].force;
-      const Twist wrench = points[p].J.lazyProduct(force);
+      const Twist wrench = timesForce(points[p], points[p].J);
       work_[patch.a] += wrench.cwiseAbs();
       if (patch.b < 0) continue;
-      const Twist back = patch.shares ? atCentreOfB(patch, wrench)
-                                      : Twist(others_[patch.other].lazyProduct(force));
+      const Twist back =
+          patch.shares ? atCentreOfB(patch, wrench) : timesForce(points[p], others_[patch.other]);
       work_[patch.b] += back.cwiseAbs();
     }
   }
+  // A velocity is a number: beside a small impulse on a fast body its rounding is not an error.
+  constexpr double kRounding = std::numeric_limits<double>::epsilon();
   double worst = 0.0;
   for (std::size_t i = 0; i < movers.size(); ++i) {
+    const Mover& mover = movers[i];
+    const Twist size = mover.momentum(mover.v).cwiseAbs() + mover.momentum(mover.star).cwiseAbs();
     for (int first = 0; first < N; first += 3) {
       const double gross = work_[i].template segment<3>(first).maxCoeff();
-      const double open = movers[i].gradient.template segment<3>(first).cwiseAbs().maxCoeff();
+      const double open = mover.gradient.template segment<3>(first).cwiseAbs().maxCoeff() -
+                          kRounding * size.template segment<3>(first).maxCoeff();
       if (gross > 0.0) worst = std::max(worst, open / gross);
     }
   }

@@ -145,15 +145,23 @@ class NewtonSystem {
       if (patch.a >= 0) w = movers[patch.a].*twist;
       if (patch.b >= 0 && patch.shares) w -= atCentreOfA(patch, movers[patch.b].*twist);
       for (int p = patch.begin; p < patch.end; ++p) {
-        Vec3 rows = timesRows(points[p].J, w);
-        if (!patch.shares) rows += timesRows(others_[patch.other], movers[patch.b].*twist);
+        Vec3 rows = timesRows(points[p], points[p].J, w);
+        if (!patch.shares)
+          rows += timesRows(points[p], others_[patch.other], movers[patch.b].*twist);
         take(points[p], rows);
       }
     }
   }
 
-  static Vec3 timesRows(const Rows& J, const Twist& v) {
+  /// Jᵀ v.
+  static Vec3 timesRows(const Point& point, const Rows& J, const Twist& v) {
+    if (point.rows == 1) return {J.col(0).dot(v), 0.0, 0.0};
     return {J.col(0).dot(v), J.col(1).dot(v), J.col(2).dot(v)};
+  }
+  /// J times the force.
+  static Twist timesForce(const Point& point, const Rows& J) {
+    if (point.rows == 1) return J.col(0) * point.force[0];
+    return J.lazyProduct(point.force);
   }
   /// X vb.
   static Twist atCentreOfA(const Patch& patch, Twist v) {
