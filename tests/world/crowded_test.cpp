@@ -8,21 +8,6 @@
 using namespace tumble;
 using namespace tumble::scenes;
 
-namespace {
-
-BodyDef turntable(double speed, double mu) {
-  BodyDef table;
-  table.name = "table";
-  table.shape = Cylinder{3.0, 0.2};
-  table.position = {0.0, -0.1, 0.0};
-  table.angularVelocity = {0.0, speed, 0.0};
-  table.friction = mu;
-  table.fixed = true;
-  return table;
-}
-
-}  // namespace
-
 TEST_CASE("a crowd of events makes the look coarser, and calm makes it fine again") {
   Pace pace;
   for (int k = 0; k < Pace::kMany; ++k) pace.see(1e-6 * k, 1);

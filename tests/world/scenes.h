@@ -46,6 +46,27 @@ inline BodyDef box(const std::string& name, const Vec3& edges, const Vec3& x, do
   return def;
 }
 
+/// A round table, of radius 5 m with its top at y = 0, that turns about the vertical.
+inline BodyDef turntable(double speed, double mu) {
+  BodyDef table;
+  table.name = "table";
+  table.shape = Cylinder{5.0, 0.2};
+  table.position = {0.0, -0.1, 0.0};
+  table.fixed = true;
+  table.friction = mu;
+  table.angularVelocity = {0.0, speed, 0.0};
+  return table;
+}
+
+/// A ball that rolls on it with this velocity.
+inline BodyDef ballOnTurntable(double speed, const Vec3& x, const Vec3& velocity) {
+  const Vec3 up = Vec3::UnitY();
+  BodyDef rolling = ball("ball", x.y(), x, 0.0, 1.0);
+  rolling.velocity = velocity;
+  rolling.angularVelocity = up.cross(velocity - speed * up.cross(x)) / x.y();
+  return rolling;
+}
+
 /// Bodies under gravity in the care of a method.
 inline WorldDef worldOf(const char* method, double duration, std::vector<BodyDef> bodies) {
   WorldDef def;
@@ -62,11 +83,14 @@ inline void addColumn(WorldDef& def, int n, double edge, const Vec3& first, doub
                              {first.x(), first.y() + edge * i, first.z()}, e, mu));
 }
 
-/// Half-metre cubes of 1 kg in so many columns along x and z and layers, at rest, or drifting along
-/// a smooth floor. Columns stand apart; bonded, every other layer is shifted, and cubes stand on
-/// two.
-inline WorldDef stackOf(int wide, int high, int deep, bool bonded, double speed) {
-  WorldDef def = worldOf("stepping", 1e6, {ground(0.0, speed > 0.0 ? 0.0 : 0.5)});
+/// Half-metre cubes of 1 kg in so many columns along x and z and layers, at rest, or on a smooth
+/// floor, along which they drift or are pulled [m/s²]. Columns stand apart; bonded, every other
+/// layer is shifted, and cubes stand on two.
+inline WorldDef stackOf(int wide, int high, int deep, bool bonded, double speed,
+                        double pull = 0.0) {
+  const bool moves = speed > 0.0 || pull > 0.0;
+  WorldDef def = worldOf("stepping", 1e6, {ground(0.0, moves ? 0.0 : 0.5)});
+  def.gravity.x() = pull;
   for (int y = 0; y < high; ++y)
     for (int x = 0; x < wide; ++x)
       for (int z = 0; z < deep; ++z) {

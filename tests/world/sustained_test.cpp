@@ -121,18 +121,8 @@ TEST_CASE("balls and cylinders roll and slide down as they should", "[figures]")
 // three circles, allowed 1e-10.
 TEST_CASE("a ball on a turntable circles at two sevenths of its speed", "[figures]") {
   const double Omega = 2.0, period = 2.0 * kPi / (2.0 / 7.0 * Omega);
-  BodyDef table;
-  table.name = "table";
-  table.shape = Cylinder{5.0, 0.2};
-  table.position = {0.0, -0.1, 0.0};
-  table.fixed = true;
-  table.friction = 1.0;
-  table.angularVelocity = {0.0, Omega, 0.0};
-  BodyDef rolling = ball("ball", 0.1, {1.0, 0.1, 0.0}, 0.0, 1.0);
-  rolling.velocity = {0.3, 0.0, 0.2};
-  rolling.angularVelocity =
-      kUp.cross(rolling.velocity - Omega * kUp.cross(Vec3(1.0, 0.0, 0.0))) / 0.1;
-  const Sample end = endOf(worldOf("exact", 3.0 * period, {table, rolling}));
+  const BodyDef rolling = ballOnTurntable(Omega, {1.0, 0.1, 0.0}, {0.3, 0.0, 0.2});
+  const Sample end = endOf(worldOf("exact", 3.0 * period, {turntable(Omega, 1.0), rolling}));
   WARN("turntable closes to " << (end.bodies[1].x - rolling.position).norm() << " m");
   CHECK((end.bodies[1].x - rolling.position).norm() < 1e-10);
 }

@@ -62,8 +62,8 @@ void Stepping::recordEvents(double t) {
     }
     if (lasting) work_.lasting.push_back(lastingPair(*lasting));
   }
-  if (allKept_) return;
   std::swap(work_.lasting, memory_.lasting);
+  if (allKept_) return;
   recordLasting(work_.lasting, t);
   sortEvents(report_, firstEvent);
 }

@@ -120,18 +120,20 @@ bool Stepping::ofSame(const IslandMemory& memory, std::span<const Link> links) c
                     [](const IslandMemory::Mover& mover, int body) { return mover.body == body; });
 }
 
-/// Whether an island asks what it asked when it was solved: the same points, and velocities that
-/// differ by far less than the tolerance on the residual.
+/// Whether an island asks what it asked when it was solved, wherever it has gone: the same levers
+/// and inertias, and velocities that differ by far less than the tolerance on the residual.
 bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) const {
   if (!ofSame(memory, links)) return false;
   for (std::size_t k = 0; k < links.size(); ++k)
     if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
   constexpr double kKept = 0.01;  // of the tolerance: what is kept errs the same way in every step
-  const double allowed = kKept * model_.def.stepping.tolerance * memory.scale;
-  for (std::size_t i = 0; i < work_.movers.size(); ++i)
-    if (!((work_.star[work_.movers[i]] - memory.movers[i].vStar).lpNorm<Eigen::Infinity>() <=
-          allowed))
+  const double part = kKept * model_.def.stepping.tolerance, allowed = part * memory.scale;
+  for (const IslandMemory::Mover& mover : memory.movers) {
+    const Mat3 turned = state_.bodies[mover.body].Iinv - mover.Iinv;
+    if (!((work_.star[mover.body] - mover.vStar).lpNorm<Eigen::Infinity>() <= allowed) ||
+        !(turned.lpNorm<Eigen::Infinity>() <= part * mover.Iinv.lpNorm<Eigen::Infinity>()))
       return false;
+  }
   for (const Link link : links)
     for (const Touch& touch : memory_.pairs[link].touches)
       if (touch.arrivalSpeed > 0.0) return false;
@@ -312,8 +314,10 @@ void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h
   }
   memory.movers.clear();
   for (const int i : work_.movers)
-    memory.movers.push_back(
-        {.body = i, .vStar = work_.star[i], .v = work_.solution.v[work_.local[i]]});
+    memory.movers.push_back({.body = i,
+                             .Iinv = state_.bodies[i].Iinv,
+                             .vStar = work_.star[i],
+                             .v = work_.solution.v[work_.local[i]]});
   for (const int i : work_.bodies) work_.local[i] = -1;
 }
 

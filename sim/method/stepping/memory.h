@@ -12,9 +12,17 @@
 
 namespace tumble {
 
+/// What a contact problem sees of a contact point.
+struct Lever {
+  Vec3 n = Vec3::Zero();
+  Vec3 armA = Vec3::Zero(), armB = Vec3::Zero();  ///< [m] from the bodies; 0 of one that stands
+  double separation = 0.0;                        ///< [m]
+};
+
 /// A contact point, and what the last step that solved for it found.
 struct Touch {
   Contact contact;              ///< as found; with the force of the step
+  Lever lever;                  ///< when its look was numbered
   Vec3 impulse = Vec3::Zero();  ///< [N·s] on a
   bool rebounds = false;        ///< when it is struck
   double due = 0.0;             ///< [s] until it is struck or, of free bodies, until they meet
@@ -27,7 +35,7 @@ struct Touch {
 struct PairMemory {
   Pose poseA, poseB;
   double margin = -1.0;  ///< [m] up to which points were looked for; < 0: never looked at
-  long look = 0;         ///< number of the look that found them: the same number, the same points
+  long look = 0;         ///< number of the look that found them: the same number, the same levers
   long form = 0;         ///< number of the look that found these features first, in a row
   double deepest = 0.0;  ///< [m] largest overlap
   bool bounces = false;  ///< it has restitution
@@ -54,6 +62,7 @@ struct IslandBooks {
 struct IslandMemory {
   struct Mover {
     int body = 0;
+    Mat3 Iinv;
     Vec6 vStar, v;
   };
   struct Seen {

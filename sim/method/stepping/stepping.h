@@ -49,6 +49,9 @@ class Stepping {
   double marginOf(std::size_t pair, double h) const;
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
+  /// Gives a pair the points that were found; numbers the look, if it sees other levers.
+  void renew(PairMemory& memory, std::pair<int, int> pair);
+  Lever leverOf(const ContactPoint& c, std::pair<int, int> pair) const;
   void matchFeatures(PairMemory& memory, std::pair<int, int> pair);
 
   // seams.cpp: what a third body keeps apart.

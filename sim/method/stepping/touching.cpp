@@ -7,11 +7,22 @@
 namespace tumble {
 namespace {
 
-/// Whether a body has a pose but for the rounding of the numbers it is made of.
+constexpr double kRounding = 4e-16;  ///< of the numbers that a pose is made of
+
+/// Whether a body has a pose but for rounding.
 bool isAt(const Pose& pose, const RigidBody& body, double size) {
-  constexpr double kRounding = 4e-16;
   return (pose.x - body.x).lpNorm<Eigen::Infinity>() <= kRounding * size &&
          (pose.q.coeffs() - body.q.coeffs()).lpNorm<Eigen::Infinity>() <= kRounding;
+}
+
+/// Whether two levers are one but for rounding.
+bool isSame(const Lever& p, const Lever& q, double size) {
+  const auto near = [](const Vec3& x, const Vec3& y, double within) {
+    return (x - y).lpNorm<Eigen::Infinity>() <= within;
+  };
+  return near(p.n, q.n, kRounding) && near(p.armA, q.armA, kRounding * size) &&
+         near(p.armB, q.armB, kRounding * size) &&
+         std::abs(p.separation - q.separation) <= kRounding * size;
 }
 
 }  // namespace
@@ -78,24 +89,37 @@ bool Stepping::findNear(double h) {
   memory.poseB = b.pose();
   memory.margin = margin;
   memory.deepest = 0.0;
-  if (work_.found.empty() && hadNone) return;  // still nothing
+  if (!work_.found.empty() || !hadNone) renew(memory, state_.near[pair]);
+}
 
-  memory.look = ++memory_.looks;
+[[gnu::flatten]] void Stepping::renew(PairMemory& memory, std::pair<int, int> pair) {
   const bool sameForm =
       std::equal(memory.touches.begin(), memory.touches.end(), work_.found.begin(),
                  work_.found.end(), [&](const Touch& touch, const ContactPoint& point) {
                    return touch.contact.point.feature == point.feature &&
                           closed(touch) == (point.separation <= tolerance_.touch);
                  });
-  if (!sameForm) {
-    memory.form = memory.look;
-    matchFeatures(memory, state_.near[pair]);
-  }
+  if (!sameForm) matchFeatures(memory, pair);
+  bool same = sameForm;
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
-    Contact& contact = memory.touches[i].contact;
-    contact.point = work_.found[i];
-    memory.deepest = std::max(memory.deepest, -contact.point.separation);
+    Touch& touch = memory.touches[i];
+    touch.contact.point = work_.found[i];
+    memory.deepest = std::max(memory.deepest, -touch.contact.point.separation);
+    same = same && isSame(touch.lever, leverOf(touch.contact.point, pair), model_.size);
   }
+  if (same) return;
+  memory.look = ++memory_.looks;
+  if (!sameForm) memory.form = memory.look;
+  for (Touch& touch : memory.touches) touch.lever = leverOf(touch.contact.point, pair);
+}
+
+Lever Stepping::leverOf(const ContactPoint& c, std::pair<int, int> pair) const {
+  const auto arm = [&](int i) {
+    const RigidBody& body = state_.bodies[i];
+    const bool stands = body.fixed() && body.omega.isZero(0.0);
+    return stands ? Vec3(Vec3::Zero()) : Vec3(c.p - body.x);
+  };
+  return {.n = c.n, .armA = arm(pair.second), .armB = arm(pair.first), .separation = c.separation};
 }
 
 /// Makes as many touches as were found. Hits under way go on where the same features touch.

@@ -1,5 +1,5 @@
-// What a whole step of stacks costs: at rest, where islands keep their forces, and drifting along
-// on ice, where every step looks and solves anew.
+// What a whole step of stacks costs: at rest, and drifting along on ice, where every step looks
+// anew and islands keep their forces, and pulled along, where every step solves anew.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -20,9 +20,9 @@ struct Stack {
 constexpr Stack kStacks[] = {
     {1, 10, 1, false}, {6, 6, 6, false}, {6, 6, 6, true}, {10, 10, 10, true}};
 
-void stepsOf(benchmark::State& state, double speed) {
+void stepsOf(benchmark::State& state, double speed, double pull) {
   const Stack& stack = kStacks[state.range(0)];
-  const WorldDef def = scenes::stackOf(stack.nx, stack.ny, stack.nz, stack.bonded, speed);
+  const WorldDef def = scenes::stackOf(stack.nx, stack.ny, stack.nz, stack.bonded, speed, pull);
   World world(def);
   const double h = def.stepping.step;
   long step = 0;
@@ -34,14 +34,19 @@ void stepsOf(benchmark::State& state, double speed) {
 }
 
 void stackAtRest(benchmark::State& state) {
-  stepsOf(state, 0.0);
+  stepsOf(state, 0.0, 0.0);
 }
 BENCHMARK(stackAtRest)->DenseRange(0, 3)->Unit(benchmark::kMicrosecond);
 
 void stackDrifting(benchmark::State& state) {
-  stepsOf(state, 0.1);
+  stepsOf(state, 0.1, 0.0);
 }
 BENCHMARK(stackDrifting)->DenseRange(0, 3)->Unit(benchmark::kMicrosecond);
+
+void stackPulled(benchmark::State& state) {
+  stepsOf(state, 0.1, 1e-3);
+}
+BENCHMARK(stackPulled)->DenseRange(0, 3)->Unit(benchmark::kMicrosecond);
 
 /// A row of dominoes of which the first has been pushed.
 WorldDef dominoes() {
@@ -70,8 +75,8 @@ void secondsBy(benchmark::State& state, WorldDef def, const SolverPreset& preset
 
 const int kPresets = [] {
   const std::pair<const char*, WorldDef> worlds[] = {
-      {"tower", scenes::stackOf(1, 10, 1, false, 0.1)},
-      {"pile", scenes::stackOf(6, 6, 6, true, 0.1)},
+      {"tower", scenes::stackOf(1, 10, 1, false, 0.1, 1e-3)},
+      {"pile", scenes::stackOf(6, 6, 6, true, 0.1, 1e-3)},
       {"dominoes", dominoes()}};
   for (const auto& [name, def] : worlds)
     for (const SolverPreset& preset : solverPresets())
