@@ -15,20 +15,20 @@ class Anderson {
   /// @param weight  of each entry in the norm of r, > 0
   void reset(const VecX& weight);
 
-  /// Given x and g(x), puts the next x into `x`.
-  void next(VecX& x, const VecX& g);
+  /// Given x and g(x), puts the next x into both.
+  void next(VecX& x, VecX& g);
 
  private:
   using Small = Eigen::Matrix<double, kDepth, 1>;
   using Gram = Eigen::Matrix<double, kDepth, kDepth>;
 
-  void remember(const VecX& x, const VecX& g, Small& right);
+  void remember(const VecX& g, Small& right);
   void weigh(Small& gamma) const;
-  void mix(VecX& x, const VecX& g, const Small& gamma) const;
+  void mix(VecX& x, VecX& g, const Small& gamma);
 
-  VecX root_;         // of the weight
-  VecX r_, gBefore_;  // r times the root
-  MatX dr_, dg_;      // differences, in a ring
+  VecX root_;                   // of the weight
+  VecX r_, rBefore_, gBefore_;  // r times the root
+  MatX dr_, dg_;                // differences, in a ring
   Gram gram_;
   int used_ = 0, slot_ = 0;
   double sizeBefore_ = 0.0;

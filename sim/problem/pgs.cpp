@@ -67,7 +67,6 @@ double Sweeper::thereAndBack() {
 /// Puts a mixture of these sweeps and earlier ones in their place.
 void Sweeper::accelerate() {
   mixer_.next(before_, lambda_);
-  lambda_ = before_;
   sweep_.take(lambda_);
 }
 
