@@ -11,15 +11,19 @@ namespace {
 
 constexpr double kTurn = 1e-4;  ///< [rad] of a slip direction: the next sweeps do the rest
 
+/// A b of the first row.
+double firstOf(const Mat3& A, const Vec3& b) {
+  return A(0, 0) * b[0] + A(0, 1) * b[1] + A(0, 2) * b[2];
+}
+
 /// λ of a contact with friction at which it is now u fast: open, or held, or sliding.
 Vec3 solveFriction(const SweptCone& cone, const Vec3& u, const Vec3& old) {
-  const Vec3 free = u - cone.W.lazyProduct(old);
-  if (free[0] >= 0.0) return Vec3::Zero();
+  if (u[0] - firstOf(cone.W, old) >= 0.0) return Vec3::Zero();
   const Vec3 held = old - cone.hold.lazyProduct(u);
   const double bound = cone.mu * held[0];
   const bool holds = cone.hold(0, 0) > 0.0;
   if (holds && bound >= 0.0 && held[1] * held[1] + held[2] * held[2] <= bound * bound) return held;
-  return slideFrictionBlock(cone.W, free, cone.mu, old, held, kTurn);
+  return slideFrictionBlock(cone.W, u - cone.W.lazyProduct(old), cone.mu, old, held, kTurn);
 }
 
 /// λ of a cone without friction, or with that of a known direction.
@@ -32,30 +36,50 @@ Vec3 solveOther(const SweptCone& cone, const Vec3& u, const Vec3& old) {
   return {push, -cone.mu * push, 0.0};
 }
 
+/// y of two bodies, two of six numbers in a Lanes.
+struct PairMotion {
+  Lanes3 a, b;
+};
+
+Lanes3 sixOf(const double* from) {
+  return {Lanes{from[0], from[1]}, Lanes{from[2], from[3]}, Lanes{from[4], from[5]}};
+}
+void setSix(Vec6& to, const Lanes3& from) {
+  to << from.x[0], from.x[1], from.y[0], from.y[1], from.z[0], from.z[1];
+}
+
 /// K y + c of one row.
-double speed(const SweptCone& cone, int row, const Vec6& ya, const Vec6& yb) {
-  return (cone.Ka.col(row).cwiseProduct(ya) + cone.Kb.col(row).cwiseProduct(yb)).sum() +
-         cone.c[row];
+double speed(const SweptCone& cone, int row, const PairMotion& y) {
+  const Lanes3 terms = sixOf(&cone.Ka(0, row)) * y.a + sixOf(&cone.Kb(0, row)) * y.b;
+  return sum(terms.x + (terms.y + terms.z)) + cone.c[row];
+}
+
+/// y += Kᵀ d
+void push(PairMotion& y, const SweptCone& cone, const Vec3& d) {
+  const auto along = [&](const Eigen::Matrix<double, 6, 3>& K) {
+    return sixOf(&K(0, 0)) * d[0] + sixOf(&K(0, 1)) * d[1] + sixOf(&K(0, 2)) * d[2];
+  };
+  y.a = y.a + along(cone.Ka);
+  y.b = y.b + along(cone.Kb);
 }
 
 /// Solves one cone and moves its bodies. Returns the change of λ in units of u.
-double visit(const SweptCone& cone, double* lambda, Vec6& ya, Vec6& yb) {
+double visit(const SweptCone& cone, double* lambda, PairMotion& y) {
   Vec3 change;
   if (cone.kind == ConeKind::Friction) {
-    const Vec3 u(speed(cone, 0, ya, yb), speed(cone, 1, ya, yb), speed(cone, 2, ya, yb));
+    const Vec3 u(speed(cone, 0, y), speed(cone, 1, y), speed(cone, 2, y));
     const Vec3 old(lambda[0], lambda[1], lambda[2]), next = solveFriction(cone, u, old);
     for (int i = 0; i < 3; ++i) lambda[i] = next[i];
     change = next - old;
   } else {
     const bool two = cone.kind == ConeKind::Slide;
-    const Vec3 u(speed(cone, 0, ya, yb), 0.0, 0.0), old(lambda[0], two ? lambda[1] : 0.0, 0.0);
+    const Vec3 u(speed(cone, 0, y), 0.0, 0.0), old(lambda[0], two ? lambda[1] : 0.0, 0.0);
     const Vec3 next = solveOther(cone, u, old);
     lambda[0] = next[0];
     if (two) lambda[1] = next[1];
     change = next - old;
   }
-  ya += cone.Ka.lazyProduct(change);
-  yb += cone.Kb.lazyProduct(change);
+  push(y, cone, change);
   return change.lpNorm<Eigen::Infinity>() * cone.mobility;
 }
 
@@ -143,24 +167,26 @@ void TwinCone::set(int lane, const SweptCone& cone) {
 
 [[gnu::flatten]] void takeCones(std::span<const SweptCone> cones, const double* lambda, Vec6& ya,
                                 Vec6& yb) {
+  PairMotion y{sixOf(ya.data()), sixOf(yb.data())};
   for (const SweptCone& cone : cones) {
-    Vec3 own = Vec3::Zero();
-    for (int i = 0; i < coneRows(cone.kind); ++i) own[i] = lambda[cone.row + i];
-    ya += cone.Ka.lazyProduct(own);
-    yb += cone.Kb.lazyProduct(own);
+    const double* own = lambda + cone.row;
+    const int rows = coneRows(cone.kind);
+    push(y, cone, Vec3(own[0], rows > 1 ? own[1] : 0.0, rows > 2 ? own[2] : 0.0));
   }
+  setSix(ya, y.a);
+  setSix(yb, y.b);
 }
 
 [[gnu::flatten]] double sweepCones(std::span<const SweptCone> cones, bool forwards, double* lambda,
                                    Vec6& ya, Vec6& yb) {
-  Vec6 a = ya, b = yb;
+  PairMotion y{sixOf(ya.data()), sixOf(yb.data())};
   double largest = 0.0;
   for (std::size_t i = 0; i < cones.size(); ++i) {
     const SweptCone& cone = cones[forwards ? i : cones.size() - 1 - i];
-    largest = std::max(largest, visit(cone, lambda + cone.row, a, b));
+    largest = std::max(largest, visit(cone, lambda + cone.row, y));
   }
-  ya = a;
-  yb = b;
+  setSix(ya, y.a);
+  setSix(yb, y.b);
   return largest;
 }
 
