@@ -64,17 +64,20 @@ double Newton<N>::solveCalm() {
     if (!system_.minimise(accuracy(std::min(kRoughest, before)), kInner)) break;
     if (stage == 0) system_.widen(kSlips * system_.scale);
     double now = system_.residual();
-    // Forces that do not yet balance may look right where nothing moves.
-    if (now <= tolerance_ && system_.balance() > kRough) {
+    // Forces that do not yet balance may look right where nothing moves. A loose tolerance leaves
+    // those of cones to the next stage.
+    const bool open = now <= tolerance_ && system_.balance() > kRough;
+    const bool goesOn = open && tolerance_ > kRough && system_.rubs();
+    if (open && !goesOn) {
       system_.minimise(0.0, kInner);
       now = system_.residual();
     }
     bool stalled = stage != 1 && now > 0.5 * before;
-    if (now <= tolerance_ || stalled || stage == kNarrow) {
+    if ((now <= tolerance_ && !goesOn) || stalled || stage == kNarrow) {
       if (system_.widen(0.0)) stalled = false;
       now = system_.residual();
     }
-    if (now <= tolerance_ || stalled) return now;
+    if ((now <= tolerance_ && !goesOn) || stalled) return now;
     system_.nextStage(false);
     before = now;
   }

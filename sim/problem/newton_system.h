@@ -80,8 +80,9 @@ class NewtonSystem {
   /// λ and v as a stage began with.
   void goBack(const std::vector<Point>& points, const std::vector<Mover>& movers);
 
-  double residual() const;  ///< as naturalResidual
-  double balance();         ///< as SolveReport::balance
+  bool rubs() const { return rubs_; }  ///< whether a contact has friction
+  double residual() const;             ///< as naturalResidual
+  double balance();                    ///< as SolveReport::balance
 
   double weight = 1.0;  ///< [kg] what ρ is measured by: a quarter of all masses
   double rho = 1.0;     ///< [kg]
@@ -186,7 +187,7 @@ class NewtonSystem {
   std::vector<Twist> work_;
   double factoredRho_ = 0.0;
   bool guess_ = false;  ///< the first step of all goes by what contacts are expected to do
-  bool rubs_ = false;   ///< a contact has friction
+  bool rubs_ = false;
 };
 
 }  // namespace tumble
