@@ -84,10 +84,11 @@ double Newton<N>::solveCalm() {
   return kInfinity;
 }
 
-/// Stages with slip terms that are renewed after each, and a ρ that grows while stages are easy.
+/// Stages with slip terms that go half of the way to those of the velocities after each: the whole
+/// of it swings to and fro where many contacts slide. ρ grows while stages are easy.
 template <int N>
 double Newton<N>::solveCold(int most) {
-  constexpr double kGrowth = 10.0, kLastTau = 1e5;
+  constexpr double kGrowth = 10.0, kLastTau = 10.0, kPart = 0.5;
   constexpr int kStages = 60, kInner = 60, kEasy = 6, kPatience = 4, kShrinks = 4;
   double before = kInfinity, best = kInfinity;
   int stalled = 0, shrunk = 0;
@@ -114,7 +115,8 @@ double Newton<N>::solveCold(int most) {
     if (stage == 0 || slow)
       system_.rho = std::min(kGrowth * system_.rho, kLastTau * system_.weight);
     before = now;
-    system_.nextStage(true);
+    system_.nextStage(false);
+    system_.takeSlip(kPart);
   }
 }
 
@@ -160,7 +162,7 @@ double Newton<N>::solveHard(int most) {
     int cold;    // factorizations
     double tau;  // of the stages that follow
   };
-  constexpr Round kRounds[] = {{30, 10.0}, {30, 100.0}, {60, 1.0}, {100, 1000.0}, {150, 10.0}};
+  constexpr Round kRounds[] = {{200, 10.0}, {100, 10.0}, {60, 1.0}, {100, 1000.0}, {150, 10.0}};
   system_.rho = system_.weight;
   double residual = kInfinity, before = kInfinity;
   for (const Round& round : kRounds) {

@@ -45,7 +45,7 @@ void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
 template <int N>
 [[gnu::flatten]] void NewtonSystem<N>::look(bool slipFollows) {
   forRows(&Mover::v, [](Point& point, const Vec3& rows) { point.u = rows + point.bias; });
-  if (slipFollows) takeSlip();
+  if (slipFollows) takeSlip(1.0);
   evaluate();
 }
 

@@ -215,7 +215,7 @@ void NewtonSystem<N>::nextStage(bool renewSlip) {
     point.lambda = point.force;
     if (point.kind == ConeKind::Slide) point.lambda[1] = -point.mu * point.force[0];
   }
-  if (renewSlip) takeSlip();
+  if (renewSlip) takeSlip(1.0);
 }
 
 template <int N>
@@ -236,12 +236,11 @@ bool NewtonSystem<N>::widen(double slip) {
   return any;
 }
 
-/// De Saxcé's term from the velocities as they are.
 template <int N>
-void NewtonSystem<N>::takeSlip() {
+void NewtonSystem<N>::takeSlip(double part) {
   for (Point& point : points)
     if (point.kind == ConeKind::Friction)
-      point.saxce = point.mu * std::hypot(point.u[1], point.u[2]);
+      point.saxce += part * (point.mu * std::hypot(point.u[1], point.u[2]) - point.saxce);
 }
 
 template <int N>

@@ -75,8 +75,8 @@ class NewtonSystem {
   bool widen(double slip);
   /// λ becomes the forces; and s = mu |u_t|, if asked for.
   void nextStage(bool renewSlip);
-  /// s = mu |u_t| at v (de Saxcé).
-  void takeSlip();
+  /// s goes that part of the way to mu |u_t| at v (de Saxcé).
+  void takeSlip(double part);
   /// λ and v as a stage began with.
   void goBack(const std::vector<Point>& points, const std::vector<Mover>& movers);
 
