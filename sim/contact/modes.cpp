@@ -228,18 +228,23 @@ void ModeForces::project(std::span<RigidBody> bodies, std::span<Contact> contact
 std::vector<Vec3> ModeForces::still(std::span<RigidBody> bodies,
                                     std::span<const Contact> contacts) {
   rows_.clear();
-  forces_.clear();
-  for (const Contact& c : contacts) addRows(bodies, c, false);
-  rhs_.resize(static_cast<Eigen::Index>(rows_.size()));
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const Contact& c = contacts[k];
-    rhs_[static_cast<Eigen::Index>(k)] = -approachVelocity(bodies[c.a], bodies[c.b], c.point);
+  std::vector<double> rhs;
+  for (const Contact& c : contacts) {
+    addRows(bodies, c, true);
+    const Vec3 u = pointVelocity(bodies[c.a], c.point.p) - pointVelocity(bodies[c.b], c.point.p);
+    while (rhs.size() < rows_.size()) rhs.push_back(-rows_[rhs.size()].linear.dot(u));
   }
+  forces_ = rows_;
+  rhs_ = Eigen::Map<const VecX>(rhs.data(), static_cast<Eigen::Index>(rhs.size()));
   solve(bodies);
   push(bodies, true);
   std::vector<Vec3> impulses;
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    impulses.push_back(lambda_[static_cast<Eigen::Index>(k)] * rows_[k].linear);
+  Eigen::Index row = 0;
+  for (const Contact& c : contacts) {
+    impulses.push_back(Vec3::Zero());
+    for (int r = sticks(c) ? 3 : 1; r > 0; --r, ++row)
+      impulses.back() += lambda_[row] * rows_[static_cast<std::size_t>(row)].linear;
+  }
   return impulses;
 }
 

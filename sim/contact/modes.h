@@ -37,8 +37,8 @@ class ModeForces {
   /// manner until these neither approach nor part, nor slip if they stick. Follows the contacts.
   void project(std::span<RigidBody> bodies, std::span<Contact> contacts);
 
-  /// Changes the velocities by the least impulses along the normals after which no contact
-  /// approaches or parts. @return those impulses on a [N·s], one for each contact
+  /// Changes the velocities by the least impulses after which no contact approaches or parts, or
+  /// slips if it sticks. @return those impulses on a [N·s], one for each contact
   std::vector<Vec3> still(std::span<RigidBody> bodies, std::span<const Contact> contacts);
 
  private:

@@ -173,30 +173,6 @@ TEST_CASE("auto says why the exact method gave up, and what to set, in words of 
         "wait for it \"exact\"");
 }
 
-// Oracle: the floor, and energy. A cube that slides where mu > 5/3 has no forces that obey the laws
-// (Painlevé), whatever is tried. Measured: 3e-16 m of overlap, at rest to 0; residual of the forces
-// that were used 0.0, where those refused had 0.7 to 1.7.
-TEST_CASE("where sliding jams at once, exact stops and says so, and auto goes on by stepping") {
-  for (const double mu : {2.0, 3.0, 10.0}) {
-    CAPTURE(mu);
-    WorldDef def = worldOf("auto", 1.0, {ground(0.0, mu)});
-    def.bodies.push_back(box("cube", {0.2, 0.2, 0.2}, {0.0, 0.1, 0.0}, 0.0, mu));
-    def.bodies[1].velocity = {1.0, 0.0, 0.0};
-    World either(def);
-    def.method = "exact";
-    World exact(def);
-    exact.advance(1.0);
-    CHECK(exact.report().stopped);
-    CHECK(exact.report().reason.find("may jam") != std::string::npos);
-    either.advance(1.0);
-    CHECK_FALSE(either.report().stopped);
-    CHECK(lowestCorner(either.sample(1.0)) > -1e-9);
-    CHECK(either.report().certificate.energy_end <= either.report().certificate.energy_start);
-    CHECK(either.sample(1.0).bodies[1].v.norm() < 1e-9);
-    CHECK(either.report().certificate.max_complementarity < 1e-6);
-  }
-}
-
 // Oracle: walls and floor. Four balls fall into a narrow shaft, where some slide while others fly.
 // Measured 8e-12 m, allowed 1e-9.
 TEST_CASE("exact: balls that fall into a shaft stay in it, whoever is looked for meanwhile") {

@@ -99,15 +99,15 @@ class Exact {
   bool presses(const Contact& contact) const;
   /// @return the residual of the contact problem
   double solveForces(std::vector<Contact>& resting);
-  void stillNormals(const std::vector<Contact>& resting);
+  void stillContacts(const std::vector<Contact>& resting);
   bool steady(const Contact& contact) const;
   /// @return the contacts of the cluster that lasted before
   std::vector<Contact> changeHolds(double t, const Cluster& cluster,
                                    const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
-  /// Whether a contact slides in a manner that no force goes with.
-  bool jams(const Contact& contact, const std::vector<Contact>& resting, bool solved) const;
-  /// Gives jammed contacts an impulse. @return whether it did
+  /// Whether a contact, alone between its bodies, slides in a manner that no force goes with.
+  bool jams(const Contact& contact, const std::vector<Contact>& resting) const;
+  /// Gives contacts that have no forces, or jam, impulses that end a slip. @return whether it did
   bool endJam(double t, const Cluster& cluster, const std::vector<Contact>& resting,
               double residual);
   void sustain(double t, const Cluster& cluster);

@@ -157,11 +157,13 @@ bool Exact::steady(const Contact& c) const {
   return endless && straight;
 }
 
-// What is left of velocities along the normals of contacts that last is below the tolerance of
-// rest; in the long run it would move them apart, or into each other.
-void Exact::stillNormals(const std::vector<Contact>& resting) {
+// What is left of velocities along the normals of contacts that last, and of the slips of those
+// that stick, is below tolerances; in the long run it would move them.
+void Exact::stillContacts(const std::vector<Contact>& resting) {
   const bool still = std::all_of(resting.begin(), resting.end(), [&](const Contact& c) {
-    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) == 0.0;
+    const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
+    const bool slips = c.friction > 0.0 && !c.sliding && !slipVelocity(a, b, c.point).isZero(0.0);
+    return approachVelocity(a, b, c.point) == 0.0 && !slips;
   });
   if (still) return;
   Held held(state_.bodies, resting);
@@ -183,8 +185,11 @@ double Exact::findForces(double t, const Cluster& cluster, std::vector<Contact>&
     resting = restingOf(cluster);
     return resting.empty() ? 0.0 : solveForces(resting);
   };
-  const double residual = solve();
-  return endJam(t, cluster, resting, residual) ? solve() : residual;
+  double residual = solve();
+  for (std::size_t jams = 0; jams <= resting.size() && endJam(t, cluster, resting, residual);
+       ++jams)
+    residual = solve();
+  return residual;
 }
 
 bool Exact::letGo(std::vector<Contact>& resting) const {
@@ -212,7 +217,7 @@ void Exact::hold(double t, Cluster& cluster) {
   double& worst = report_.certificate.max_complementarity;
   worst = std::max(worst, residual);
   const bool slowly = letGo(resting);
-  if (!resting.empty()) stillNormals(resting);
+  if (!resting.empty()) stillContacts(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
   // What parts as slowly as a push that ends is followed until there is a gap to be seen.
   if (slowly ||

@@ -1,0 +1,83 @@
+// Sliding that no forces go with (Painlevé), where bodies touch at more than one point: an impulse
+// without collision ends it, held to closed forms.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/catch.h"
+#include "tests/world/scenes.h"
+
+using namespace tumble;
+using namespace tumble::scenes;
+
+namespace {
+
+/// A block of half lengths l along its slip and h across it, which slides at 1 m/s on one of its
+/// long faces, or on the edge below it. Its centre is at height `above`.
+WorldDef slider(const char* method, double duration, double mu, double l, double h, double above) {
+  WorldDef def = worldOf(method, duration, {ground(0.0, mu)});
+  def.bodies.push_back(box("block", 2.0 * Vec3(l, h, h), {0.0, above, 0.0}, 0.0, mu));
+  if (above > h) def.bodies[1].orientation = fromAxisAngle(Vec3::UnitX(), 0.25 * std::numbers::pi);
+  def.bodies[1].velocity = {1.0, 0.0, 0.0};
+  return def;
+}
+
+/// Turns about its front points, which stop: ω = v H/(k² + l² + H²), k the radius of inertia, with
+/// the impulse m ω l along the normal. The share H²/(k² + l² + H²) of the energy is left.
+void checkStop(const WorldDef& def, double l, double h, double above) {
+  World world(def);
+  world.advance(def.duration);
+  const Report& report = world.report();
+  CAPTURE(report.reason, report.certificate.energy_balance_error);
+  REQUIRE_FALSE(report.stopped);
+  const double mass = 8000.0 * l * h * h;
+  const double inertia = (l * l + h * h) / 3.0 + l * l + above * above;
+  const double omega = above / inertia;
+  REQUIRE(!report.events.empty());
+  const Event& jam = report.events.front();
+  CHECK(jam.t == 0.0);
+  CHECK(jam.kind == EventKind::Impact);
+  CHECK(jam.vrel == 0.0);
+  CHECK(jam.p.x() == Approx(l).epsilon(1e-12));
+  CHECK(jam.j == Approx(mass * omega * l).epsilon(1e-12));
+  CHECK(report.certificate.energy_lost_friction ==
+        Approx(0.5 * mass * (1.0 - above * above / inertia)).epsilon(1e-12));
+  CHECK(report.certificate.energy_balance_error < 1e-12);
+  CHECK(report.notes.size() == 1);
+}
+
+}  // namespace
+
+// Oracle: closed form. A block that slides along the edge it stands on jams if mu is more than
+// (k² + l²)/(l H), at its front corner alone: W = (3.3, 2.1; −1.3, −0.1)/m leaves nothing that
+// could push it up there, while both together would be pushed, the rear corner down. Measured
+// 2e-15.
+TEST_CASE("a block that slides along its edge jams at the front corner alone") {
+  const double l = 0.1, h = 0.2, above = h * std::sqrt(2.0);
+  checkStop(slider("exact", 0.01, 1.0, l, h, above), l, h, above);
+  World smooth(slider("exact", 0.01, 0.9, l, h, above));  // (k² + l²)/(l H) = 0.943
+  smooth.advance(0.01);
+  CHECK_FALSE(smooth.report().stopped);
+  CHECK(smooth.report().notes.empty());
+}
+
+// Oracle: closed form. A cube that slides on a face jams at its front edge where mu > 5/3, rises,
+// and falls back. Measured: 2e-15, and at rest to 4e-19 m/s; momentum 2e-10, as the forces of the
+// rest are solved to 2e-11 of the weight.
+TEST_CASE("a cube whose sliding jams tips about its front edge, and comes to rest") {
+  const double l = 0.1;
+  for (const double mu : {2.0, 3.0, 10.0}) {
+    CAPTURE(mu);
+    checkStop(slider("exact", 0.01, mu, l, l, l), l, l, l);
+    World world(slider("auto", 1.0, mu, l, l, l));
+    world.advance(1.0);
+    const Sample end = world.sample(1.0);
+    const Certificate& books = world.report().certificate;
+    CHECK_FALSE(world.report().stopped);
+    CHECK(world.method() == "auto: exact");
+    CHECK(std::abs(end.bodies[1].x.y() - l) < 1e-9);
+    CHECK(end.bodies[1].v.norm() < 1e-9);
+    CHECK(books.energy_end <= books.energy_start);
+    CHECK(books.max_complementarity < 1e-6);
+    CHECK(books.momentum_error < 1e-9);
+  }
+}
