@@ -136,9 +136,11 @@ ContactClass classify(double vrel, double tolerance) {
       c.pa = c.pb + reach(c) * c.n;
       break;
     case NormalTie::Edges: {
-      const Vec3 turned = c.ea.cross(c.eb).normalized();
-      c.n = turned.dot(c.n) < 0.0 ? Vec3(-turned) : turned;
+      // Round edges lie apart, which tells the sign of n; sharp ones keep it.
       nearestOnEdges(c);
+      const Vec3 turned = c.ea.cross(c.eb).normalized();
+      const Vec3 out = c.ra + c.rb > 0.0 ? Vec3(c.pa - c.pb) : c.n;
+      c.n = turned.dot(out) < 0.0 ? Vec3(-turned) : turned;
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       break;
     }
