@@ -20,6 +20,8 @@ constexpr double kLeft = 100.0;
 constexpr double kSlow = 1e-4;
 /// Residual of contact forces that are no solution.
 constexpr double kLawless = 1e-6;
+/// Jams of one instant: slips that end in turns shrink from one to the next.
+constexpr int kJams = 100;
 /// Stretches before closed forms are tried again: the first time, and at most.
 constexpr int kFirst = 1, kMost = 64;
 /// No pull towards zero: flights in contact have no error that grows. [s]
@@ -186,8 +188,7 @@ double Exact::findForces(double t, const Cluster& cluster, std::vector<Contact>&
     return resting.empty() ? 0.0 : solveForces(resting);
   };
   double residual = solve();
-  for (std::size_t jams = 0; jams <= resting.size() && endJam(t, cluster, resting, residual);
-       ++jams)
+  for (int jams = 0; jams < kJams && endJam(t, cluster, resting, residual); ++jams)
     residual = solve();
   return residual;
 }
