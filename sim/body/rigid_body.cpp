@@ -108,7 +108,7 @@ void applyImpulse(RigidBody& body, const Vec3& p, const Vec3& J) {
   if (body.fixed()) return;
   body.P += J;
   if (!body.particle) body.L += (p - body.x).cross(J);
-  updateDerived(body);
+  updateVelocities(body);
 }
 
 void applyForce(RigidBody& body, const Vec3& p, const Vec3& f) {
