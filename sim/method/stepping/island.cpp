@@ -140,9 +140,10 @@ bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) co
   return true;
 }
 
-/// Whether an island that was at rest is asked for a step of another length: its forces stay.
+/// Whether an island that was at rest is asked for a step of another length: its forces stay,
+/// unless they are those of a short step, in whose impulses more of them is rounding.
 bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, double h) const {
-  if (memory.length == h || !ofSame(memory, links)) return false;
+  if (memory.length == h || h > 2.0 * memory.solved || !ofSame(memory, links)) return false;
   for (std::size_t k = 0; k < links.size(); ++k)
     if (!isPair(links[k]) || memory.seen[k].form != memory_.pairs[links[k]].form) return false;
   const double s = h / memory.length, still = tolerance_.rest;
@@ -298,7 +299,7 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
 void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
   memory.seen.clear();
   memory.books = {};
-  memory.length = h;
+  memory.length = memory.solved = h;
   std::size_t cone = 0;
   for (const Link link : links) {
     if (!isPair(link)) {

@@ -70,7 +70,8 @@ struct IslandMemory {
   };
   std::vector<Mover> movers;  ///< in order of their first contact
   std::vector<Seen> seen;     ///< its pairs
-  double length = 0.0;        ///< [s] of the step
+  double length = 0.0;        ///< [s] of the last step
+  double solved = 0.0;        ///< [s] of the step that it was solved in
   double scale = 1.0;         ///< [m/s] velocityScale of the problem
   double residual = 0.0;
   IslandBooks books;
