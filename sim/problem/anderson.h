@@ -22,16 +22,20 @@ class Anderson {
   using Small = Eigen::Matrix<double, kDepth, 1>;
   using Gram = Eigen::Matrix<double, kDepth, kDepth>;
 
-  void remember(const VecX& g, Small& right);
-  void weigh(Small& gamma) const;
+  void forget();
+  void remember(const VecX& g, double size);
+  Small weights() const;
   void mix(VecX& x, VecX& g, const Small& gamma);
+  int column(int age) const { return (newest_ + kDepth - age) % kDepth; }
 
   VecX root_;                   // of the weight
   VecX r_, rBefore_, gBefore_;  // r times the root
   MatX dr_, dg_;                // differences, in a ring
-  Gram gram_;
-  int used_ = 0, slot_ = 0;
+  Gram gram_;                   // drᵀ dr, by age
+  Small right_;                 // drᵀ r, by age
+  int used_ = 0, newest_ = 0;
   double sizeBefore_ = 0.0;
+  double largest_ = 0.0;  // |r|² since right_ was made anew
   bool started_ = false;
 };
 
