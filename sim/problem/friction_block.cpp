@@ -156,6 +156,7 @@ Mat3 inverseOfBlock(const Mat3& W) {
     Vec3 column;
     if (!solveThree(W, Vec3::Unit(k), column)) return Mat3::Zero();
     inverse.col(k) = column;
+    for (int i = 0; i < k; ++i) inverse(i, k) = inverse(k, i);
   }
   return inverse;
 }

@@ -27,7 +27,7 @@ Vec3 slideFrictionBlock(const Mat3& W, const Vec3& c, double mu, const Vec3& sta
 LaneMask slideAbreast(const LanesSymmetric& W, const Lanes3& c, Lanes mu, const Lanes3& start,
                       double enough, LaneMask lanes, Lanes3& lambda);
 
-/// W⁻¹, or 0 if W is singular to rounding.
+/// W⁻¹, symmetric, or 0 if W is singular to rounding.
 Mat3 inverseOfBlock(const Mat3& W);
 
 }  // namespace tumble

@@ -44,11 +44,6 @@ inline void setLane(LanesSymmetric& A, int lane, const Mat3& to) {
   A.zz[lane] = to(2, 2);
 }
 
-/// A 3×3 matrix in each lane, by rows.
-struct LanesMatrix {
-  Lanes3 x, y, z;
-};
-
 /// One lane into three numbers.
 inline void setNumbers(double* to, const Lanes3& a, int lane) {
   to[0] = a.x[lane];
@@ -67,6 +62,9 @@ inline Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
 inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+inline Lanes3 operator-(const Lanes3& a) {
+  return {-a.x, -a.y, -a.z};
+}
 inline Lanes3 operator*(const Lanes3& a, const Lanes3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -80,10 +78,6 @@ inline Lanes3 operator*(const Lanes3& a, double b) {
 inline Lanes3 operator*(const LanesSymmetric& A, const Lanes3& b) {
   return {A.xx * b.x + A.xy * b.y + A.xz * b.z, A.xy * b.x + A.yy * b.y + A.yz * b.z,
           A.xz * b.x + (A.yz * b.y + A.zz * b.z)};
-}
-inline Lanes3 operator*(const LanesMatrix& A, const Lanes3& b) {
-  return {A.x.x * b.x + A.x.y * b.y + A.x.z * b.z, A.y.x * b.x + A.y.y * b.y + A.y.z * b.z,
-          A.z.x * b.x + (A.z.y * b.y + A.z.z * b.z)};
 }
 
 inline double sum(Lanes a) {

@@ -42,7 +42,7 @@ void ConeSweeps::prepare(const Problem& problem) {
   cones_.resize(problem.cones.size());
   for (std::size_t k = 0; k < cones_.size(); ++k) layOut(problem, problem.cones[k], cones_[k]);
   findRuns(problem);
-  pair();
+  pair(problem);
 }
 
 [[gnu::flatten]] void ConeSweeps::layOut(const Problem& problem, const Cone& from,
@@ -51,20 +51,17 @@ void ConeSweeps::prepare(const Problem& problem) {
   cone.mu = from.mu;
   cone.row = from.row;
   const int a = problem.rows[from.row].a, b = problem.rows[from.row].b;
-  cone.Ka.setZero();
-  cone.Kb.setZero();
+  cone.K.setZero();
   cone.c.setZero();
-  const double rootA = std::sqrt(problem.invM[a]), rootB = std::sqrt(problem.invM[b]);
+  const double root = std::sqrt(problem.invM[a] + problem.invM[b]);
   for (int i = 0; i < coneRows(from.kind); ++i) {
     const Row& row = problem.rows[from.row + i];
-    cone.Ka.col(i).head<3>() = rootA * row.linear;
-    cone.Ka.col(i).tail<3>() = roots_[a].transpose().lazyProduct(row.angularA);
-    cone.Kb.col(i).head<3>() = -rootB * row.linear;
-    cone.Kb.col(i).tail<3>() = roots_[b].transpose().lazyProduct(row.angularB);
+    cone.K.col(i).head<3>() = root * row.linear;
+    cone.K.col(i).segment<3>(3) = roots_[a].transpose().lazyProduct(row.angularA);
+    cone.K.col(i).segment<3>(6) = roots_[b].transpose().lazyProduct(row.angularB);
     cone.c[i] = rowSpeed(row, problem.vStar[a], problem.vStar[b]) + row.bias;
   }
-  cone.W = cone.Ka.transpose().lazyProduct(cone.Ka);
-  cone.W += cone.Kb.transpose().lazyProduct(cone.Kb);
+  cone.W = cone.K.transpose().lazyProduct(cone.K);
   cone.mobility = cone.W.diagonal().maxCoeff();
   if (cone.kind == ConeKind::Friction) cone.hold = inverseOfBlock(cone.W);
   for (int i = 0; i < coneRows(from.kind); ++i)
@@ -102,17 +99,24 @@ void ConeSweeps::findRuns(const Problem& problem) {
 }
 
 /// Runs depth after depth, two side by side where two of contacts with friction are equally long.
-void ConeSweeps::pair() {
+void ConeSweeps::pair(const Problem& problem) {
+  const auto put = [&](const Run& run, int lane, TwinBodies& bodies) {
+    const double a = problem.invM[run.a], b = problem.invM[run.b];
+    bodies.a[lane] = &y_[run.a];
+    bodies.b[lane] = &y_[run.b];
+    bodies.shareA[lane] = a > 0.0 ? std::sqrt(a / (a + b)) : 0.0;
+    bodies.shareB[lane] = b > 0.0 ? std::sqrt(b / (a + b)) : 0.0;
+  };
   places_.clear();
   twins_.clear();
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const Run& one = runs_[i];
-    Place place{false, one.first, one.count, {{&y_[one.a]}, {&y_[one.b]}}};
+    Place place{false, one.first, one.count, {}};
+    put(one, 0, place.bodies);
     if (one.friction && i + 1 < runs_.size() && runs_[i + 1].friction &&
         runs_[i + 1].depth == one.depth && runs_[i + 1].count == one.count) {
       const Run& other = runs_[++i];
-      place.bodies.a[1] = &y_[other.a];
-      place.bodies.b[1] = &y_[other.b];
+      put(other, 1, place.bodies);
       place.twins = true;
       place.first = static_cast<int>(twins_.size());
       for (int k = 0; k < one.count; ++k) {
@@ -131,8 +135,7 @@ void ConeSweeps::take(const VecX& lambda) {
     if (place.twins)
       takeTwins(std::span(twins_).subspan(place.first, place.count), lambda.data(), place.bodies);
     else
-      takeCones(std::span(cones_).subspan(place.first, place.count), lambda.data(),
-                *place.bodies.a[0], *place.bodies.b[0]);
+      takeCones(std::span(cones_).subspan(place.first, place.count), lambda.data(), place.bodies);
   }
 }
 
@@ -140,11 +143,11 @@ double ConeSweeps::pass(bool forwards, VecX& lambda) {
   double largest = 0.0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[forwards ? i : places_.size() - 1 - i];
-    const double change =
-        place.twins ? sweepTwins(std::span(twins_).subspan(place.first, place.count), forwards,
-                                 lambda.data(), place.bodies)
-                    : sweepCones(std::span(cones_).subspan(place.first, place.count), forwards,
-                                 lambda.data(), *place.bodies.a[0], *place.bodies.b[0]);
+    const double change = place.twins
+                              ? sweepTwins(std::span(twins_).subspan(place.first, place.count),
+                                           forwards, lambda.data(), place.bodies)
+                              : sweepCones(std::span(cones_).subspan(place.first, place.count),
+                                           forwards, lambda.data(), place.bodies);
     largest = std::max(largest, change);
   }
   return largest;

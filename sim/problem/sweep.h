@@ -34,13 +34,13 @@ class ConeSweeps {
   /// A run alone, or two of one depth side by side.
   struct Place {
     bool twins;
-    int first, count;   ///< of cones_, or of twins_
-    TwinBodies bodies;  ///< the run that is alone has lane 0
+    int first, count;  ///< of cones_, or of twins_
+    TwinBodies bodies;
   };
 
   void layOut(const Problem& problem, const Cone& from, SweptCone& cone);
   void findRuns(const Problem& problem);
-  void pair();
+  void pair(const Problem& problem);
 
   std::vector<SweptCone> cones_;
   std::vector<Run> runs_;   ///< by depth

@@ -1,7 +1,8 @@
 // Chapter 6, problem: visits of a sweep to the cones between two bodies. Used by sweep.cpp alone.
 //
 // Bodies go by y, with  v = vStar + B y  and  M⁻¹ = B Bᵀ.  Then one matrix K = J B says both how
-// fast the rows are, u = K y + c, and what their multipliers do, y = Kᵀ λ.
+// fast the rows are, u = K y + c, and what their multipliers do, y = Kᵀ λ.  Rows know the centres
+// of a pair by their relative motion alone, so that nine numbers are all they see of its two y.
 #pragma once
 
 #include <span>
@@ -13,41 +14,42 @@ namespace tumble {
 
 /// A cone of any kind with all that one visit reads and no more.
 struct SweptCone {
-  Eigen::Matrix<double, 6, 3> Ka, Kb;  ///< columns: what a unit of each λ does to y of the two
-                                       ///< bodies; 0 beyond its rows
-  Mat3 W;                              ///< K Kᵀ: block of J M⁻¹ Jᵀ [1/kg]
-  Mat3 hold;                           ///< W⁻¹; 0 where W is singular
-  Vec3 c;                              ///< J vStar + bias
+  Eigen::Matrix<double, 10, 3> K;  ///< columns: what a unit of each λ does to y of the pair: of its
+                                   ///< centres, of a's turning, of b's, 0; 0 beyond its rows
+  Mat3 W;     ///< K Kᵀ: block of J M⁻¹ Jᵀ [1/kg]
+  Mat3 hold;  ///< W⁻¹, symmetric; 0 where W is singular
+  Vec3 c;     ///< J vStar + bias
   double mu;
   double mobility;  ///< largest diagonal entry of W [1/kg]
   int row;
   ConeKind kind;
 };
 
+/// Two pairs of bodies, in a lane each; no body that moves is of both. A pair that is alone has
+/// lane 0.
+struct TwinBodies {
+  Vec6 *a[2], *b[2];
+  Lanes shareA, shareB;  ///< roots of the two parts of the pair's 1/m
+};
+
 /// y += Kᵀ λ at the two bodies, cone after cone.
-void takeCones(std::span<const SweptCone> cones, const double* lambda, Vec6& ya, Vec6& yb);
+void takeCones(std::span<const SweptCone> cones, const double* lambda, const TwinBodies& bodies);
 
 /// Solves cone after cone for its own λ, all others kept, forwards or backwards. Returns the
 /// largest change of λ in units of u.
-double sweepCones(std::span<const SweptCone> cones, bool forwards, double* lambda, Vec6& ya,
-                  Vec6& yb);
-
-/// Two pairs of bodies, in a lane each; no body that moves is of both.
-struct TwinBodies {
-  Vec6 *a[2], *b[2];
-};
+double sweepCones(std::span<const SweptCone> cones, bool forwards, double* lambda,
+                  const TwinBodies& bodies);
 
 /// A contact with friction of each of two pairs of bodies, by the same arithmetic as a SweptCone.
 struct TwinCone {
   struct Motion {
-    Lanes3 linearA, angularA, linearB, angularB;
+    Lanes3 linear, angularA, angularB;
   };
 
   void set(int lane, const SweptCone& cone);
 
-  Motion K[3];  ///< columns of Ka over Kb
-  LanesSymmetric W;
-  LanesMatrix hold;
+  Motion K[3];  ///< columns
+  LanesSymmetric W, hold;
   Lanes3 c;
   Lanes mu, mobility;
   int row[2];
