@@ -17,6 +17,8 @@ constexpr double kTolerance = 1e-13;
 constexpr double kOff = 1e-12;
 /// [m] per size of the world: overlap that no event explains.
 constexpr double kAstray = 1e-9;
+/// Energy that friction gives, of the kinetic energy: what slides is no longer what was asked.
+constexpr double kGiven = 1e-6;
 /// [1] Normals that differ by less are one: faces that lie on each other may take turns.
 constexpr double kOneNormal = 1e-8;
 /// [s] A stretch that is shorter stands still; or counts as an event, however it ended.
@@ -250,6 +252,13 @@ void Sustained::commit(double h) {
             : "the motion left the range of numbers at t = " + shortNumber(state_.t) + " s";
     return;
   }
+  const SustainedSystem::Books done = system_.books(y_);
+  if (done.rubbed < -kGiven * state_.kineticMax - state_.load * tolerance_.touch) {
+    report_.stopped = true;
+    report_.reason = "friction would give energy after t = " + shortNumber(state_.t) +
+                     " s: what slides may jam there; try method \"stepping\", or less friction";
+    return;
+  }
   const double t1 = h < model_.def.duration - state_.t ? state_.t + h : model_.def.duration;
   if (t1 > state_.t)
     state_.trail.push_back(
@@ -261,7 +270,6 @@ void Sustained::commit(double h) {
     books.max_penetration =
         std::max(books.max_penetration, -separation(model_.shapes[pair.a], trial_[pair.a].pose(),
                                                     model_.shapes[pair.b], trial_[pair.b].pose()));
-  const SustainedSystem::Books done = system_.books(y_);
   books.work_of_forces += done.work;
   books.energy_lost_friction += done.rubbed;
   state_.externalImpulse += done.impulse;
