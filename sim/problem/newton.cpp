@@ -72,13 +72,14 @@ double Newton<N>::solveCalm() {
       system_.minimise(0.0, kInner);
       now = system_.residual();
     }
+    const auto done = [&] { return now <= tolerance_ && !goesOn; };
     bool stalled = stage != 1 && now > 0.5 * before;
-    if ((now <= tolerance_ && !goesOn) || stalled || stage == kNarrow) {
+    if (done() || stalled || stage == kNarrow) {
       if (system_.widen(0.0)) stalled = false;
       now = system_.residual();
     }
-    if ((now <= tolerance_ && !goesOn) || stalled) return now;
-    system_.nextStage(false);
+    if (done() || stalled) return now;
+    system_.nextStage(0.0);
     before = now;
   }
   return kInfinity;
@@ -115,8 +116,7 @@ double Newton<N>::solveCold(int most) {
     if (stage == 0 || slow)
       system_.rho = std::min(kGrowth * system_.rho, kLastTau * system_.weight);
     before = now;
-    system_.nextStage(false);
-    system_.takeSlip(kPart);
+    system_.nextStage(kPart);
   }
 }
 
@@ -128,7 +128,7 @@ double Newton<N>::solveSlips(double tau) {
   double before = system_.residual();
   int failed = 0, stalled = 0;
   for (int stage = 0; stage < kStages && failed < kFailures; ++stage) {
-    system_.nextStage(false);
+    system_.nextStage(0.0);
     pointsBefore_ = system_.points;
     moversBefore_ = system_.movers;
     const bool found = system_.followSlip(accuracy(before), kInner);
@@ -182,7 +182,7 @@ double Newton<N>::solveHard(int most) {
       return residual;
     before = residual;
     system_.rho = rho;
-    system_.nextStage(true);
+    system_.nextStage(1.0);
   }
   return residual;
 }
@@ -237,7 +237,7 @@ void Newton<N>::closeBalance(SolveReport& report) {
     remember();
     system_.rho = rho;
     for (int stage = 0; stage < kStages; ++stage) {
-      system_.nextStage(true);
+      system_.nextStage(1.0);
       settle();
       if (system_.residual() <= tolerance_) break;
     }

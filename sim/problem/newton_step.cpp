@@ -79,7 +79,7 @@ template <int N>
 template <int N>
 [[gnu::flatten]] bool NewtonSystem<N>::stageMore() {
   if (factoredRho_ != rho) return false;
-  nextStage(false);
+  nextStage(0.0);
   gather([this](Point& point, const Vec3& z) {
     project(point, z);
     if (point.factored == Piece::Zero) point.force.setZero();

@@ -208,14 +208,14 @@ void NewtonSystem<N>::prepare(const Problem& problem) {
   if (weight == 0.0) weight = 1.0;
 }
 
-/// λ becomes the forces; and mu |u_t| what it is now, if asked for.
+/// λ becomes the forces; slip terms go a part of the way to those of now, if at all.
 template <int N>
-void NewtonSystem<N>::nextStage(bool renewSlip) {
+void NewtonSystem<N>::nextStage(double slipPart) {
   for (Point& point : points) {
     point.lambda = point.force;
     if (point.kind == ConeKind::Slide) point.lambda[1] = -point.mu * point.force[0];
   }
-  if (renewSlip) takeSlip(1.0);
+  if (slipPart > 0.0) takeSlip(slipPart);
 }
 
 template <int N>

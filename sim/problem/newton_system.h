@@ -73,10 +73,8 @@ class NewtonSystem {
   /// True cones for all that slips at this speed [m/s] or faster.
   /// @return whether any was narrow
   bool widen(double slip);
-  /// λ becomes the forces; and s = mu |u_t|, if asked for.
-  void nextStage(bool renewSlip);
-  /// s goes that part of the way to mu |u_t| at v (de Saxcé).
-  void takeSlip(double part);
+  /// λ becomes the forces, and s goes that part of the way to mu |u_t| at v (de Saxcé).
+  void nextStage(double slipPart);
   /// λ and v as a stage began with.
   void goBack(const std::vector<Point>& points, const std::vector<Mover>& movers);
 
@@ -124,6 +122,7 @@ class NewtonSystem {
   void addAlone(Factor& factor, const Patch& patch, const Point& point, const Mat3& slope);
 
   // newton_step.cpp
+  void takeSlip(double part);
   void project(Point& point, const Vec3& z) const;
   template <class Find>
   void gather(const Find& find);

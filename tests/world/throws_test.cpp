@@ -129,8 +129,9 @@ struct Worst {
   long evaluations = 0;
 };
 
-/// Lets one box after the other fall, of half edges between two lengths.
-Worst throwMany(int seed, double shortest, double longest, std::span<const double> frictions) {
+/// Lets one box after the other fall, of half edges between two lengths, and looks at the worst.
+void throwMany(int seed, double shortest, double longest, std::span<const double> frictions,
+               long mostEvaluations) {
   Random random(seed);
   Worst worst;
   for (std::size_t k = 0; k < 200; ++k) {
@@ -152,7 +153,9 @@ Worst throwMany(int seed, double shortest, double longest, std::span<const doubl
   }
   WARN("two hundred bricks: at most " << worst.evaluations << " evaluations, energy "
                                       << worst.energy << ", overlap " << worst.overlap << " m");
-  return worst;
+  CHECK(worst.evaluations < mostEvaluations);
+  CHECK(worst.energy < 1e-10);
+  CHECK(worst.overlap < 1e-9);
 }
 
 }  // namespace
@@ -160,18 +163,12 @@ Worst throwMany(int seed, double shortest, double longest, std::span<const doubl
 // The same for two hundred bricks, thrown at random. Measured 1.2e-11, 5.7e-11 m and 86,000.
 TEST_CASE("two hundred bricks, however thrown, are followed closely", "[long]") {
   constexpr double mu[] = {0.0, 0.1, 0.4, 1.0};
-  const Worst worst = throwMany(2026, 0.08, 0.25, mu);
-  CHECK(worst.evaluations < 200'000);
-  CHECK(worst.energy < 1e-10);
-  CHECK(worst.overlap < 1e-9);
+  throwMany(2026, 0.08, 0.25, mu, 200'000);
 }
 
 // The same where much jams (Painlevé), and bricks on an edge chatter from end to end. Measured
 // 3.9e-12, 4.8e-11 m and 270,000.
 TEST_CASE("two hundred thin bricks go on where they jam", "[long]") {
   constexpr double mu[] = {0.7, 1.0, 1.5, 2.5};
-  const Worst worst = throwMany(2027, 0.01, 0.4, mu);
-  CHECK(worst.evaluations < 600'000);
-  CHECK(worst.energy < 1e-10);
-  CHECK(worst.overlap < 1e-9);
+  throwMany(2027, 0.01, 0.4, mu, 600'000);
 }
