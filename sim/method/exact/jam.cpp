@@ -189,7 +189,8 @@ bool Exact::endJam(double t, const Cluster& cluster, const std::vector<Contact>&
     sum.work += energy.work;
     size += std::abs(energy.lost);
   }
-  if (sum.lost < -kRounding * size) return false;  // a slip that ends cannot give energy
+  const double rounding = kRounding * std::max(size, kRounding * state_.kineticMax);
+  if (sum.lost < -rounding) return false;  // a slip that ends cannot give energy
   report_.certificate.energy_lost_friction += sum.lost;
   report_.certificate.work_of_forces += sum.work;
   for (const int i : cluster.bodies)
