@@ -1,4 +1,5 @@
 // Bounces in steps: heights, energy, and what they leave alone.
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -140,4 +141,50 @@ TEST_CASE("stepping: a brick loses what the exact method says") {
   CAPTURE(s.energy_end, x.energy_end, s.energy_lost_friction, x.energy_lost_friction);
   CHECK(std::abs(s.energy_lost_impact - x.energy_lost_impact) < 1e-3 * x.energy_start);
   CHECK(std::abs(s.energy_lost_friction - x.energy_lost_friction) < 1e-3 * x.energy_start);
+}
+
+// Oracle: Galperin's count, the digits of π, and energy. A light ball between a wall and a heavy
+// one that comes at 1 m/s is hit thousands of times in one step. Measured: energy 3e-13 of itself.
+TEST_CASE("stepping: a ball between a wall and a heavy one is hit as often as π says") {
+  const auto [ratio, count] =
+      GENERATE(std::pair(1.0, 3), std::pair(1e2, 31), std::pair(1e4, 314), std::pair(1e6, 3141));
+  const double step = GENERATE(1.0 / 240.0, 1.0 / 24.0);
+  WorldDef def = worldOf("stepping", 150.0, {ground(1.0)});
+  def.bodies[0].shape = HalfSpace{Vec3::UnitX(), 0.0};
+  def.gravity.setZero();
+  def.stepping.step = step;
+  def.bodies.push_back(ball("light", 0.05, {1.0, 0.0, 0.0}, 1.0));
+  def.bodies.push_back(ball("heavy", 0.2, {2.0, 0.0, 0.0}, 1.0));
+  def.bodies[2].mass = ratio;
+  def.bodies[2].velocity = {-1.0, 0.0, 0.0};
+  World world(def);
+  const Sample end = run(world);
+  const auto hits = std::ranges::count_if(
+      world.report().events, [](const Event& event) { return event.kind == EventKind::Impact; });
+  CAPTURE(ratio, step);
+  CHECK(hits == count);
+  CHECK(end.kinetic == Approx(0.5 * ratio).epsilon(1e-11));
+}
+
+// Oracle: closed form (Bernoulli). A ball of 2 m/s meets two that touch: −0.4, (1.2, ± 1.2/√3). The
+// contact between the two is in the problem of the step that ends with the hit, which must not slow
+// the ball that comes, whose gap closes by a curve. Measured: energy 2e-16, velocities 1.2e-8,
+// since balls touch at 1e-9 m.
+TEST_CASE("stepping: two balls that touch are met by a third one at full speed") {
+  const double aside = std::sqrt(0.75), start = GENERATE(-1.0, -0.99, -0.667);
+  const double step = GENERATE(1.0 / 240.0, 1.0 / 60.0);
+  WorldDef def = worldOf(
+      "stepping", 2.0,
+      {ball("comes", 0.5, {start, 0.0, 0.0}, 1.0), ball("upper", 0.5, {aside, 0.5, 0.0}, 1.0),
+       ball("lower", 0.5, {aside, -0.5, 0.0}, 1.0)});
+  def.gravity.setZero();
+  def.stepping.step = step;
+  def.bodies[0].velocity = {2.0, 0.0, 0.0};
+  World world(def);
+  const Sample end = run(world);
+  CAPTURE(start, step);
+  CHECK(end.kinetic == Approx(2.0).epsilon(1e-13));
+  CHECK((end.bodies[0].v - Vec3(-0.4, 0.0, 0.0)).norm() < 1e-7);
+  CHECK((end.bodies[1].v - Vec3(1.2, 1.2 / std::sqrt(3.0), 0.0)).norm() < 1e-7);
+  CHECK((end.bodies[2].v - Vec3(1.2, -1.2 / std::sqrt(3.0), 0.0)).norm() < 1e-7);
 }

@@ -11,22 +11,25 @@
 
 namespace tumble {
 
-double Stepping::meet(double h, bool mayDivide) {
-  constexpr double kSoon = 1e-4;  // of a step
-  const double soon = kSoon * model_.def.stepping.step;
-  // Where a step has no parts left, hits come to rest that are slower than what a step of free fall
-  // gives.
-  const double least = mayDivide ? tolerance_.keep : std::max(tolerance_.keep, -landingSpeed());
+double Stepping::meet(double h, Hits divide) {
+  constexpr double kSoon = 1e-4,
+                   kNext = 1e-10;  // of a step: what is struck at once, and after that
+  const double step = model_.def.stepping.step, soon = kSoon * step;
+  // Of hits for which no step is divided those come to rest that are slower than what a step of
+  // free fall gives.
+  const double least =
+      divide == Hits::All ? tolerance_.keep : std::max(tolerance_.keep, -landingSpeed());
+  const bool divides = divide != Hits::None;
   sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
   findTouching(h);
   double first = untilHit(soon, h, least);
-  if (strike(mayDivide ? soon : h)) {
+  if (strike(divides ? soon : h)) {
     sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
     findTouching(h);
-    first = untilHit(soon, h, least);
+    first = untilHit(kNext * step, h, least);
   }
-  if (!mayDivide) first = h;
-  holdStopped(first, !mayDivide);
+  if (!divides) first = h;
+  holdStopped(first, !divides);
   return first;
 }
 
@@ -86,25 +89,55 @@ RigidBody Stepping::underWay(int i) const {
   return body;
 }
 
-/// The gap goes by  s + ṡ t + s̈ t²/2  between free bodies, by  s + ṡ t + s̈ t²  where a step moves
-/// one with the velocity at its end. Hits that would rebound at no more than the speed of a contact
-/// that lasts are left to the contact problem.
+namespace {
+
+/// A gap [m], how fast it opens [m/s], and the acceleration [m/s²] of that.
+struct Closing {
+  double gap, rate, bend;
+
+  double square() const { return rate * rate - 2.0 * bend * gap; }
+  bool meets() const { return square() >= 0.0 && (rate < 0.0 || bend < 0.0); }
+  double speed() const { return std::sqrt(square()); }
+  /// When it is closed [s], if it meets.
+  double due() const {
+    return rate < 0.0 ? 2.0 * gap / (speed() - rate) : (speed() + rate) / -bend;
+  }
+};
+
+/// The part of normalAcceleration that a step gives as velocity: n·(M⁻¹ F) without what turns.
+double pushAlong(const RigidBody& body, const ContactPoint& c) {
+  if (body.fixed()) return 0.0;
+  const Vec3 turn = body.Iinv * body.torque;
+  return c.n.dot(body.invM * body.force + turn.cross(c.p - body.x));
+}
+
+}  // namespace
+
+/// The gap goes by  s + ṡ t + s̈ t²/2  between free bodies. A step moves a held one with the
+/// velocity that forces give it until its end, so that their part of s̈ counts twice; and its
+/// contact problem sees no other part, which must not stop what is still to be struck. Hits that
+/// would rebound at no more than the speed of a contact that lasts are left to the contact problem.
 void Stepping::foresee(Touch& touch, double least) const {
   const Contact& c = touch.contact;
-  const double gap = closed(touch) ? 0.0 : c.point.separation;
-  const double rate = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
-  double bend = 0.0;
-  if (gap > 0.0 || rate > 0.0) {
-    bend = normalAcceleration(underWay(c.a), underWay(c.b), c.point);
-    if (work_.held[c.a] || work_.held[c.b]) bend *= 2.0;
+  Closing way{.gap = closed(touch) ? 0.0 : c.point.separation,
+              .rate = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point),
+              .bend = 0.0};
+  const bool held = work_.held[c.a] || work_.held[c.b];
+  Closing row = way;
+  if (way.gap > 0.0 || way.rate > 0.0) {
+    const RigidBody a = underWay(c.a), b = underWay(c.b);
+    way.bend = normalAcceleration(a, b, c.point);
+    if (held) {
+      const double push = pushAlong(a, c.point) - pushAlong(b, c.point);
+      way.bend += push;
+      row.bend = 2.0 * push;
+    }
   }
-  const double square = rate * rate - 2.0 * bend * gap;
-  const bool meets = square >= 0.0 && (rate < 0.0 || bend < 0.0);
-  const double speed = meets ? std::sqrt(square) : 0.0;
-  touch.rebounds = c.restitution * speed > least;
+  touch.rebounds = way.meets() && c.restitution * way.speed() > least;
   touch.due = 0.0;
-  if (touch.rebounds) touch.due = rate < 0.0 ? 2.0 * gap / (speed - rate) : (speed + rate) / -bend;
-  if (!meets && !closed(touch)) touch.due = std::numeric_limits<double>::infinity();
+  if (touch.rebounds) touch.due = way.due();
+  if (touch.rebounds && held && row.meets()) touch.due = std::min(touch.due, row.due());
+  if (!way.meets() && !closed(touch)) touch.due = std::numeric_limits<double>::infinity();
 }
 
 bool Stepping::anyHit(double within) const {

@@ -59,11 +59,17 @@ void Stepping::step() {
   divideNext(whole);
 }
 
-/// In as many parts as impacts ask for.
+/// In as many parts as impacts ask for: first for every hit, then for those that rebound for longer
+/// than a step, while the pairs of bodies that could be looked at are few.
 void Stepping::stepTo(double t1, double h) {
   constexpr int kFew = 2, kMany = 16, kBodies = 256;
-  int divisions = std::clamp(kBodies / model_.count(), kFew, kMany);
-  for (double part = meet(h, true); part < h && !report_.stopped; part = meet(h, --divisions > 0)) {
+  constexpr double kPairs = 1e5;
+  const int n = model_.count();
+  const int every = std::clamp(kBodies / n, kFew, kMany);
+  const int most = std::max(every, static_cast<int>(kPairs / n / n));
+  for (int k = 0; !report_.stopped; ++k) {
+    const double part = meet(h, k < every ? Hits::All : k < most ? Hits::Fast : Hits::None);
+    if (part >= h) break;
     moveTo(state_.t + part, part);
     h -= part;
   }

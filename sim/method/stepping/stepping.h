@@ -60,8 +60,10 @@ class Stepping {
   bool keptApart(int pair, int body) const;
 
   // rebounds.cpp: impacts with restitution.
+  /// The hits that may divide a step: all, those that rebound for longer than a step, or none.
+  enum class Hits { All, Fast, None };
   /// Strikes what is due, and @return how long [s], at most h, the bodies go until the next hit.
-  double meet(double h, bool mayDivide);
+  double meet(double h, Hits divide);
   /// The first hit [s] after `soon` and before h, else h, of those that rebound faster than `least`
   /// [m/s].
   double untilHit(double soon, double h, double least);
