@@ -23,9 +23,11 @@ double coupling(const Problem& problem, const Row& i, const Row& j) {
 void delassus(const Problem& problem, Eigen::Ref<MatX> A, Eigen::Ref<VecX> b) {
   const int n = static_cast<int>(problem.rows.size());
   rowVelocities(problem, problem.vStar, {b.data(), problem.rows.size()});
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
     for (int j = 0; j <= i; ++j)
       A(i, j) = A(j, i) = coupling(problem, problem.rows[i], problem.rows[j]);
+    A(i, i) += problem.rows[i].compliance;
+  }
 }
 
 Delassus delassus(const Problem& problem) {

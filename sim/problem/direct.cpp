@@ -148,6 +148,7 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
     }
     velocitiesFromLambda(problem, found, work.v);
     rowVelocities(problem, work.v, work.u);
+    for (std::size_t i = 0; i < rows; ++i) work.u[i] += problem.rows[i].compliance * found[i];
   }
   return true;
 }

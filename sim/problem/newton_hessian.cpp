@@ -20,10 +20,10 @@ Mat3 edgeSlope(const Point& point, const Vec3& z) {
 
 /// ∂Π_K on a piece.
 template <class Point>
-Mat3 slopeOf(const Point& point, Piece piece, double rho) {
+Mat3 slopeOf(const Point& point, Piece piece, double rho, double yielding) {
   Mat3 slope = Mat3::Zero();
   if (piece == Piece::Edge) return edgeSlope(point, point.lambda - rho * point.u);
-  slope.diagonal().head(point.kind == ConeKind::Friction ? 3 : 1).setOnes();
+  slope.diagonal().head(point.kind == ConeKind::Friction ? 3 : 1).setConstant(yielding);
   return slope;
 }
 
@@ -44,13 +44,13 @@ void addLower(Mat3& A, const B& b, const C& c) {
 
 /// Adds ρ J ∂Π Jᵀ of one point to the lower triangle.
 template <class Point, class Block>
-void addPoint(const Point& point, double rho, Block& K) {
+void addPoint(const Point& point, double rho, double yielding, Block& K) {
   if (point.kind != ConeKind::Friction) {
-    K.noalias() += (rho * point.J.col(0)) * point.J.col(0).transpose();
+    K.noalias() += (rho * yielding * point.J.col(0)) * point.J.col(0).transpose();
   } else if (point.factored == Piece::Whole) {
     addLower(K, (rho * point.J).eval(), point.J);
   } else {
-    const Mat3 slope = rho * slopeOf(point, Piece::Edge, rho);
+    const Mat3 slope = rho * slopeOf(point, Piece::Edge, rho, yielding);
     addLower(K, point.J.lazyProduct(slope).eval(), point.J);
   }
 }
@@ -126,12 +126,12 @@ template <int N>
     if (!patch.shares) {
       const Point& point = points[patch.begin];
       if (point.factored != Piece::Zero)
-        addAlone(H_, patch, point, rho * slopeOf(point, point.factored, rho));
+        addAlone(H_, patch, point, rho * slopeOf(point, point.factored, rho, yielding(point)));
       continue;
     }
     Block K = Block::Zero();
     for (int p = patch.begin; p < patch.end; ++p)
-      if (points[p].factored != Piece::Zero) addPoint(points[p], rho, K);
+      if (points[p].factored != Piece::Zero) addPoint(points[p], rho, yielding(points[p]), K);
     H_.diagonal(patch.a) += K;
     if (patch.b < 0) continue;
     mirror(K);
@@ -155,7 +155,7 @@ void NewtonSystem<N>::assembleLive() {
     for (int p = patch.begin; p < patch.end; ++p) {
       const Point& point = points[p];
       if (point.piece == Piece::Zero) continue;
-      Mat3 slope = rho * slopeOf(point, point.piece, rho);
+      Mat3 slope = rho * slopeOf(point, point.piece, rho, yielding(point));
       const double slip = std::hypot(point.u[1], point.u[2]);
       if (point.kind == ConeKind::Friction && slip > 0.0) {
         Mat3 follows = Mat3::Identity();

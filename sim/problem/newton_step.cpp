@@ -15,7 +15,7 @@ void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
   const double mu = point.mu;
   switch (point.kind) {
     case ConeKind::Equality:
-      point.force = {z[0], 0.0, 0.0};
+      point.force = {yielding(point) * z[0], 0.0, 0.0};
       point.piece = Piece::Whole;
       return;
     case ConeKind::Slide:
@@ -83,7 +83,8 @@ template <int N>
   gather([this](Point& point, const Vec3& z) {
     project(point, z);
     if (point.factored == Piece::Zero) point.force.setZero();
-    if (point.factored == Piece::Whole) point.force.head(point.rows) = z.head(point.rows);
+    if (point.factored == Piece::Whole && point.kind != ConeKind::Equality)
+      point.force.head(point.rows) = z.head(point.rows);
     point.piece = point.factored;
   });
   direction(H_);

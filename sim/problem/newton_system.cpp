@@ -74,6 +74,7 @@ template <int N>
     Jb << -row.linear, row.angularB;
     double bias = row.bias;
     const double mobility = split(problem, row.a, Ja, bias) + split(problem, row.b, Jb, bias);
+    point.compliance = row.compliance;
     point.mobility = std::max(point.mobility, mobility);
     if (row.linear.isZero(0.0) && mobility > 0.0) {
       const double invM = problem.invM[row.a] + problem.invM[row.b];
@@ -83,6 +84,8 @@ template <int N>
     ofB.col(k) = point.length * Jb.head<N>();
     point.bias[k] = point.length * bias;
   }
+  point.mobility += point.compliance;
+  point.compliance *= point.length * point.length;
   return ofB;
 }
 
@@ -275,7 +278,8 @@ double NewtonSystem<N>::residual() const {
   for (const Point& point : points) {
     const double rho = point.mobility > 0.0 ? 1.0 / point.mobility : 1.0;
     const Cone cone{point.kind, 0, point.mu};
-    const double own = coneResidual(cone, point.force.data(), point.u.data(), rho) / point.length;
+    const Vec3 u = point.u + point.compliance * point.force;
+    const double own = coneResidual(cone, point.force.data(), u.data(), rho) / point.length;
     if (!std::isfinite(own)) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, own);
   }

@@ -32,11 +32,12 @@ class NewtonSystem {
     double muTrue = 0.0;  ///< what mu is but in narrowed cones
     double length = 1.0;  ///< what the rows of a turn are multiplied with, to be in m/s
     double mobility = 0.0;
+    double compliance = 0.0;                          ///< [1/kg] of an Equality
     double saxce = 0.0;                               ///< mu |u_t| of the last stage
     Rows J = Rows::Zero();                            ///< of body a of its patch
     Vec3 bias = Vec3::Zero(), lambda = Vec3::Zero();  ///< λ of the last stage
-    Vec3 u = Vec3::Zero(), du = Vec3::Zero();
-    Vec3 force = Vec3::Zero();  ///< Π_K(λ − ρ(u + s))
+    Vec3 u = Vec3::Zero(), du = Vec3::Zero();         ///< without what compliance adds
+    Vec3 force = Vec3::Zero();                        ///< Π_K(λ − ρ(u + s))
   };
 
   /// Body that moves.
@@ -153,6 +154,8 @@ class NewtonSystem {
     }
   }
 
+  /// Part of λ − ρ u that a compliant row takes:  λ⁺ = (λ − ρ u)/(1 + ρ C).
+  double yielding(const Point& point) const { return 1.0 / (1.0 + rho * point.compliance); }
   /// Jᵀ v.
   static Vec3 timesRows(const Point& point, const Rows& J, const Twist& v) {
     if (point.rows == 1) return {J.col(0).dot(v), 0.0, 0.0};

@@ -51,7 +51,7 @@ double naturalResidual(const Problem& problem, const Solution& solution) {
     double u[3] = {}, mobility = 0.0;
     for (int k = 0; k < coneRows(cone.kind); ++k) {
       const Row& row = problem.rows[cone.row + k];
-      u[k] = rowVelocity(row, solution.v);
+      u[k] = rowVelocity(row, solution.v) + row.compliance * solution.lambda[cone.row + k];
       mobility = std::max(mobility, rowMobility(problem, row));
     }
     const double rho = mobility > 0.0 ? 1.0 / mobility : 1.0;
@@ -81,7 +81,10 @@ double roundingFloor(const Problem& problem, const Solution& solution) {
     v[body] += problem.vStar[body].cwiseAbs();
   }
   double largest = 0.0;
-  for (const Row& row : problem.rows) largest = std::max(largest, termsOf(row, v));
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+    const Row& row = problem.rows[i];
+    largest = std::max(largest, termsOf(row, v) + row.compliance * std::abs(solution.lambda[i]));
+  }
   return std::numeric_limits<double>::epsilon() * largest / velocityScale(problem);
 }
 

@@ -11,13 +11,15 @@
 
 namespace tumble {
 
-/// One scalar row of the Jacobian J:  u = linear·(va − vb) + angularA·ωa + angularB·ωb + bias.
+/// One scalar row of the Jacobian J:
+///   u = linear·(va − vb) + angularA·ωa + angularB·ωb + bias + compliance λ.
 struct Row {
   int a = 0, b = 0;              ///< bodies
   Vec3 linear = Vec3::Zero();    ///< +n for a contact normal
   Vec3 angularA = Vec3::Zero();  ///< (p − xa) × n
   Vec3 angularB = Vec3::Zero();  ///< −(p − xb) × n
   double bias = 0.0;
+  double compliance = 0.0;  ///< [1/kg] ≥ 0, of an Equality row: what yields as a spring does
 };
 
 /// Which multipliers are allowed, and what their rows must then do.
@@ -35,10 +37,10 @@ struct Cone {
   double mu = 0.0;  ///< [1] coefficient of friction
 };
 
-/// Find v and λ with  M (v − vStar) = Jᵀ λ,  u = J v + bias,  and every cone satisfied.
-/// At velocity level v is in m/s and λ an impulse in N·s; at acceleration level v is an
-/// acceleration, λ a force in N. Twists are (linear, angular), world frame, about each centre of
-/// mass.
+/// Find v and λ with  M (v − vStar) = Jᵀ λ,  u = J v + bias + C λ,  and every cone satisfied, where
+/// C is diagonal and has the compliances. At velocity level v is in m/s and λ an impulse in N·s; at
+/// acceleration level v is an acceleration, λ a force in N. Twists are (linear, angular), world
+/// frame, about each centre of mass.
 struct Problem {
   std::vector<double> invM;  ///< [1/kg] per body; 0 = immovable
   std::vector<Mat3> Iinv;    ///< [1/(kg m²)] per body, world frame
@@ -100,7 +102,7 @@ inline double rowSpeed(const Row& row, const Vec6& va, const Vec6& vb) {
          row.angularB.dot(vb.tail<3>());
 }
 
-/// u = J v + bias for every row, at the given v.
+/// J v + bias for every row, at the given v: u but for what compliance adds.
 void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<double> u);
 
 /// v = vStar + M⁻¹ Jᵀ λ.

@@ -10,16 +10,16 @@
 
 namespace tumble {
 
-/// u = J v + bias of one row.
+/// J v + bias of one row.
 inline double rowVelocity(const Row& row, std::span<const Vec6> v) {
   return rowSpeed(row, v[row.a], v[row.b]) + row.bias;
 }
 
-/// Diagonal entry of J M⁻¹ Jᵀ: how much u of the row changes per unit of its λ.
+/// Diagonal entry of J M⁻¹ Jᵀ + C: how much u of the row changes per unit of its λ.
 inline double rowMobility(const Problem& problem, const Row& row) {
   return (problem.invM[row.a] + problem.invM[row.b]) * row.linear.squaredNorm() +
          row.angularA.dot(problem.Iinv[row.a] * row.angularA) +
-         row.angularB.dot(problem.Iinv[row.b] * row.angularB);
+         row.angularB.dot(problem.Iinv[row.b] * row.angularB) + row.compliance;
 }
 
 /// Sum of the sizes of all terms of J v + bias of one row.

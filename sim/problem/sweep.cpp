@@ -62,6 +62,8 @@ void ConeSweeps::prepare(const Problem& problem) {
     cone.c[i] = rowSpeed(row, problem.vStar[a], problem.vStar[b]) + row.bias;
   }
   cone.W = cone.K.transpose().lazyProduct(cone.K);
+  cone.compliance = problem.rows[from.row].compliance;
+  cone.W(0, 0) += cone.compliance;
   cone.mobility = cone.W.diagonal().maxCoeff();
   if (cone.kind == ConeKind::Friction) cone.hold = inverseOfBlock(cone.W);
   for (int i = 0; i < coneRows(from.kind); ++i)

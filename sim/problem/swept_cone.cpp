@@ -96,7 +96,8 @@ double visit(const SweptCone& cone, double* lambda, PairMotion& y) {
     for (int i = 0; i < 3; ++i) lambda[i] = old[i] + change[i];
   } else {
     const bool two = cone.kind == ConeKind::Slide;
-    const Vec3 u(speed(cone, 0, y), 0.0, 0.0), old(lambda[0], two ? lambda[1] : 0.0, 0.0);
+    const Vec3 u(speed(cone, 0, y) + cone.compliance * lambda[0], 0.0, 0.0);
+    const Vec3 old(lambda[0], two ? lambda[1] : 0.0, 0.0);
     const Vec3 next = solveOther(cone, u, old);
     lambda[0] = next[0];
     if (two) lambda[1] = next[1];

@@ -16,11 +16,12 @@ namespace tumble {
 struct SweptCone {
   Eigen::Matrix<double, 10, 3> K;  ///< columns: what a unit of each λ does to y of the pair: of its
                                    ///< centres, of a's turning, of b's, 0; 0 beyond its rows
-  Mat3 W;     ///< K Kᵀ: block of J M⁻¹ Jᵀ [1/kg]
+  Mat3 W;     ///< K Kᵀ: block of J M⁻¹ Jᵀ + C [1/kg]
   Mat3 hold;  ///< W⁻¹, symmetric; 0 where W is singular
   Vec3 c;     ///< J vStar + bias
   double mu;
-  double mobility;  ///< largest diagonal entry of W [1/kg]
+  double mobility;    ///< largest diagonal entry of W [1/kg]
+  double compliance;  ///< [1/kg] of its first row
   int row;
   ConeKind kind;
 };
