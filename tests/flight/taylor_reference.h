@@ -1,15 +1,17 @@
-// A free body in quadruple precision by Taylor series: knows Euler's equations and nothing else.
+// A free body by Taylor series in any precision: knows Euler's equations and nothing else.
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 #include <vector>
 
 #include "sim/body/rigid_body.h"
 
 namespace tumble::test {
 
-using Quad = boost::multiprecision::cpp_bin_float_quad;
+/// Eleven bits more than a double: enough to see the rounding of one. tests/oracle takes quadruple
+/// precision.
+using Extended = long double;
 
 /// A body that turns freely, along its principal axes: moments, angular momentum in the body,
 /// attitude (w, x, y, z) of unit length.

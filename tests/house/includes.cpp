@@ -3,14 +3,15 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/house/pattern.h"
 
 namespace fs = std::filesystem;
+using tumble::test::Pattern;
 
 namespace {
 
@@ -100,17 +101,15 @@ std::string textOf(const fs::path& path) {
 
 /// Every wrong arrow in the rooms below `root`, as "file includes header: reason".
 std::vector<std::string> wrongArrows(const fs::path& root) {
-  static const std::regex include(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])re");
+  static const Pattern include("(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]+)[>\"]");
   std::vector<std::string> wrong;
   for (const char* room : {"sim", "render", "app"}) {
     if (!fs::exists(root / room)) continue;
     for (const fs::path& file : sourcesUnder(root, room)) {
-      const std::string text = textOf(root / file);
-      for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
-        const std::string reason = wrongArrow(file, (*it)[1]);
-        if (!reason.empty()) {
-          wrong.push_back(file.string() + " includes " + (*it)[1].str() + ": " + reason);
-        }
+      for (const Pattern::Match& match : include.all(textOf(root / file))) {
+        const std::string reason = wrongArrow(file, match[2]);
+        if (!reason.empty())
+          wrong.push_back(file.string() + " includes " + match[2] + ": " + reason);
       }
     }
   }

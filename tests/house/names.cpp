@@ -2,14 +2,15 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/house/pattern.h"
 
 namespace fs = std::filesystem;
+using tumble::test::Pattern;
 
 namespace {
 
@@ -17,14 +18,13 @@ using Places = std::map<std::string, std::vector<std::string>>;
 
 /// Adds every class that a text defines where other files can see it.
 void addClasses(std::istream& text, const std::string& place, Places& places) {
-  static const std::regex definition(
-      R"(^(class|struct|enum class|union) (\w+)( final)?( : | ?\{).*)");
+  static const Pattern definition(R"(^(class|struct|enum class|union) (\w+)( final)?( : | ?\{))");
   bool hidden = false;  // in a namespace without a name
-  std::smatch match;
   for (std::string line; std::getline(text, line);) {
     if (line == "namespace {") hidden = true;
     if (line == "}  // namespace") hidden = false;
-    if (!hidden && std::regex_match(line, match, definition)) places[match[2]].push_back(place);
+    if (hidden) continue;
+    if (const auto match = definition.first(line)) places[(*match)[2]].push_back(place);
   }
 }
 

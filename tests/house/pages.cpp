@@ -2,13 +2,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/house/pattern.h"
 
 namespace fs = std::filesystem;
+using tumble::test::Pattern;
 
 namespace {
 
@@ -21,10 +22,8 @@ std::string textOf(const fs::path& path) {
 
 /// What each match of the pattern has in its first group.
 std::vector<std::string> found(const std::string& text, const char* pattern) {
-  const std::regex regex(pattern);
   std::vector<std::string> all;
-  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
-    all.push_back((*it)[1]);
+  for (const Pattern::Match& match : Pattern(pattern).all(text)) all.push_back(match[1]);
   return all;
 }
 
@@ -70,7 +69,7 @@ TEST_CASE("every link and picture of a page is there") {
 
 TEST_CASE("every file that the way from slide to file names is there") {
   const std::string table = section(textOf(kRoot / "sim/README.md"), "From slide to file");
-  const std::vector<std::string> files = found(table, R"(`([\w/]+\.(?:h|cpp))`)");
+  const std::vector<std::string> files = found(table, R"(`([a-zA-Z0-9_/]+\.(h|cpp))`)");
   CHECK(files.size() > 20);
   for (const std::string& file : files) {
     CAPTURE(file);
@@ -80,12 +79,12 @@ TEST_CASE("every file that the way from slide to file names is there") {
 
 TEST_CASE("every test that the way from slide to test names is there") {
   const std::string table = section(textOf(kRoot / "sim/README.md"), "From slide to test");
-  const std::regex cell(R"(\| `(\w+)`: ([^|]+) \|)");
+  const Pattern cell(R"(\| `(\w+)`: ([^|]+) \|)");
   int count = 0;
-  for (std::sregex_iterator it(table.begin(), table.end(), cell), end; it != end; ++it)
-    for (const std::string& name : found((*it)[2].str() + ";", R"(\s*([^;]+);)")) {
-      CAPTURE((*it)[1].str(), name);
-      CHECK(hasCase((*it)[1], name));
+  for (const Pattern::Match& match : cell.all(table))
+    for (const std::string& name : found(match[2] + ";", R"(\s*([^;]+);)")) {
+      CAPTURE(match[1], name);
+      CHECK(hasCase(match[1], name));
       ++count;
     }
   CHECK(count > 30);

@@ -2,12 +2,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
 
 #include "tests/catch.h"
+#include "tests/house/pattern.h"
 
 namespace fs = std::filesystem;
+using tumble::test::Pattern;
 
 namespace {
 
@@ -16,25 +17,25 @@ std::string textOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::set<std::string> found(const std::string& text, const std::regex& pattern) {
+/// What each match of the pattern has in the group of that number.
+std::set<std::string> found(const std::string& text, const Pattern& pattern, std::size_t group) {
   std::set<std::string> words;
-  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)
-    words.insert((*it)[1].str());
+  for (const Pattern::Match& match : pattern.all(text)) words.insert(match[group]);
   return words;
 }
 
 // Words that the sources of app/scene ask for: read("key", …), find("key"), readColour(table,
 // "key", …), and the rows of its tables, {"kind", readKind}.
 std::set<std::string> knownKeys() {
-  const std::regex asked(
-      R"re((?:read|find|tables|readColour|readParameter|readVariant|bodyOf)\(\s*(?:[a-z]+,\s*)?"([a-z_]+)")re");
-  const std::regex row(R"re(\{"([a-z_]+)",\s*(?:read|make)[A-Z])re");
+  const Pattern asked(
+      R"re((read|find|tables|readColour|readParameter|readVariant|bodyOf)\(\s*([a-z]+,\s*)?"([a-z_]+)")re");
+  const Pattern row(R"re(\{"([a-z_]+)",\s*(read|make)[A-Z])re");
   std::set<std::string> keys;
   for (const auto& entry : fs::directory_iterator(TUMBLE_SOURCE_DIR "/app/scene")) {
     if (entry.path().extension() != ".cpp") continue;
     const std::string text = textOf(entry.path());
-    keys.merge(found(text, asked));
-    keys.merge(found(text, row));
+    keys.merge(found(text, asked, 3));
+    keys.merge(found(text, row, 1));
   }
   return keys;
 }
@@ -58,19 +59,20 @@ TEST_CASE("the reference of scene files names every key and kind") {
 
 TEST_CASE("the reference of scene files names no key that is unknown") {
   const std::set<std::string> keys = knownKeys();
-  const std::regex cell(R"re(\n\| ([^|]*) \|)re"), word(R"re(`([a-z_]+)`)re");
-  for (const std::string& first : found(kReference, cell))
-    for (const std::string& key : found(first, word)) {
+  const Pattern cell("\n\\| ([^|]*) \\|"), word("`([a-z_]+)`");
+  for (const std::string& first : found(kReference, cell, 1))
+    for (const std::string& key : found(first, word, 1)) {
       INFO("unknown: " << key);
       CHECK(keys.contains(key));
     }
 }
 
 TEST_CASE("the reference of scene files names every check and every integrator") {
-  const std::regex row(R"re(\n    \{(?:\.name = )?"([a-z0-9-]+)")re");
+  const Pattern row("\n    \\{(\\.name = )?\"([a-z0-9-]+)\"");
   int count = 0;
   for (const char* table : {"app/claim/claim.cpp", "sim/ode/integrators.cpp"})
-    for (const std::string& name : found(textOf(TUMBLE_SOURCE_DIR "/" + std::string(table)), row)) {
+    for (const std::string& name :
+         found(textOf(TUMBLE_SOURCE_DIR "/" + std::string(table)), row, 2)) {
       CAPTURE(table, name);
       CHECK(kReference.find("\n| \"" + name + "\" |") != std::string::npos);
       ++count;

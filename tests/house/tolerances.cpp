@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -10,8 +9,10 @@
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/house/pattern.h"
 
 namespace fs = std::filesystem;
+using tumble::test::Pattern;
 
 namespace {
 
@@ -21,12 +22,11 @@ using Constant = std::tuple<std::string, std::string, std::string>;  // file, na
 
 /// The small numbers that a source gives a name, with an exponent below zero: "kFlat = 1e-12".
 std::set<Constant> constantsIn(std::istream& text, const std::string& file) {
-  static const std::regex small(R"(\b(k[A-Z]\w*) = ([0-9.]+e-[0-9]+)\b)");
+  static const Pattern small(R"(\b(k[A-Z]\w*) = ([0-9.]+e-[0-9]+)\b)");
   std::set<Constant> found;
   for (std::string line; std::getline(text, line);) {
     if (line.find("constexpr double") == std::string::npos) continue;
-    for (std::sregex_iterator k(line.begin(), line.end(), small), end; k != end; ++k)
-      found.insert({file, (*k)[1], (*k)[2]});
+    for (const Pattern::Match& match : small.all(line)) found.insert({file, match[1], match[2]});
   }
   return found;
 }
@@ -48,14 +48,15 @@ struct TableRow {
 };
 
 std::vector<TableRow> tableRows() {
-  static const std::regex row(
-      R"(\| `([^`]+)` \| `(\w+)` \| ([0-9.e-]+) \| ([^|]+) \| (.+) \| `([^`]+)` \|)");
+  static const Pattern row(
+      R"(^\| `([^`]+)` \| `(\w+)` \| ([0-9.e-]+) \| ([^|]+) \| (.+) \| `([^`]+)` \|$)");
   std::vector<TableRow> rows;
   std::ifstream text(kSource / "sim/TOLERANCES.md");
-  std::smatch match;
   for (std::string line; std::getline(text, line);)
-    if (std::regex_match(line, match, row))
-      rows.push_back({{match[1], match[2], match[3]}, match[4], match[5], match[6]});
+    if (const auto match = row.first(line)) {
+      const auto& [whole, file, name, value, unit, reason, test, none] = *match;
+      rows.push_back({{file, name, value}, unit, reason, test});
+    }
   return rows;
 }
 
@@ -63,9 +64,9 @@ std::vector<TableRow> tableRows() {
 bool stands(const Constant& constant) {
   const auto& [file, name, value] = constant;
   std::ifstream text(kSource / "sim" / file);
-  const std::regex set("\\b" + name + " = " + value + "\\b");
+  const Pattern set("\\b" + name + " = " + value + "\\b");
   for (std::string line; std::getline(text, line);)
-    if (std::regex_search(line, set)) return true;
+    if (set.first(line)) return true;
   return false;
 }
 

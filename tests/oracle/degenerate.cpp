@@ -7,7 +7,7 @@
 
 #include "sim/problem/lcp.h"
 #include "tests/catch.h"
-#include "tests/problem/exact_lcp.h"
+#include "tests/oracle/exact_lcp.h"
 #include "tests/problem/problems.h"
 #include "tests/problem/random_contacts.h"
 

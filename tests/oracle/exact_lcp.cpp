@@ -1,4 +1,4 @@
-#include "tests/problem/exact_lcp.h"
+#include "tests/oracle/exact_lcp.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/QP_functions.h>

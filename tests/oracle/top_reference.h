@@ -1,8 +1,7 @@
-// A heavy top in quadruple precision by extrapolation: knows the equations of Euler and Poisson.
+// A heavy top by extrapolation in any precision: knows the equations of Euler and Poisson.
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <vector>
 
 #include "sim/body/pivot.h"

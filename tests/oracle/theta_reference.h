@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "tests/flight/taylor_reference.h"
+#include "tests/oracle/quad.h"
 
 namespace tumble::test {
 

@@ -2,21 +2,21 @@
 // precision.
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <vector>
 
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
+#include "tests/oracle/quad.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::Quad;
 
 namespace {
 
-using Quad = boost::multiprecision::cpp_bin_float_quad;
 using QVec = std::array<Quad, 3>;
 
 QVec cross(const QVec& a, const QVec& b) {
