@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "app/command/command.h"
 #include "app/command/options.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/golden/draw.h"
+#include "app/golden/formats.h"
 #include "app/golden/golden.h"
 #include "app/golden/report.h"
 #include "app/scene/demos.h"
@@ -18,23 +21,117 @@ namespace tumble::command {
 
 namespace {
 
-std::vector<std::string> chosen(const std::vector<std::string>& asked) {
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> subjects, folders;
+  std::string out = "out/golden", junit, json;
+  bool update = false;
+};
+
+bool readOptions(int argc, char** argv, Options& options) {
+  CommandLine line("golden", "Compares small images and numbers of scenes with the approved ones.",
+                   {"                       # all demos", "path-of-brick          # one",
+                    "--update               # accept what is drawn now",
+                    "--folder goldens --update scenes/*.toml # begin goldens of your own scenes",
+                    "--folder goldens --junit goldens.xml scenes/*.toml # hold them, for a CI"});
+  line.option("SUBJECT", options.subjects,
+              "demos to look at [all]; with --folder any scenes, by name or path");
+  line.option("--folder", options.folders, "keep goldens there; repeatable [the program's own]",
+              {.type = "DIR"});
+  line.flag("--update", options.update, "accept what is drawn now");
+  line.option("-o,--output", options.out,
+              "folder for failing images and report.html [out/golden, with --folder one in it]");
+  line.option("--junit", options.junit, "write what came of it as JUnit's XML", {.type = "FILE"});
+  line.option("--json", options.json, "the same as JSON", {.type = "FILE"});
+  return line.read(argc, argv);
+}
+
+/// What is drawn: one of the program's own subjects by name, or a scene.
+struct Subject {
+  std::string name;
+  std::optional<Scene> scene = {};
+};
+
+std::vector<Subject> ownSubjects(const std::vector<std::string>& asked) {
   std::vector<std::string> all = demoNames();
   all.push_back(std::string(kWindowSubject));
   for (const std::string& name : asked)
     if (std::find(all.begin(), all.end(), name) == all.end())
       throw UsageError(
-          fmt::format("no golden is kept of '{}'; `tumble golden` holds all demos and '{}'", name,
-                      kWindowSubject));
-  return asked.empty() ? all : asked;
+          fmt::format("no golden is kept of '{}'; `tumble golden` holds all demos and '{}', "
+                      "`tumble golden --folder DIR SCENE…` scenes of your own",
+                      name, kWindowSubject));
+  std::vector<Subject> subjects;
+  for (const std::string& name : asked.empty() ? all : asked) subjects.push_back({name});
+  return subjects;
 }
 
-// Leaves what was drawn where it can be looked at.
-void writeActual(const Finding& finding, const std::string& folder) {
-  if (!finding.actual) return;
-  const std::string place = folder + "/" + finding.subject;
-  makeFolder(place);
-  writePng(place + "/" + finding.name + ".png", *finding.actual);
+// All scenes are read before the first is drawn: what is misspelt is told at once.
+std::vector<Subject> scenesOf(const std::vector<std::string>& asked) {
+  if (asked.empty())
+    throw UsageError(
+        "--folder: name the scenes too, for example tumble golden --folder goldens "
+        "scenes/*.toml");
+  std::vector<Subject> subjects;
+  std::map<std::string, std::string> files;
+  for (const std::string& name : asked) {
+    Scene scene = load({name, {}});
+    const auto [other, isNew] = files.emplace(scene.name, scene.file);
+    if (!isNew)
+      throw UsageError(fmt::format("'{}' and '{}' would both keep goldens as '{}'", other->second,
+                                   scene.file, scene.name));
+    const std::string subject = scene.name;
+    subjects.push_back({subject, std::move(scene)});
+  }
+  return subjects;
+}
+
+std::string inShell(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./-";
+  if (word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// One folder of goldens, and where its failures go.
+struct Shelf {
+  Holding holding;
+  Manifest manifest;
+  std::string out;
+};
+
+Shelf ownShelf(const Options& options) {
+  Shelf shelf;
+  shelf.holding.folder = dataFolder("golden");
+  shelf.holding.approve = "tumble golden --update";
+  shelf.out = options.out;
+  return shelf;
+}
+
+std::vector<Shelf> shelvesOf(const Options& options, const std::vector<Subject>& subjects) {
+  std::vector<Shelf> shelves;
+  if (options.folders.empty()) shelves.push_back(ownShelf(options));
+  std::map<std::string, int> names;
+  for (const std::string& folder : options.folders) {
+    if (!options.update && !fs::is_directory(folder))
+      throw FileError(
+          fmt::format("there is no folder '{}' of goldens; --update begins one", folder));
+    Shelf shelf;
+    shelf.holding.folder = folder;
+    shelf.holding.approve = "tumble golden --folder " + inShell(folder) + " --update";
+    for (const Subject& subject : subjects)
+      shelf.holding.scenes[subject.name] = inShell(subject.scene->file);
+    std::string name = fs::absolute(folder + "/.").parent_path().filename().string();
+    if (const int earlier = names[name]++) name += fmt::format("-{}", earlier + 1);
+    shelf.out = options.out + "/" + name;
+    shelves.push_back(std::move(shelf));
+  }
+  for (Shelf& shelf : shelves)
+    shelf.manifest = readManifest(shelf.holding.folder + "/manifest.json");
+  return shelves;
 }
 
 void print(const std::vector<Finding>& findings) {
@@ -49,23 +146,58 @@ std::string environment(const Manifest& manifest, const Context& context) {
                      context.renderer(), context.version());
 }
 
+// Holds a subject against the goldens of a folder, after it has replaced them if that is asked for.
+void hold(Shelf& shelf, const Golden& now, bool update, const Context& context) {
+  if (update) {
+    storeGolden(now, shelf.manifest, shelf.holding.folder);
+    Manifest entry{context.renderer(), context.version(), TUMBLE_VERSION, {}};
+    entry.images[now.subject] = shelf.manifest.images[now.subject];
+    enterInManifest(shelf.holding.folder, entry);
+  }
+  const std::vector<Finding> found = compareGolden(now, shelf.manifest, shelf.holding.folder);
+  print(found);
+  shelf.holding.findings.insert(shelf.holding.findings.end(), found.begin(), found.end());
+}
+
+// Leaves what was drawn where it can be looked at, and takes away what an earlier failure left.
+void leaveActual(const Finding& finding, const std::string& folder) {
+  const std::string place = folder + "/" + finding.subject;
+  const std::string file = place + "/" + finding.name + ".png";
+  if (finding.passes() || !finding.actual) {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    return;
+  }
+  makeFolder(place);
+  writePng(file, *finding.actual);
+}
+
 // Tells what came of the comparison and leaves behind what helps to see why.
-int conclude(const std::vector<Finding>& findings, const std::string& folder,
-             const std::string& environment) {
-  const auto passing = std::count_if(findings.begin(), findings.end(),
-                                     [](const Finding& finding) { return finding.passes(); });
-  const auto exact = std::count_if(findings.begin(), findings.end(),
-                                   [](const Finding& finding) { return finding.exact(); });
-  const auto total = static_cast<long>(findings.size());
-  fmt::print("{} goldens: {} pass, {} equal to the last bit\n", total, passing, exact);
-  if (exact < total) fmt::print("{}\n", environment);
-  if (passing == total) return kOk;
-  for (const Finding& finding : findings)
-    if (!finding.passes()) writeActual(finding, folder);
-  makeFolder(folder);
-  writeFile(folder + "/report.html", htmlReport(findings, environment));
-  fmt::print("see {0}/report.html; `tumble golden --update` accepts what is drawn now\n", folder);
+int conclude(const Shelf& shelf) {
+  const Holding& holding = shelf.holding;
+  const auto total = static_cast<long>(holding.findings.size());
+  fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n",
+             holding.scenes.empty() ? "" : holding.folder + ": ", total, holding.passing(),
+             holding.exact());
+  if (holding.exact() < total) fmt::print("{}\n", holding.environment);
+  for (const Finding& finding : holding.findings) leaveActual(finding, shelf.out);
+  const std::string report = shelf.out + "/report.html";
+  if (holding.passing() == total) {
+    std::error_code ignored;
+    fs::remove(report, ignored);
+    return kOk;
+  }
+  makeFolder(shelf.out);
+  writeFile(report, htmlReport(holding));
+  fmt::print("see {}; `{}` accepts what is drawn now\n", report, holding.approve);
   return kFailed;
+}
+
+void writeForPrograms(const Options& options, const std::vector<Shelf>& shelves) {
+  std::vector<Holding> holdings;
+  for (const Shelf& shelf : shelves) holdings.push_back(shelf.holding);
+  if (!options.junit.empty()) writeFile(options.junit, junitXml(holdings));
+  if (!options.json.empty()) writeFile(options.json, goldenJson(holdings));
 }
 
 void refuseOtherRasterisers(const Context& context) {
@@ -77,39 +209,30 @@ void refuseOtherRasterisers(const Context& context) {
 }  // namespace
 
 int golden(int argc, char** argv) {
-  CommandLine line("golden",
-                   "Compares small images and numbers of every demo with the approved ones.",
-                   {"                       # all of them", "path-of-brick          # one",
-                    "--update               # accept what is drawn now"});
-  std::vector<std::string> asked;
-  std::string out = "out/golden";
-  bool update = false;
-  line.option("SUBJECT", asked, "demos to look at [all]");
-  line.flag("--update", update, "accept what is drawn now");
-  line.option("-o,--output", out, "folder for failing images and report.html [out/golden]");
-  if (!line.read(argc, argv)) return kOk;
+  Options options;
+  if (!readOptions(argc, argv, options)) return kOk;
+  const std::vector<Subject> subjects =
+      options.folders.empty() ? ownSubjects(options.subjects) : scenesOf(options.subjects);
+  std::vector<Shelf> shelves = shelvesOf(options, subjects);
 
-  const std::vector<std::string> subjects = chosen(asked);
-  const std::string folder = dataFolder("golden");
   const std::unique_ptr<Context> context = makeContext();
-  if (update) refuseOtherRasterisers(*context);
+  if (options.update) refuseOtherRasterisers(*context);
   Renderer renderer(*context, dataFolder("shaders"), dataFolder("fonts"));
-  Manifest manifest = readManifest(folder + "/manifest.json");
-  std::vector<Finding> findings;
-  for (const std::string& subject : subjects) {
-    const Golden now = drawGolden(subject, renderer);
-    if (update) storeGolden(now, manifest, folder);
-    const std::vector<Finding> found = compareGolden(now, manifest, folder);
-    print(found);
-    findings.insert(findings.end(), found.begin(), found.end());
+  for (const Subject& subject : subjects) {
+    const Golden now = subject.scene ? drawGolden(*subject.scene, renderer)
+                                     : drawGolden(subject.name, renderer);
+    for (Shelf& shelf : shelves) hold(shelf, now, options.update, *context);
   }
-  if (update) {
-    manifest.glRenderer = context->renderer();
-    manifest.glVersion = context->version();
-    manifest.program = TUMBLE_VERSION;
-    writeManifest(folder + "/manifest.json", manifest);
+
+  int code = kOk;
+  for (Shelf& shelf : shelves) {
+    const std::string file = shelf.holding.folder + "/manifest.json";
+    shelf.holding.environment =
+        environment(options.update ? readManifest(file) : shelf.manifest, *context);
+    code = std::max(code, conclude(shelf));
   }
-  return conclude(findings, out, environment(manifest, *context));
+  writeForPrograms(options, shelves);
+  return code;
 }
 
 }  // namespace tumble::command

@@ -78,9 +78,13 @@ void addPage(const Scene& scene, Renderer& renderer, Golden& golden) {
   for (const Plot& plot : plotsOf(scene, runs)) golden.tables.push_back({plot.name, plot.csv});
 }
 
-Golden drawDemo(const std::string& name, Renderer& renderer) {
-  const Scene scene = readScene(scenePath(name));
+}  // namespace
+
+Golden drawGolden(const Scene& scene, Renderer& renderer) {
   const Recording recording = record(scene, scene.image.rate);
+  if (recording.report.stopped)
+    throw StoppedError(scene.file + " stops, so no golden of it is kept: " +
+                       recording.report.reason);
   Scene small = scene;
   small.image.width = kSmall.width;
   small.image.height = kSmall.height;
@@ -95,21 +99,20 @@ Golden drawDemo(const std::string& name, Renderer& renderer) {
   draw("middle",
        scene.image.still ? presenter.still(*scene.image.still) : presenter.image(last / 3));
   draw("start", presenter.image(0));
-  Golden golden{name,
+  Golden golden{scene.name,
                 distinctImages(std::move(images)),
                 {{"numbers", trajectoryCsv(thinned(recording), scene)}}};
   addPage(scene, renderer, golden);
   return golden;
 }
 
-}  // namespace
-
 Scene windowScene() {
   return parseScene(kWindowScene, std::string(kWindowSubject));
 }
 
 Golden drawGolden(const std::string& subject, Renderer& renderer) {
-  return subject == kWindowSubject ? drawWindow(renderer) : drawDemo(subject, renderer);
+  return subject == kWindowSubject ? drawWindow(renderer)
+                                   : drawGolden(readScene(scenePath(subject)), renderer);
 }
 
 }  // namespace tumble

@@ -33,6 +33,21 @@ std::string Finding::verdict() const {
       100.0 * image.share, image.mean, image.largest);
 }
 
+long Holding::passing() const {
+  return std::count_if(findings.begin(), findings.end(),
+                       [](const Finding& finding) { return finding.passes(); });
+}
+
+long Holding::exact() const {
+  return std::count_if(findings.begin(), findings.end(),
+                       [](const Finding& finding) { return finding.exact(); });
+}
+
+std::string Holding::approvalOf(const std::string& subject) const {
+  const auto scene = scenes.find(subject);
+  return approve + " " + (scene == scenes.end() ? subject : scene->second);
+}
+
 namespace {
 
 std::string hashIn(const Manifest& manifest, const std::string& subject, const std::string& name) {
@@ -61,10 +76,13 @@ Finding compareTable(const Golden& now, const NamedTable& table, const fs::path&
   Finding finding{.subject = now.subject, .name = table.name};
   const fs::path file = folder / now.subject / (table.name + ".csv");
   finding.numbers = NumberDifference{};
-  if (fs::exists(file))
-    finding.numbers = compareNumbers(readFile(file.string()), table.csv);
-  else
+  finding.actualCsv = table.csv;
+  if (!fs::exists(file)) {
     finding.remark = "there are no golden numbers";
+    return finding;
+  }
+  finding.expectedCsv = readFile(file.string());
+  finding.numbers = compareNumbers(finding.expectedCsv, table.csv);
   return finding;
 }
 

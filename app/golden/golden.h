@@ -1,7 +1,8 @@
-// Goldens: small images and numbers of every demo that the next version has to reproduce.
+// Goldens: small images and numbers of scenes that the next version has to reproduce.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct NamedTable {
   std::string csv;  ///< 17 digits
 };
 
-/// What one subject – a demo, or the window – looks like now.
+/// What one subject – a scene, or the window – looks like now.
 struct Golden {
   std::string subject;
   std::vector<NamedImage> images;
@@ -37,11 +38,25 @@ struct Finding {
   std::optional<Image> expected = {}, actual = {};  ///< of an image
   ImageDifference image = {};
   std::optional<NumberDifference> numbers = {};  ///< of a table
+  std::string expectedCsv = {}, actualCsv = {};  ///< of a table
   std::string remark = {};                       ///< what is wrong besides pixels or numbers
   bool exact() const;
   bool passes() const;
   /// One line for people: passed how, or failed why.
   std::string verdict() const;
+};
+
+/// What came of comparing subjects with the goldens of one folder.
+struct Holding {
+  std::string folder;
+  std::string environment;  ///< what drew the expected images, and what the actual ones
+  std::string approve;      ///< the command that accepts what is drawn now, but for the subjects
+  std::vector<Finding> findings;
+  std::map<std::string, std::string> scenes = {};  ///< subject → its name in a shell, if another
+  long passing() const;
+  long exact() const;
+  /// `approve` for one subject.
+  std::string approvalOf(const std::string& subject) const;
 };
 
 /// Holds what is drawn now against folder/<subject>/*.png and *.csv.

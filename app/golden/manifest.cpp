@@ -1,7 +1,12 @@
 #include "app/golden/manifest.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -31,6 +36,38 @@ void writeManifest(const std::string& path, const Manifest& manifest) {
                                        {"program", manifest.program},
                                        {"images", manifest.images}};
   writeFile(path, json.dump(2) + "\n");
+}
+
+namespace {
+
+// Holds a folder for one process until it is gone.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder)
+      : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (handle_ < 0 || ::flock(handle_, LOCK_EX) != 0)
+      throw FileError("cannot lock the folder '" + folder + "': " + std::strerror(errno));
+  }
+  ~FolderLock() { ::close(handle_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int handle_;
+};
+
+}  // namespace
+
+void enterInManifest(const std::string& folder, const Manifest& now) {
+  makeFolder(folder);
+  const FolderLock lock(folder);
+  const std::string path = folder + "/manifest.json";
+  Manifest merged = readManifest(path);
+  for (const auto& [subject, images] : now.images) merged.images[subject] = images;
+  merged.glRenderer = now.glRenderer;
+  merged.glVersion = now.glVersion;
+  merged.program = now.program;
+  writeManifest(path, merged);
 }
 
 std::string pixelHash(const Image& image) {

@@ -21,6 +21,11 @@ struct Manifest {
 Manifest readManifest(const std::string& path);
 void writeManifest(const std::string& path, const Manifest& manifest);
 
+/// Enters the images of the subjects that `now` has, and what drew them, into manifest.json of the
+/// folder, and keeps what it says of others. Processes that do so at the same time wait for each
+/// other. @throws FileError
+void enterInManifest(const std::string& folder, const Manifest& now);
+
 /// FNV-1a, 64 bits, of size and pixels; 16 hexadecimal digits.
 /// Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash Algorithm", draft-eastlake-fnv.
 std::string pixelHash(const Image& image);

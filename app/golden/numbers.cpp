@@ -39,10 +39,13 @@ double deviation(const std::string& expected, const std::string& actual) {
   return std::abs(*a - *e) / (kAbsolute + kRelative * std::abs(*e));
 }
 
-void note(NumberDifference& difference, double worst, const std::string& where) {
+void note(NumberDifference& difference, double worst, const std::string& where,
+          std::size_t line = 0, std::size_t column = 0) {
   if (!difference.where.empty() && worst <= difference.worst) return;
   difference.worst = worst;
   difference.where = where;
+  difference.line = line;
+  difference.column = column;
 }
 
 void compareLine(NumberDifference& difference, std::size_t line,
@@ -58,7 +61,8 @@ void compareLine(NumberDifference& difference, std::size_t line,
     const double worst = deviation(e[i], a[i]);
     if (worst == 0.0) continue;
     const std::string name = i < names.size() ? names[i] : std::to_string(i + 1);
-    note(difference, worst, fmt::format("line {}, {}: {}, expected {}", line, name, a[i], e[i]));
+    note(difference, worst, fmt::format("line {}, {}: {}, expected {}", line, name, a[i], e[i]),
+         line, i + 1);
   }
 }
 
@@ -79,6 +83,23 @@ NumberDifference compareNumbers(const std::string& expected, const std::string& 
   for (std::size_t line = 1; line < e.size(); ++line)
     compareLine(difference, line + 1, names, e[line], a[line]);
   return difference;
+}
+
+Curve curveOf(const std::string& csv, std::size_t line, std::size_t column) {
+  Curve curve;
+  const std::vector<std::string> lines = split(csv, '\n');
+  if (line < 2 || line > lines.size()) return curve;
+  const std::vector<std::string> names = split(lines[0], ','), worst = split(lines[line - 1], ',');
+  const bool bodies = names.size() > 1 && worst.size() > 1 && names[1] == "body";
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    const std::vector<std::string> fields = split(lines[k], ',');
+    if (fields.size() < column || (bodies && fields[1] != worst[1])) continue;
+    const std::optional<double> x = finiteNumber(fields[0]), y = finiteNumber(fields[column - 1]);
+    if (!x || !y) continue;
+    curve.x.push_back(*x);
+    curve.y.push_back(*y);
+  }
+  return curve;
 }
 
 }  // namespace tumble

@@ -8,9 +8,10 @@
 
 namespace tumble {
 
-/// A page with expected, actual and difference of every image that fails, under a slider that wipes
-/// from one to the other, and the numbers that fail. Images are embedded: the file can be mailed.
-std::string htmlReport(const std::vector<Finding>& findings, const std::string& environment);
+/// A page with a list of what fails; of each image expected, actual and difference, under a slider
+/// that wipes from one to the other; of numbers the curve of the worst column; and the command that
+/// accepts it. Images are embedded: the file can be mailed.
+std::string htmlReport(const Holding& holding);
 
 /// RFC 4648, with padding.
 std::string base64(const std::vector<std::uint8_t>& bytes);

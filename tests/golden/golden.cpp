@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "app/golden/formats.h"
 #include "app/golden/report.h"
 #include "tests/catch.h"
 
@@ -98,13 +100,33 @@ TEST_CASE("the report holds the failing images themselves and no link to anythin
   Golden now = sample();
   now.images[0].image = plain(60);
   const auto findings = compareGolden(now, manifest, scratch.path.string());
-  const std::string html = htmlReport(findings, "llvmpipe <22.3>");
+  const std::string html =
+      htmlReport({"goldens", "llvmpipe <22.3>", "tumble golden --update", findings});
   CHECK(html.find(base64(encodePng(plain(40)))) != std::string::npos);
   CHECK(html.find(base64(encodePng(plain(60)))) != std::string::npos);
   CHECK(html.find("drop: start") != std::string::npos);
   CHECK(html.find("drop: end") == std::string::npos);
+  CHECK(html.find("<code>tumble golden --update drop</code>") != std::string::npos);
   CHECK(html.find("llvmpipe &lt;22.3&gt;") != std::string::npos);
   CHECK(html.find("http") == std::string::npos);
+}
+
+TEST_CASE("what programs read counts what passes and quotes what people wrote") {
+  Golden now = sample();
+  now.subject = "a \"drop\" & <more>";
+  Holding holding{"goldens", "llvmpipe", "tumble golden --update", {}};
+  holding.findings = compareGolden(now, Manifest{}, "no such folder");
+  holding.findings.push_back({.subject = "drop", .name = "numbers"});
+  holding.findings.back().numbers = NumberDifference{};
+  const std::string xml = junitXml({holding});
+  CHECK(xml.find("<testsuites name=\"tumble golden\" tests=\"4\" failures=\"3\">") !=
+        std::string::npos);
+  CHECK(xml.find("classname=\"a &quot;drop&quot; &amp; &lt;more&gt;\"") != std::string::npos);
+  CHECK(xml.find("<testcase classname=\"drop\" name=\"numbers\"/>") != std::string::npos);
+  const auto json = nlohmann::json::parse(goldenJson({holding}));
+  CHECK(json["goldens"] == 4);
+  CHECK(json["pass"] == 1);
+  CHECK(json["folders"][0]["findings"][0]["subject"] == "a \"drop\" & <more>");
 }
 
 TEST_CASE("base64 agrees with the examples of RFC 4648, section 10") {

@@ -36,3 +36,16 @@ TEST_CASE("another shape, another word or no number at all never passes") {
     CHECK_FALSE(compareNumbers(expected, actual).passes());
   }
 }
+
+TEST_CASE("the worst line and column are told, and their curve is that of one body against time") {
+  const std::string expected = "t,body,x,y\n0,a,1,5\n0,b,2,6\n1,a,3,7\n1,b,4,8\n";
+  const std::string actual = "t,body,x,y\n0,a,1,5\n0,b,2,6\n1,a,3,7\n1,b,4,9\n";
+  const auto difference = compareNumbers(expected, actual);
+  CHECK(difference.line == 5);
+  CHECK(difference.column == 4);
+  const auto curve = tumble::curveOf(actual, difference.line, difference.column);
+  CHECK(curve.x == std::vector<double>{0, 1});
+  CHECK(curve.y == std::vector<double>{6, 9});
+  CHECK(compareNumbers(expected, "t\n").line == 0);
+  CHECK(tumble::curveOf(actual, 0, 0).x.empty());
+}

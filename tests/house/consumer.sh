@@ -19,3 +19,17 @@ cmake --build "$scratch/build"
 # The installed program reads the installed assets, not those of the source tree.
 "$scratch/prefix/bin/tumble" doctor | tee "$scratch/doctor"
 grep -q "$scratch/prefix/share/tumble" "$scratch/doctor"
+
+# It keeps goldens of a scene that is none of its own.
+cd "$scratch"
+cat >ball.toml <<'TOML'
+[world]
+duration = 0.2
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1.0
+TOML
+prefix/bin/tumble golden --folder kept --update ball.toml
+prefix/bin/tumble golden --folder kept ball.toml | tee held
+grep -q "goldens: 3 pass, 3 equal" held

@@ -1,0 +1,124 @@
+// Goldens of a user's own scenes: kept in a folder of his, held on every context, read by programs.
+#include "tests/catch.h"
+#include "tests/program/program.h"
+
+namespace {
+
+// A wedge read from a file beside the scene flies past a ball that bounces.
+const std::string kScene = R"([world]
+duration = 0.4
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1.0
+position = [0, 0.3, 0]
+restitution = 0.5
+[[body]]
+name = "wedge"
+shape = { mesh = "wedge.obj" }
+mass = 2.0
+position = [0.5, 2.0, 0]
+angular_velocity = [1, 2, 3]
+)";
+const std::string kWedge = R"(v 0 0 0
+v 0.4 0 0
+v 0 0.4 0
+v 0 0 0.4
+f 1 3 2
+f 1 2 4
+f 1 4 3
+f 2 3 4
+)";
+
+// The scene with the ball at another height.
+std::string moved(const std::string& text, const std::string& by) {
+  std::string changed = text;
+  return changed.replace(changed.find("0.3, 0]"), 7, by);
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of it fails") {
+  const Scratch scratch;
+  scratch.file("wedge.obj", kWedge);
+  scratch.file("mine.toml", kScene);
+  CHECK(tumbleRun(scratch, "golden --folder kept --update mine.toml").code == 0);
+  CHECK(std::filesystem::exists(scratch / "kept/mine/start.png"));
+  CHECK(std::filesystem::exists(scratch / "kept/mine/numbers.csv"));
+
+  // Two folders at once, by another context.
+  std::filesystem::copy(scratch.path / "kept", scratch.path / "second",
+                        std::filesystem::copy_options::recursive);
+  const Outcome again =
+      tumbleRun(scratch, "golden --folder kept --folder second mine.toml --junit j.xml",
+                "export TUMBLE_GL=egl");
+  CAPTURE(again.err, again.out);
+  CHECK(again.code == 0);
+  CHECK(holds(again.out, "kept: 4 goldens: 4 pass, 4 equal to the last bit"));
+  CHECK(holds(again.out, "second: 4 goldens: 4 pass, 4 equal to the last bit"));
+  CHECK(holds(textOf(scratch.path / "j.xml"), "tests=\"8\" failures=\"0\""));
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+
+  scratch.file("mine.toml", moved(kScene, "0.31, 0]"));
+  const Outcome changed =
+      tumbleRun(scratch, "golden --folder kept mine.toml --junit j.xml --json j.json");
+  CHECK(changed.code == 1);
+  CHECK(holds(changed.out, "tumble golden --folder kept --update"));
+  CHECK(holds(textOf(scratch.path / "j.xml"), "<failure message="));
+  CHECK(holds(textOf(scratch.path / "j.json"), "\"passes\": false"));
+  const std::string report = textOf(scratch.path / "out/golden/kept/report.html");
+  CHECK(holds(report, "tumble golden --folder kept --update mine.toml"));
+  CHECK(holds(report, "actual minus expected"));
+
+  // What passes again leaves no report of an earlier failure.
+  scratch.file("mine.toml", kScene);
+  CHECK(tumbleRun(scratch, "golden --folder kept mine.toml").code == 0);
+  CHECK(filesBelow(scratch.path / "out") == 0);
+}
+
+TEST_CASE("two processes that enter goldens into one folder both find theirs") {
+  const Scratch scratch;
+  scratch.file("wedge.obj", kWedge);
+  scratch.file("one.toml", kScene);
+  scratch.file("two.toml", moved(kScene, "0.4, 0]"));
+  const std::string update = std::string("'") + TUMBLE_PROGRAM + "' golden --folder kept --update ";
+  const Outcome held =
+      tumbleRun(scratch, "golden --folder kept one.toml two.toml",
+                "(" + update + "one.toml & " + update + "two.toml; wait) >/dev/null");
+  CAPTURE(held.out, held.err);
+  CHECK(held.code == 0);
+}
+
+TEST_CASE("goldens of scenes that cannot be held are refused in one line, and none is begun") {
+  struct Slip {
+    std::string arguments;
+    int code;
+    std::string says;
+  };
+  const Slip slip = GENERATE(Slip{"golden mine.toml", 2, "--folder DIR"},
+                             Slip{"golden --folder kept --update", 2, "scenes"},
+                             Slip{"golden --folder kept mine.toml", 5, "--update"},
+                             Slip{"golden --folder kept --update mine.toml sub/mine.toml", 2,
+                                  "mine"},
+                             Slip{"golden --folder kept --update mine.toml bad.toml", 3,
+                                  "bad.toml:1:1"});
+  CAPTURE(slip.arguments);
+  const Scratch scratch;
+  std::filesystem::create_directories(scratch.path / "sub");
+  for (const char* name : {"mine.toml", "sub/mine.toml"}) scratch.file(name, kScene);
+  for (const char* name : {"wedge.obj", "sub/wedge.obj"}) scratch.file(name, kWedge);
+  scratch.file("bad.toml", "titel = \"x\"\n" + kScene);
+  const Outcome outcome = tumbleRun(scratch, slip.arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == slip.code);
+  CHECK(outcome.lines() == 1);
+  CHECK(outcome.says(slip.says));
+  CHECK_FALSE(std::filesystem::exists(scratch.path / "kept"));
+}
