@@ -3,11 +3,13 @@
 
 namespace tumble::command {
 int check(int argc, char** argv);
+int completion(int argc, char** argv);
 int describe(int argc, char** argv);
 int doctor(int argc, char** argv);
 int gallery(int argc, char** argv);
 int golden(int argc, char** argv);
 int list(int argc, char** argv);
+int man(int argc, char** argv);
 int render(int argc, char** argv);
 int report(int argc, char** argv);
 int simulate(int argc, char** argv);
@@ -31,6 +33,8 @@ int main(int argc, char** argv) {
       {"report", "speed against error: numbers, figures, a table", command::report},
       {"view", "the window: play, step, scrub, turn", command::view},
       {"doctor", "what this machine offers for drawing, and what is missing", command::doctor},
+      {"completion", "what Tab offers in bash, zsh and fish", command::completion},
+      {"man", "the manual page", command::man},
   };
   return dispatch(table, argc, argv);
 }

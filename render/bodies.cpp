@@ -166,7 +166,7 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
                           {from.colour[0], from.colour[1], from.colour[2]},
                           static_cast<float>(thicknessOf(from)),
                           {back[0], back[1], back[2]},
-                          0.0f});
+                          from.banded ? 1.0f : 0.0f});
   }
   gl::upload(GL_ARRAY_BUFFER, buffer_, instances_);
 }

@@ -48,7 +48,7 @@ class Bodies {
     float turn[4];
     float half[3], present;
     float colour[3], thickness;
-    float back[3], unused;
+    float back[3], banded;
   };
   struct Range {
     int first = 0, count = 0;

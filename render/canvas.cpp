@@ -101,6 +101,22 @@ double Canvas::textWidth(std::string_view utf8, const TextStyle& style) {
   return fonts_.set(utf8, style.face, style.size * scale_, kHaloWidth * scale_).advance / scale_;
 }
 
+std::vector<std::string> Canvas::lines(std::string_view utf8, double width,
+                                       const TextStyle& style) {
+  std::vector<std::string> lines;
+  std::size_t begin = 0, fits = 0;
+  for (std::size_t end = 0; end < utf8.size();) {
+    end = std::min(utf8.find(' ', end + 1), utf8.size());
+    if (fits > begin && textWidth(utf8.substr(begin, end - begin), style) > width) {
+      lines.emplace_back(utf8.substr(begin, fits - begin));
+      begin = std::min(utf8.find_first_not_of(' ', fits), utf8.size());
+    }
+    fits = end;
+  }
+  if (begin < utf8.size()) lines.emplace_back(utf8.substr(begin));
+  return lines;
+}
+
 void Canvas::text(const Vector2d& pen, std::string_view utf8, const TextStyle& style) {
   const TextImage& line = fonts_.set(utf8, style.face, style.size * scale_, kHaloWidth * scale_);
   const double share = style.align == Align::Left ? 0.0 : style.align == Align::Centre ? 0.5 : 1.0;

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/font.h"
 #include "render/image.h"
@@ -57,6 +59,8 @@ class Canvas {
   void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style);
   /// Width of the text [px].
   double textWidth(std::string_view utf8, const TextStyle& style);
+  /// The text in lines that are at most as wide as asked [px], if a word is not; broken at blanks.
+  std::vector<std::string> lines(std::string_view utf8, double width, const TextStyle& style);
 
  private:
   /// Blends the colour over pixels near a shape given by its signed distance [px of the image], < 0

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "render/lines.h"
@@ -122,6 +123,23 @@ void drawPageShape(const PageShape& shape, Canvas& canvas) {
   }
 }
 
+// Title and subtitle, as large as the shorter side of the page asks, in as many lines as it takes.
+void drawTitle(const Picture& picture, Canvas& canvas) {
+  constexpr double kLeft = 32.0, kFirst = 46.0;
+  const double small = std::min(1.0, canvas.width() / canvas.height());
+  const double left = kLeft * small, width = canvas.width() - 2.0 * left;
+  double baseline = kFirst * small;
+  const auto draw = [&](const std::string& text, const Canvas::TextStyle& style, double advance) {
+    for (const std::string& line : canvas.lines(text, width, style)) {
+      canvas.text({left, baseline}, line, style);
+      baseline += advance * small;
+    }
+  };
+  draw(picture.title, {22.0 * small, Face::Bold, Align::Left, ink::text}, 26.0);
+  baseline = std::max(baseline - 2.0 * small, 70.0 * small);
+  draw(picture.subtitle, {15.0 * small, Face::Regular, Align::Left, ink::secondary}, 19.0);
+}
+
 }  // namespace
 
 void drawOverlay(const Picture& picture, const Projection& projection, Canvas& canvas) {
@@ -134,8 +152,7 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
   LabelDrawer labels(projection, canvas);
   for (const Label& label : picture.labels) labels.draw(label);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
-  canvas.text({32.0, 46.0}, picture.title, {22.0, Face::Bold, Align::Left, ink::text});
-  canvas.text({32.0, 70.0}, picture.subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
+  drawTitle(picture, canvas);
 }
 
 }  // namespace tumble

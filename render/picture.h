@@ -39,6 +39,7 @@ struct Instance {
       Eigen::Vector3d::Ones();  ///< half extents: box edges/2; (r, r, r); (r, h/2, r); semi-axes
   Colour colour = {0.23f, 0.44f, 0.66f};
   std::optional<Colour> back = {};  ///< of the half with z < 0 in the body frame; none: as in front
+  bool banded = true;               ///< a ball or cylinder gets a band that its spin can be seen by
   float alpha = 1.0f;               ///< of a ghost
   Finish finish = Finish::Solid;
   std::shared_ptr<const Facets> facets =

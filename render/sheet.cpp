@@ -1,7 +1,6 @@
 #include "render/sheet.h"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMargin = 32, kGutter = 16, kTop = 100, kCaption = 48, kLine = 20;
-constexpr double kFindingSize = 14.0;
+const Canvas::TextStyle kFinding{14.0, Face::Regular, Align::Left, ink::secondary};
 
 void place(Image& page, const Image& image, int left, int top) {
   for (int y = 0; y < image.height; ++y)
@@ -28,21 +27,6 @@ std::string letter(int index) {
   return index < 26 ? last : letter(index / 26 - 1) + last;
 }
 
-/// The words of a text, set on lines that are at most as wide as asked [px], if a word is not.
-std::vector<std::string> wrapped(const std::string& text, double width, Fonts& fonts) {
-  std::vector<std::string> lines(1);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
-    const bool fits = fonts.set(longer, Face::Regular, kFindingSize, 0.0).advance <= width;
-    if (fits || lines.back().empty())
-      lines.back() = longer;
-    else
-      lines.push_back(word);
-  }
-  return lines;
-}
-
 void drawPanel(const Panel& panel, const std::string& name, std::span<const std::string> finding,
                int left, int top, Image& page, Canvas& canvas) {
   place(page, panel.image, left, top);
@@ -53,7 +37,7 @@ void drawPanel(const Panel& panel, const std::string& name, std::span<const std:
               {16.0, Face::Regular, Align::Left, ink::text});
   for (std::size_t i = 0; i < finding.size(); ++i)
     canvas.text(corner + Vector2d(20.0, 52.0 + kLine * static_cast<double>(i)), finding[i],
-                {kFindingSize, Face::Regular, Align::Left, ink::secondary});
+                kFinding);
 }
 
 }  // namespace
@@ -68,10 +52,12 @@ Image drawSheet(std::span<const Panel> panels, int columns, const std::string& t
       throw std::invalid_argument("the panels of a sheet must have one size");
 
   // Findings on as many lines as the longest needs.
+  Image nothing;
+  Canvas rule(nothing, fonts, 1.0);
   std::vector<std::vector<std::string>> findings;
   std::size_t lines = 1;
   for (const Panel& panel : panels) {
-    findings.push_back(wrapped(panel.finding, width - 20.0, fonts));
+    findings.push_back(rule.lines(panel.finding, width - 20.0, kFinding));
     lines = std::max(lines, findings.back().size());
   }
 

@@ -109,8 +109,22 @@ WorldDef aloneOf(const Scene& scene, int body) {
 
 Surface surfaceOf(const WorldDef& world, int a, int b) {
   Model model;
-  model.def = world;
-  return model.surface(a, b);
+  model.def.bodies = {world.bodies[a], world.bodies[b]};
+  model.def.pairs = world.pairs;
+  return model.surface(0, 1);
+}
+
+Surface actingSurface(const WorldDef& world, int body) {
+  const Surface own{world.bodies[body].restitution, world.bodies[body].friction};
+  std::optional<Surface> acting;
+  for (int other = 0; other < static_cast<int>(world.bodies.size()); ++other) {
+    if (other == body || moves(world.bodies[other])) continue;
+    const Surface met = surfaceOf(world, body, other);
+    if (!acting) acting = met;
+    if (met.restitution != acting->restitution) acting->restitution = own.restitution;
+    if (met.friction != acting->friction) acting->friction = own.friction;
+  }
+  return acting.value_or(own);
 }
 
 }  // namespace tumble

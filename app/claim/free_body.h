@@ -39,4 +39,8 @@ WorldDef aloneOf(const Scene& scene, int body);
 /// Restitution and friction that the scene's rules give a pair of bodies.
 Surface surfaceOf(const WorldDef& world, int a, int b);
 
+/// Restitution and friction with which the body meets what is fixed, each where all of that agrees;
+/// its own where it does not, or where nothing is fixed.
+Surface actingSurface(const WorldDef& world, int body);
+
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/claim/verdict.h"
 #include "app/command/command.h"
@@ -30,19 +31,57 @@ void printTable(const Verdict& verdict) {
   }
 }
 
+using Json = nlohmann::ordered_json;
+
+Json rowsOf(const Verdict& verdict) {
+  Json rows = Json::array();
+  for (const ClaimRow& row : verdict.rows) {
+    Json one = {{"label", row.label}, {"holds", row.holds()}};
+    if (!row.silent)
+      one.update({{"measured", row.measured},
+                  {"exact", row.exact},
+                  {"error", row.error},
+                  {"allowed", row.allowed}});
+    rows.push_back(std::move(one));
+  }
+  return rows;
+}
+
+// Whether all samples show the bodies where the first has them, to what no picture shows.
+bool nothingMoved(const Recording& recording) {
+  constexpr double kUnseen = 1e-9;  // [m], and of a turn [rad]
+  for (const Sample& sample : recording.samples)
+    for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+      const BodySample &now = sample.bodies[i], &start = recording.samples.front().bodies[i];
+      if ((now.x - start.x).norm() > kUnseen) return false;
+      if ((now.q.coeffs() - start.q.coeffs()).norm() > kUnseen) return false;
+    }
+  return true;
+}
+
 // Whether the scene's claims hold; a run that stopped on the way throws none, but fails as
 // kPhysics. A scene without claims need not run, but has to be one that could.
-int checkScene(const Scene& scene) {
+int checkScene(const Scene& scene, Json* json) {
   makeWorld(scene);
-  fmt::print("{}: {}\n", scene.name, scene.claim.empty() ? scene.title : scene.claim);
+  const std::string claim = scene.claim.empty() ? scene.title : scene.claim;
+  if (!json) fmt::print("{}: {}\n", scene.name, claim);
   if (scene.checks.empty()) {
-    fmt::print("  no checks\n");
+    if (!json) fmt::print("  no checks\n");
     return kOk;
   }
   const Recording recording = recordWithProgress(scene);
   if (const int stopped = exitOf(recording)) return stopped;
   const Verdict verdict = judge(scene, recording);
-  printTable(verdict);
+  const bool still = nothingMoved(recording);
+  if (json)
+    json->push_back({{"scene", scene.name},
+                     {"claim", claim},
+                     {"holds", verdict.failed == 0},
+                     {"moved", !still},
+                     {"rows", rowsOf(verdict)}});
+  else
+    printTable(verdict);
+  if (still && !json) fmt::print("  nothing moved: this is a scene at rest\n");
   return verdict.failed > 0 ? kFailed : kOk;
 }
 
@@ -51,7 +90,7 @@ int checkScene(const Scene& scene) {
 int check(int argc, char** argv) {
   std::vector<std::string> names, overrides;
   std::string folder;
-  bool state = false;
+  bool state = false, json = false;
   CommandLine line("check", "Holds scenes to the closed forms that they claim.",
                    {"                # every demo", "path-of-brick my-scene.toml",
                     "stacked-boxes --set world.gravity=[0,-1.62,0]",
@@ -61,6 +100,7 @@ int check(int argc, char** argv) {
   line.flag("--state", state,
             "instead: are positions, velocities and accelerations of the start legal?");
   line.option("-o,--output", folder, "folder for state.png [none]", {.needs = "--state"});
+  line.flag("--json", json, "what came of it as JSON");
   if (!line.read(argc, argv)) return kOk;
 
   if (names.empty()) names = demoNames();
@@ -74,13 +114,16 @@ int check(int argc, char** argv) {
     return worst;
   }
   std::size_t claims = 0;
+  Json scenes = Json::array();
   for (const std::string& name : names) {
     const Scene scene = load({name, overrides});
     claims += scene.checks.size();
-    worst = std::max(worst, checkScene(scene));
+    worst = std::max(worst, checkScene(scene, json ? &scenes : nullptr));
     std::fflush(stdout);
   }
-  if (claims > 0)
+  if (json)
+    fmt::print("{}\n", scenes.dump(2));
+  else if (claims > 0)
     fmt::print("{}\n", worst == kOk ? "all claims hold" : "some claims do NOT hold");
   else
     fmt::print("nothing was checked: no scene names a claim in `checks`\n");

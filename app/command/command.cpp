@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include "app/command/interrupt.h"
 #include "app/file/file.h"
 #include "app/record/recording.h"
 #include "app/scene/findings.h"
@@ -17,11 +18,13 @@ namespace tumble {
 
 namespace {
 
+std::span<const Command> dispatched;
+
 void printHelp(std::span<const Command> table, std::FILE* out) {
   fmt::print(out, "tumble {} draws scenes of rigid bodies that can be trusted.\n\n",
              TUMBLE_VERSION);
   fmt::print(out, "Usage: tumble COMMAND [SCENE] [options]\n\nCommands:\n");
-  for (const Command& row : table) fmt::print(out, "  {:<10}{}\n", row.name, row.summary);
+  for (const Command& row : table) fmt::print(out, "  {:<12}{}\n", row.name, row.summary);
   fmt::print(out,
              "\nSCENE is a demo's name or the path of a TOML file.\n"
              "`tumble COMMAND --help` shows options and examples.\n");
@@ -57,14 +60,9 @@ int complain(int code, const char* what) {
 
 }  // namespace
 
-int dispatch(std::span<const Command> table, int argc, char** argv) {
-  // A limit on the size of files is a write that fails, not a reason to die.
-  std::signal(SIGXFSZ, SIG_IGN);
+int guarded(const std::function<int()>& work) {
   try {
-    const int code = runNamed(table, argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw FileError("cannot write to standard output");
-    return code;
+    return work();
   } catch (const UsageError& error) {
     return complain(kUsage, error.what());
   } catch (const SceneError& error) {
@@ -75,11 +73,29 @@ int dispatch(std::span<const Command> table, int argc, char** argv) {
     return complain(kNoContext, error.what());
   } catch (const StoppedError& error) {
     return complain(kPhysics, error.what());
+  } catch (const Interrupted& error) {
+    return complain(kInterrupted, error.what());
   } catch (const std::bad_alloc&) {
     return complain(kFile, "out of memory; try a smaller --size or a lower --rate");
   } catch (const std::exception& error) {
     return complain(kFile, error.what());
   }
+}
+
+int dispatch(std::span<const Command> table, int argc, char** argv) {
+  // A limit on the size of files is a write that fails, not a reason to die.
+  std::signal(SIGXFSZ, SIG_IGN);
+  dispatched = table;
+  return guarded([&] {
+    const int code = runNamed(table, argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw FileError("cannot write to standard output");
+    return code;
+  });
+}
+
+std::span<const Command> commandTable() {
+  return dispatched;
 }
 
 }  // namespace tumble

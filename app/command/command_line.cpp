@@ -8,6 +8,9 @@
 #include <cstdlib>
 
 #include "app/command/command.h"
+#include "app/command/progress.h"
+#include "app/command/sheet.h"
+#include "app/scene/findings.h"
 
 namespace tumble {
 
@@ -29,26 +32,33 @@ CLI::Validator between(double lo, double hi) {
 
 struct CommandLine::Parser {
   CLI::App app;
+  CommandSheet sheet;
+  bool quiet = false;
 };
+
+CommandSheet* CommandLine::listener = nullptr;
 
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          const std::vector<std::string>& examples)
-    : parser_(new Parser{CLI::App(summary, "tumble " + name)}) {
+    : parser_(new Parser{CLI::App(summary, "tumble " + name), {name, summary, examples, {}}}) {
   std::string text = "\nExamples:";
   for (const std::string& example : examples) text += "\n  tumble " + name + " " + example;
   parser_->app.footer(text);
+  flag("-q,--quiet", parser_->quiet, "say nothing but results and errors");
 }
 
 CommandLine::~CommandLine() = default;
 
 void CommandLine::flag(const std::string& names, bool& value, const std::string& help) {
   parser_->app.add_flag(names, value, help);
+  parser_->sheet.options.push_back({names, "", help, true});
 }
 
 template <typename Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help,
                          const OptionTraits& traits) {
   CLI::Option* const option = parser_->app.add_option(names, value, help);
+  if (!traits.hidden) parser_->sheet.options.push_back({names, traits.type, help, false});
   if (names.front() == '-') option->allow_extra_args(false);
   if (!traits.type.empty()) option->type_name(traits.type);
   if (traits.range) option->check(between(traits.range->first, traits.range->second));
@@ -68,9 +78,31 @@ template void CommandLine::option(const std::string&, std::optional<double>&, co
 template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&,
                                   const OptionTraits&);
 
+namespace {
+
+// The options of which one may be meant by what is no option.
+std::string hintOfOption(const CLI::App& app, const std::vector<std::string>& unknown) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& word : unknown) {
+    const std::string nearest = nearestName(word.substr(0, word.find('=')), names);
+    if (word.starts_with("-") && !nearest.empty())
+      return ", did you mean '" + nearest + "' for '" + word + "'?";
+  }
+  return "";
+}
+
+}  // namespace
+
 bool CommandLine::read(int argc, char** argv) {
+  if (listener) {
+    *listener = parser_->sheet;
+    return false;
+  }
   try {
     parser_->app.parse(argc, argv);
+    setQuiet(parser_->quiet);
     return true;
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}\n", parser_->app.help());
@@ -78,8 +110,22 @@ bool CommandLine::read(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    throw UsageError(fmt::format("{}; `{} --help` shows how", what, parser_->app.get_name()));
+    throw UsageError(fmt::format("{}{}; `{} --help` shows how", what,
+                                 hintOfOption(parser_->app, parser_->app.remaining()),
+                                 parser_->app.get_name()));
   }
+}
+
+std::vector<CommandSheet> sheetsOf(std::span<const Command> table) {
+  std::vector<CommandSheet> sheets;
+  for (const Command& row : table) {
+    CommandSheet sheet;
+    CommandLine::listener = &sheet;
+    row.run(0, nullptr);
+    CommandLine::listener = nullptr;
+    sheets.push_back(std::move(sheet));
+  }
+  return sheets;
 }
 
 }  // namespace tumble

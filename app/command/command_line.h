@@ -19,6 +19,8 @@ struct OptionTraits {
 };
 
 /// Options and flags that write into variables of the command, with examples below the help.
+struct CommandSheet;
+
 class CommandLine {
  public:
   /// @param examples "arguments  # what they do", without the program's name
@@ -38,6 +40,9 @@ class CommandLine {
   /// False if help was asked for and has been printed.
   /// @throws UsageError in one line.
   bool read(int argc, char** argv);
+
+  /// While this is set, `read` leaves there what the line takes, reads nothing and returns false.
+  static CommandSheet* listener;
 
  private:
   struct Parser;

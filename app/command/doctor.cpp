@@ -39,28 +39,36 @@ std::string examine(Context& context) {
                      pixelHash(image));
 }
 
-// Tells about one kind of context; whether it draws.
+enum class Drawing { Works, NoContext, NoFiles };
+
+// Tells about one kind of context; whether it draws, or what is in the way.
 template <class Make>
-bool examineKind(std::string_view name, const Make& make) {
+Drawing examineKind(std::string_view name, const Make& make) {
   try {
     const auto context = make();
     row(std::string(name), examine(*context));
-    return true;
+    return Drawing::Works;
+  } catch (const NoContext& error) {
+    row(std::string(name), fmt::format("no: {}", error.what()));
+    return Drawing::NoContext;
   } catch (const std::exception& error) {
     row(std::string(name), fmt::format("no: {}", error.what()));
-    return false;
+    return Drawing::NoFiles;
   }
 }
 
-bool examineContexts() {
-  bool any = false;
-  for (const ContextKind& kind : contextKinds())
-    if (examineKind(kind.name, kind.make)) any = true;
+// That of the best kind; a context without files is missing files, not a context.
+Drawing examineContexts() {
+  Drawing best = Drawing::NoContext;
+  for (const ContextKind& kind : contextKinds()) {
+    const Drawing one = examineKind(kind.name, kind.make);
+    if (best != Drawing::Works && one != Drawing::NoContext) best = one;
+  }
   // A window is for `view` alone, so it does not count.
   examineKind("window", [] {
     return std::make_unique<Window>(Window::Options{.width = 64, .height = 64, .visible = false});
   });
-  return any;
+  return best;
 }
 
 void tellFolders() {
@@ -98,9 +106,13 @@ int doctor(int argc, char** argv) {
   row("ffmpeg", ffmpeg.empty() ? "no: needed by --video alone; install ffmpeg" : ffmpeg);
   const std::string gnuplot = onPath("gnuplot");
   row("gnuplot", gnuplot.empty() ? "no: needed by report alone; install gnuplot-nox" : gnuplot);
-  const bool draws = examineContexts();
-  if (!draws)
+  const Drawing drawing = examineContexts();
+  if (drawing == Drawing::NoContext)
     throw NoContext("nothing here can draw; install libosmesa6 or libegl1 with libgl1-mesa-dri");
+  if (drawing == Drawing::NoFiles)
+    throw FileError(
+        "the program's own files are not where it looks for them; install it anew or set "
+        "TUMBLE_DATA to the folder that holds them");
   if (std::getenv("TUMBLE_GL")) row("TUMBLE_GL", std::string(makeContext()->name()));
   return kOk;
 }

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "app/command/command.h"
 #include "app/command/gallery_page.h"
 #include "app/command/options.h"
+#include "app/command/progress.h"
 #include "app/command/run.h"
 #include "app/command/shoot.h"
 #include "app/command/sweeping.h"
@@ -30,7 +32,7 @@ struct Options {
 // Draws one demo into folder/<name>; the worst exit code of its parts.
 int exhibit(const Options& options, const std::string& name, Studio& studio,
             std::vector<Exhibit>& exhibits) {
-  fmt::print("{}\n", name);
+  say(name);
   std::fflush(stdout);
   const SceneOptions named{name, options.overrides};
   Exhibit& shown = exhibits.emplace_back();
@@ -50,7 +52,9 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
         i == 0 ? Plate{name + "/panels.png", "panels"}
                : Plate{name + panels[i].substr(folder.size()), plotNames(scene)[i - 1].second});
   if (options.all) {
-    shoot.sequence({0, shoot.count()});
+    std::vector<int> all(static_cast<std::size_t>(shoot.count()));
+    std::iota(all.begin(), all.end(), 0);
+    shoot.sequence(all);
     shoot.video(folder + "/film.mp4", {0, shoot.count()});
     shown.film = name + "/film.mp4";
   }
@@ -79,13 +83,14 @@ int gallery(int argc, char** argv) {
 
   makeFolder(options.folder);
   Studio studio;
+  studio.open();
   std::vector<Exhibit> exhibits;
   exhibits.reserve(demoNames().size());  // scenes must stay where they are
   int code = kOk;
   for (const std::string& name : demoNames())
     code = std::max(code, exhibit(options, name, studio, exhibits));
   writeFile(options.folder + "/index.html", galleryPage(exhibits));
-  fmt::print("{}/index.html\n", options.folder);
+  say(options.folder + "/index.html");
   return code;
 }
 

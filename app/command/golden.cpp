@@ -8,6 +8,7 @@
 
 #include "app/command/command.h"
 #include "app/command/options.h"
+#include "app/command/progress.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/golden/draw.h"
@@ -25,8 +26,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::vector<std::string> subjects, folders;
-  std::string out = "out/golden", junit, json;
-  bool update = false;
+  std::string out = "out/golden", junit;
+  bool update = false, json = false;
 };
 
 bool readOptions(int argc, char** argv, Options& options) {
@@ -43,7 +44,7 @@ bool readOptions(int argc, char** argv, Options& options) {
   line.option("-o,--output", options.out,
               "folder for failing images and report.html [out/golden, with --folder one in it]");
   line.option("--junit", options.junit, "write what came of it as JUnit's XML", {.type = "FILE"});
-  line.option("--json", options.json, "the same as JSON", {.type = "FILE"});
+  line.flag("--json", options.json, "say what came of it as JSON");
   return line.read(argc, argv);
 }
 
@@ -136,8 +137,9 @@ std::vector<Shelf> shelvesOf(const Options& options, const std::vector<Subject>&
 
 void print(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings)
-    fmt::print("{:<5} {:<20} {:<12} {}\n", finding.passes() ? "ok" : "FAIL", finding.subject,
-               finding.name, finding.verdict());
+    if (!finding.passes() || !quiet())
+      fmt::print("{:<5} {:<20} {:<12} {}\n", finding.passes() ? "ok" : "FAIL", finding.subject,
+                 finding.name, finding.verdict());
 }
 
 std::string environment(const Manifest& manifest, const Context& context) {
@@ -147,15 +149,15 @@ std::string environment(const Manifest& manifest, const Context& context) {
 }
 
 // Holds a subject against the goldens of a folder, after it has replaced them if that is asked for.
-void hold(Shelf& shelf, const Golden& now, bool update, const Context& context) {
-  if (update) {
+void hold(Shelf& shelf, const Golden& now, const Options& options, const Context& context) {
+  if (options.update) {
     storeGolden(now, shelf.manifest, shelf.holding.folder);
     Manifest entry{context.renderer(), context.version(), TUMBLE_VERSION, {}};
     entry.images[now.subject] = shelf.manifest.images[now.subject];
     enterInManifest(shelf.holding.folder, entry);
   }
   const std::vector<Finding> found = compareGolden(now, shelf.manifest, shelf.holding.folder);
-  print(found);
+  if (!options.json) print(found);
   shelf.holding.findings.insert(shelf.holding.findings.end(), found.begin(), found.end());
 }
 
@@ -173,13 +175,14 @@ void leaveActual(const Finding& finding, const std::string& folder) {
 }
 
 // Tells what came of the comparison and leaves behind what helps to see why.
-int conclude(const Shelf& shelf) {
+int conclude(const Shelf& shelf, bool json) {
   const Holding& holding = shelf.holding;
   const auto total = static_cast<long>(holding.findings.size());
-  fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n",
-             holding.scenes.empty() ? "" : holding.folder + ": ", total, holding.passing(),
-             holding.exact());
-  if (holding.exact() < total) fmt::print("{}\n", holding.environment);
+  if (!json)
+    fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n",
+               holding.scenes.empty() ? "" : holding.folder + ": ", total, holding.passing(),
+               holding.exact());
+  if (!json && holding.exact() < total) fmt::print("{}\n", holding.environment);
   for (const Finding& finding : holding.findings) leaveActual(finding, shelf.out);
   const std::string report = shelf.out + "/report.html";
   if (holding.passing() == total) {
@@ -189,7 +192,7 @@ int conclude(const Shelf& shelf) {
   }
   makeFolder(shelf.out);
   writeFile(report, htmlReport(holding));
-  fmt::print("see {}; `{}` accepts what is drawn now\n", report, holding.approve);
+  if (!json) fmt::print("see {}; `{}` accepts what is drawn now\n", report, holding.approve);
   return kFailed;
 }
 
@@ -197,7 +200,7 @@ void writeForPrograms(const Options& options, const std::vector<Shelf>& shelves)
   std::vector<Holding> holdings;
   for (const Shelf& shelf : shelves) holdings.push_back(shelf.holding);
   if (!options.junit.empty()) writeFile(options.junit, junitXml(holdings));
-  if (!options.json.empty()) writeFile(options.json, goldenJson(holdings));
+  if (options.json) fmt::print("{}", goldenJson(holdings));
 }
 
 void refuseOtherRasterisers(const Context& context) {
@@ -219,9 +222,9 @@ int golden(int argc, char** argv) {
   if (options.update) refuseOtherRasterisers(*context);
   Renderer renderer(*context, dataFolder("shaders"), dataFolder("fonts"));
   for (const Subject& subject : subjects) {
-    const Golden now = subject.scene ? drawGolden(*subject.scene, renderer)
-                                     : drawGolden(subject.name, renderer);
-    for (Shelf& shelf : shelves) hold(shelf, now, options.update, *context);
+    const Golden now =
+        subject.scene ? drawGolden(*subject.scene, renderer) : drawGolden(subject.name, renderer);
+    for (Shelf& shelf : shelves) hold(shelf, now, options, *context);
   }
 
   int code = kOk;
@@ -229,7 +232,7 @@ int golden(int argc, char** argv) {
     const std::string file = shelf.holding.folder + "/manifest.json";
     shelf.holding.environment =
         environment(options.update ? readManifest(file) : shelf.manifest, *context);
-    code = std::max(code, conclude(shelf));
+    code = std::max(code, conclude(shelf, options.json));
   }
   writeForPrograms(options, shelves);
   return code;

@@ -8,6 +8,28 @@
 
 namespace tumble {
 
+namespace {
+
+bool silent = false;
+
+}  // namespace
+
+void setQuiet(bool quiet) {
+  silent = quiet;
+}
+
+bool quiet() {
+  return silent;
+}
+
+void say(const std::string& line) {
+  if (!silent) fmt::print("{}\n", line);
+}
+
+void note(const std::string& line) {
+  if (!silent) fmt::print(stderr, "note: {}\n", line);
+}
+
 Progress::Progress(std::string task)
     : task_(std::move(task)),
       terminal_(::isatty(STDERR_FILENO) != 0),
@@ -15,10 +37,11 @@ Progress::Progress(std::string task)
       last_(start_) {}
 
 Progress::~Progress() {
-  if (terminal_) fmt::print(stderr, "\r\033[K");
+  if (terminal_ && !silent) fmt::print(stderr, "\r\033[K");
 }
 
 void Progress::show(double share) {
+  if (silent) return;
   const Clock::time_point now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - start_).count();
   if (terminal_) {

@@ -6,6 +6,16 @@
 
 namespace tumble {
 
+/// Whether the user wants to hear of nothing but results and errors.
+void setQuiet(bool quiet);
+bool quiet();
+
+/// A line on standard output that is not a result, such as the path of a file that was written.
+void say(const std::string& line);
+
+/// A line on standard error about something that the user may not have meant.
+void note(const std::string& line);
+
 class Progress {
  public:
   /// @param task what is being done, "simulating" or "drawing"

@@ -1,10 +1,12 @@
 // tumble render: images of one scene.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/command/command.h"
 #include "app/command/options.h"
+#include "app/command/progress.h"
 #include "app/command/run.h"
 #include "app/command/shoot.h"
 #include "app/file/file.h"
@@ -15,8 +17,9 @@ namespace {
 
 struct Options {
   SceneOptions scene;
-  std::string folder, frames, size, video;
+  std::string folder, frames, size, video, shard;
   double rate = 0.0;
+  int jobs = 1;
   std::optional<double> still;
   bool strobe = false, sheet = false, panels = false;
 };
@@ -29,11 +32,16 @@ bool readOptions(int argc, char** argv, Options& options) {
        "my-scene.toml --panels         # its [[panel]], [[graph]] and [[chart]] on one page",
        "path-of-brick --still 1.2 --size 1920x1080",
        "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
+       "path-of-brick --jobs 4         # by four processes; --shard 0/4 … 3/4 on four machines",
        "path-of-brick --video brick.mp4",
        "stacked-boxes --still 0 --set world.gravity=[0,-1.62,0] -o out/moon"});
   addSceneOptions(line, options.scene);
   line.option("-o,--output", options.folder, "folder for the images [out/<scene>]");
   line.option("--frames", options.frames, "images A to B-1 of the sequence", {.type = "A:B"});
+  line.option("--shard", options.shard, "every N-th of them from the I-th, for one of N machines",
+              {.type = "I/N"});
+  line.option("--jobs", options.jobs, "processes that draw the sequence at once [1]",
+              {.type = "N", .range = {{1.0, 256.0}}});
   line.option("--size", options.size, "pixels [the scene's own]", {.type = "WxH"});
   addRate(line, options.rate);
   line.option("--still", options.still, "one image, at this time", {.type = "SECONDS"});
@@ -51,7 +59,18 @@ std::pair<int, int> rangeOf(const Options& options, int count) {
   if (range.first >= count)
     throw UsageError(
         fmt::format("--frames {}: the sequence has images 0 to {}", options.frames, count - 1));
-  return range;
+  if (range.second > count)
+    note(fmt::format("--frames {}: the sequence ends with image {}", options.frames, count - 1));
+  return {range.first, std::min(range.second, count)};
+}
+
+// Of the images of --frames, those of --shard.
+std::vector<int> imagesOf(const Options& options, int count) {
+  const auto [first, last] = rangeOf(options, count);
+  const auto [one, of] = options.shard.empty() ? std::pair(0, 1) : parseShard(options.shard);
+  std::vector<int> images;
+  for (int k = first + one; k < last; k += of) images.push_back(k);
+  return images;
 }
 
 }  // namespace
@@ -73,11 +92,15 @@ int render(int argc, char** argv) {
     throw UsageError(
         fmt::format("{} has neither [[panel]] nor [[graph]] nor [[chart]]", scene.file));
 
-  Studio studio;
-  Shoot shoot(scene, options.folder, studio);
-  const std::pair<int, int> range = rangeOf(options, shoot.count());
   const bool single =
       options.still || options.strobe || options.sheet || options.panels || !options.video.empty();
+  if (single && (options.jobs > 1 || !options.shard.empty()))
+    throw UsageError("--jobs and --shard divide a sequence; leave them out or the single pictures");
+  const std::vector<int> images = imagesOf(options, sampleCount(scene, scene.image.rate));
+  Studio studio;
+  // Processes that draw open OpenGL themselves: its threads would not live on in them.
+  if (options.jobs == 1) studio.open();
+  Shoot shoot(scene, options.folder, studio);
   std::vector<std::string> written;
   if (options.still) written.push_back(shoot.still(*options.still));
   if (options.strobe) written.push_back(shoot.strobe());
@@ -87,11 +110,11 @@ int render(int argc, char** argv) {
   if (!options.video.empty()) {
     const std::filesystem::path parent = std::filesystem::path(options.video).parent_path();
     if (!parent.empty()) makeFolder(parent.string());
-    shoot.video(options.video, range);
+    shoot.video(options.video, {images.front(), images.back() + 1});
     written.push_back(options.video);
   }
-  if (!single) written.push_back(shoot.sequence(range));
-  for (const std::string& path : written) fmt::print("{}\n", path);
+  if (!single) written.push_back(shoot.sequence(images, options.jobs));
+  for (const std::string& path : written) say(path);
   return shoot.recorded() ? exitOf(shoot.recording()) : kOk;
 }
 

@@ -3,24 +3,38 @@
 #include <fmt/core.h>
 
 #include "app/command/command.h"
+#include "app/command/interrupt.h"
 #include "app/command/progress.h"
 
 namespace tumble {
 
+namespace {
+
+// Shows how far the run has come and ends it between two samples if the user asks for that.
+std::function<void(double)> watch(Progress& progress) {
+  return [&progress](double share) {
+    progress.show(share);
+    if (Interrupt::asked()) throw Interrupted("stopped while simulating; nothing is kept of it");
+  };
+}
+
+}  // namespace
+
 Recording recordWithProgress(const Scene& scene, double rate) {
+  const Interrupt interrupt;
   Progress progress("simulating");
-  return record(scene, rate > 0.0 ? rate : scene.image.rate,
-                [&progress](double share) { progress.show(share); });
+  return record(scene, rate > 0.0 ? rate : scene.image.rate, watch(progress));
 }
 
 Recording runWithProgress(const Scene& scene, double rate,
                           const std::function<void(Sample&&)>& see) {
+  const Interrupt interrupt;
   Progress progress("simulating");
-  return run(scene, rate > 0.0 ? rate : scene.image.rate, see,
-             [&progress](double share) { progress.show(share); });
+  return run(scene, rate > 0.0 ? rate : scene.image.rate, see, watch(progress));
 }
 
 void printCertificate(const Recording& recording) {
+  if (quiet()) return;
   const Certificate& c = recording.report.certificate;
   fmt::print("steps {}   events {}   cpu {:.3g} s\n", c.steps, c.events, recording.cpuSeconds);
   fmt::print("penetration {:.2g} m   complementarity {:.2g}\n", c.max_penetration,

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
 
 #include "app/command/command.h"
+#include "app/command/interrupt.h"
+#include "app/command/jobs.h"
 #include "app/command/progress.h"
 #include "app/command/run.h"
 #include "app/command/stamp.h"
@@ -108,21 +112,84 @@ std::vector<std::string> Shoot::panels() {
   return paths;
 }
 
-std::string Shoot::sequence(std::pair<int, int> range) {
-  const auto name = [this](int k) { return fmt::format("{}/image-{:06}.png", folder_, k); };
-  const auto what = [](int k) { return fmt::format("image {}", k); };
+std::string Shoot::imagePath(int k) const {
+  return fmt::format("{}/image-{:06}.png", folder_, k);
+}
+
+bool Shoot::hasImage(int k) const {
+  return finished(imagePath(k), fmt::format("image {}", k));
+}
+
+void Shoot::drawImages(const std::vector<int>& images, const std::function<void()>& tell) {
   PngWriter writer;
-  Progress progress("drawing");
-  const int last = std::min(range.second, count());
-  for (int k = range.first; k < last; ++k) {
-    progress.show(static_cast<double>(k - range.first) / (last - range.first));
-    if (finished(name(k), what(k))) continue;
+  for (const int k : images) {
+    if (Interrupt::asked()) break;
     if (k >= presenter().count()) break;
-    writer.write(name(k), studio_.draw(presenter().image(k), scene_.image),
-                 stampOf(scene_, what(k)));
+    writer.write(imagePath(k), studio_.draw(presenter().image(k), scene_.image),
+                 stampOf(scene_, fmt::format("image {}", k)));
+    tell();
   }
   writer.finish();
+}
+
+// The run is simulated once, before the processes part; each draws every jobs-th image.
+void Shoot::drawBy(int jobs, const std::vector<int>& images, Progress& progress) {
+  presenter();
+  const auto work = [&](int job, const std::function<void()>& tell) {
+    std::vector<int> part;
+    for (std::size_t n = job; n < images.size(); n += jobs) part.push_back(images[n]);
+    setQuiet(true);
+    drawImages(part, tell);
+    return +kOk;
+  };
+  const int code = runJobs(jobs, work, [&](long done) {
+    progress.show(static_cast<double>(done) / static_cast<double>(images.size()));
+  });
+  if (code != kOk && !Interrupt::asked())
+    throw FileError(fmt::format("a process that drew images ended with {}", code));
+}
+
+std::string Shoot::sequence(const std::vector<int>& images, int jobs) {
+  std::vector<int> missing;
+  for (const int k : images)
+    if (!hasImage(k)) missing.push_back(k);
+  if (!missing.empty()) {
+    presenter();
+    const Interrupt interrupt;
+    Progress progress("drawing");
+    std::size_t done = 0;
+    const auto tell = [&] { progress.show(static_cast<double>(++done) / missing.size()); };
+    if (jobs > 1)
+      drawBy(std::min(jobs, static_cast<int>(missing.size())), missing, progress);
+    else
+      drawImages(missing, tell);
+    if (Interrupt::asked())
+      throw Interrupted(fmt::format(
+          "{} of {} images are there; run again to go on",
+          std::count_if(images.begin(), images.end(), [this](int k) { return hasImage(k); }),
+          images.size()));
+  }
+  tellStrangers(images);
   return folder_ + "/image-*.png";
+}
+
+// Images of another scene, another size or beyond the end stand beside those of this run and would
+// go into a film with them.
+void Shoot::tellStrangers(const std::vector<int>& images) const {
+  std::vector<std::string> strangers;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename().string();
+    int k = 0;
+    if (std::sscanf(name.c_str(), "image-%6d.png", &k) != 1 || imagePath(k) != folder_ + "/" + name)
+      continue;
+    if (std::binary_search(images.begin(), images.end(), k)) continue;
+    if (k >= count() || !hasImage(k)) strangers.push_back(name);
+  }
+  if (strangers.empty()) return;
+  note(fmt::format(
+      "{} of the images in {} are not of this run, the first is {}; remove them or choose another "
+      "folder by -o",
+      strangers.size(), folder_, *std::min_element(strangers.begin(), strangers.end())));
 }
 
 void Shoot::video(const std::string& path, std::pair<int, int> range) {

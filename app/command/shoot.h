@@ -1,11 +1,13 @@
 // One scene, drawn into the files of one folder.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/command/progress.h"
 #include "app/command/studio.h"
 #include "app/present/present.h"
 
@@ -28,8 +30,10 @@ class Shoot {
   /// panels.png with all panels, graphs and charts of the scene, and graph.png, graph.csv,
   /// chart.png, chart.csv, chart-2.png … of each plot alone. Nothing for a scene without them.
   std::vector<std::string> panels();
-  /// image-000000.png …: images [first, last) of the sequence, one per sample.
-  std::string sequence(std::pair<int, int> range);
+  /// image-000000.png …: these images of the sequence, one per sample, by so many processes at
+  /// once. Says which images of the folder are of another run.
+  /// @throws Interrupted after the image at hand, if the user asks for that
+  std::string sequence(const std::vector<int>& images, int jobs = 1);
   /// The images of the range as a film.
   void video(const std::string& path, std::pair<int, int> range);
 
@@ -41,6 +45,11 @@ class Shoot {
  private:
   const Presenter& presenter();
   bool finished(const std::string& path, const std::string& what) const;
+  std::string imagePath(int k) const;
+  bool hasImage(int k) const;
+  void drawImages(const std::vector<int>& images, const std::function<void()>& tell);
+  void drawBy(int jobs, const std::vector<int>& images, Progress& progress);
+  void tellStrangers(const std::vector<int>& images) const;
 
   const Scene& scene_;
   std::string folder_;

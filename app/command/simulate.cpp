@@ -5,6 +5,7 @@
 
 #include "app/command/command.h"
 #include "app/command/options.h"
+#include "app/command/progress.h"
 #include "app/command/run.h"
 #include "app/record/output.h"
 
@@ -36,7 +37,7 @@ int simulate(int argc, char** argv) {
   if (!files) files.emplace(folder, scene);
   files->finish(recording);
   printCertificate(recording);
-  fmt::print("wrote {0}/trajectory.csv, events.csv, contacts.csv, summary.json\n", folder);
+  say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json");
   return exitOf(recording);
 }
 

@@ -13,10 +13,17 @@ AntiAlias antiAliasOf(const std::string& name) {
 
 }  // namespace
 
-Studio::Studio()
-    : context_(makeContext()),
-      renderer_(*context_, dataFolder("shaders"), dataFolder("fonts")),
-      fonts_(dataFolder("fonts")) {}
+void Studio::open() {
+  if (renderer_) return;
+  context_ = makeContext();
+  renderer_.emplace(*context_, dataFolder("shaders"), dataFolder("fonts"));
+  fonts_.emplace(dataFolder("fonts"));
+}
+
+Fonts& Studio::fonts() {
+  open();
+  return *fonts_;
+}
 
 Image Studio::draw(const Picture& picture, const ImageFormat& format, double pageHeight) {
   RenderOptions options;
@@ -24,7 +31,8 @@ Image Studio::draw(const Picture& picture, const ImageFormat& format, double pag
   options.height = format.height;
   options.pageHeight = pageHeight;
   options.antialias = antiAliasOf(format.antialias);
-  return renderer_.draw(picture, options);
+  open();
+  return renderer_->draw(picture, options);
 }
 
 }  // namespace tumble

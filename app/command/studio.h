@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "app/scene/scene.h"
 #include "render/context/context.h"
@@ -12,18 +13,19 @@ namespace tumble {
 
 class Studio {
  public:
+  /// Draws in the given format; width and height may be replaced. The first drawing opens OpenGL.
   /// @throws NoContext, FileError
-  Studio();
-
-  /// Draws in the given format; width and height may be replaced.
   /// @param pageHeight  as in RenderOptions
   Image draw(const Picture& picture, const ImageFormat& format, double pageHeight = 720.0);
-  Fonts& fonts() { return fonts_; }
+  /// @throws NoContext, FileError
+  Fonts& fonts();
+  /// Opens OpenGL now, to learn before long work that it is there. @throws NoContext, FileError
+  void open();
 
  private:
   std::unique_ptr<Context> context_;
-  Renderer renderer_;
-  Fonts fonts_;
+  std::optional<Renderer> renderer_;
+  std::optional<Fonts> fonts_;
 };
 
 }  // namespace tumble

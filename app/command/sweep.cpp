@@ -3,6 +3,7 @@
 
 #include "app/command/command.h"
 #include "app/command/options.h"
+#include "app/command/progress.h"
 #include "app/command/run.h"
 #include "app/command/sweeping.h"
 #include "app/file/file.h"
@@ -30,8 +31,12 @@ int sweep(int argc, char** argv) {
   makeFolder(folder);
 
   Studio studio;
+  studio.open();
   const SweepResult result = runSweep(scene, folder, part, studio);
-  for (const std::string& path : result.files) fmt::print("{}\n", path);
+  for (const std::string& path : result.files) say(path);
+  if (result.failing > 0)
+    fmt::print(stderr, "tumble: claims fail for {} of {} values of {}; the table says which\n",
+               result.failing, result.runs, scene.sweep->parameter);
   return result.code;
 }
 

@@ -86,6 +86,8 @@ SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<in
       return picture;
     };
     csv += csvRow(sweep, k, run.recording, verdict);
+    ++result.runs;
+    result.failing += verdict.failed > 0;
     result.files.push_back(shoot.strobe());
     result.code = std::max(
         {result.code, exitOf(run.recording), static_cast<int>(verdict.failed > 0 ? kFailed : kOk)});

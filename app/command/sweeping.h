@@ -11,7 +11,8 @@ namespace tumble {
 
 struct SweepResult {
   std::vector<std::string> files;  ///< written, or kept
-  int code = 0;  ///< kOk, kFailed if a claim does not hold, kPhysics if a run stopped
+  int code = 0;               ///< kOk, kFailed if a claim does not hold, kPhysics if a run stopped
+  int runs = 0, failing = 0;  ///< all, and those of which a claim fails
 };
 
 /// Runs the values k with k mod N = I of the scene's sweep, part = (I, N). Into the folder go

@@ -83,8 +83,8 @@ void addPage(const Scene& scene, Renderer& renderer, Golden& golden) {
 Golden drawGolden(const Scene& scene, Renderer& renderer) {
   const Recording recording = record(scene, scene.image.rate);
   if (recording.report.stopped)
-    throw StoppedError(scene.file + " stops, so no golden of it is kept: " +
-                       recording.report.reason);
+    throw StoppedError(scene.file +
+                       " stops, so no golden of it is kept: " + recording.report.reason);
   Scene small = scene;
   small.image.width = kSmall.width;
   small.image.height = kSmall.height;

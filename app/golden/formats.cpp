@@ -20,14 +20,14 @@ std::string junitXml(const std::vector<Holding>& holdings) {
     suites += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
                           htmlText(holding.folder), count, failed);
     for (const Finding& finding : holding.findings) {
-      suites += fmt::format("    <testcase classname=\"{}\" name=\"{}\"",
-                            htmlText(finding.subject), htmlText(finding.name));
+      suites += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", htmlText(finding.subject),
+                            htmlText(finding.name));
       if (finding.passes())
         suites += "/>\n";
       else
-        suites += fmt::format("><failure message=\"{}\">{}</failure></testcase>\n",
-                              htmlText(finding.verdict()),
-                              htmlText(holding.approvalOf(finding.subject)));
+        suites +=
+            fmt::format("><failure message=\"{}\">{}</failure></testcase>\n",
+                        htmlText(finding.verdict()), htmlText(holding.approvalOf(finding.subject)));
     }
     suites += "  </testsuite>\n";
   }

@@ -85,8 +85,8 @@ NumberDifference compareNumbers(const std::string& expected, const std::string& 
   return difference;
 }
 
-Curve curveOf(const std::string& csv, std::size_t line, std::size_t column) {
-  Curve curve;
+Column columnOf(const std::string& csv, std::size_t line, std::size_t column) {
+  Column curve;
   const std::vector<std::string> lines = split(csv, '\n');
   if (line < 2 || line > lines.size()) return curve;
   const std::vector<std::string> names = split(lines[0], ','), worst = split(lines[line - 1], ',');

@@ -73,7 +73,8 @@ std::string imagePart(const Finding& finding) {
 }
 
 // Points of a curve in a field of 940 × 180 below and right of (10, 10).
-std::string pointsOf(const Curve& curve, std::pair<double, double> x, std::pair<double, double> y) {
+std::string pointsOf(const Column& curve, std::pair<double, double> x,
+                     std::pair<double, double> y) {
   std::string points;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     const double u = (curve.x[k] - x.first) / (x.second - x.first);
@@ -95,7 +96,7 @@ std::pair<double, double> spanOf(const std::vector<double>& a, const std::vector
 }
 
 // Both curves in one field, or what one has above the other in a field of its own.
-std::string plot(const Curve& expected, const Curve& actual, const std::string& caption) {
+std::string plot(const Column& expected, const Column& actual, const std::string& caption) {
   const auto x = spanOf(expected.x, actual.x), y = spanOf(expected.y, actual.y);
   return fmt::format(
       "<figure><svg viewBox=\"0 0 960 200\" role=\"img\" aria-label=\"{0}\">"
@@ -109,10 +110,10 @@ std::string plot(const Curve& expected, const Curve& actual, const std::string& 
 
 std::string numberPart(const Finding& finding) {
   const NumberDifference& numbers = *finding.numbers;
-  const Curve expected = curveOf(finding.expectedCsv, numbers.line, numbers.column);
-  const Curve actual = curveOf(finding.actualCsv, numbers.line, numbers.column);
+  const Column expected = columnOf(finding.expectedCsv, numbers.line, numbers.column);
+  const Column actual = columnOf(finding.actualCsv, numbers.line, numbers.column);
   if (expected.x.size() < 2 || actual.x.size() != expected.x.size()) return "";
-  Curve zero = expected, difference = actual;
+  Column zero = expected, difference = actual;
   for (std::size_t k = 0; k < expected.x.size(); ++k) {
     difference.y[k] -= expected.y[k];
     zero.y[k] = 0.0;
@@ -139,16 +140,16 @@ std::string listOf(const Holding& holding) {
 
 std::string htmlReport(const Holding& holding) {
   std::string html = kHead;
-  html += fmt::format("<p>{} of {} goldens in <code>{}</code> pass. {}</p>\n", holding.passing(),
-                      holding.findings.size(), htmlText(holding.folder),
-                      htmlText(holding.environment));
+  html +=
+      fmt::format("<p>{} of {} goldens in <code>{}</code> pass. {}</p>\n", holding.passing(),
+                  holding.findings.size(), htmlText(holding.folder), htmlText(holding.environment));
   html += listOf(holding);
   for (const Finding& finding : holding.findings) {
     if (finding.passes()) continue;
-    html += fmt::format(
-        "<h2 id=\"{}\">{}: {}</h2>\n<p>{}</p>\n<p>accept it with <code>{}</code></p>\n",
-        anchorOf(finding), htmlText(finding.subject), htmlText(finding.name),
-        htmlText(finding.verdict()), htmlText(holding.approvalOf(finding.subject)));
+    html +=
+        fmt::format("<h2 id=\"{}\">{}: {}</h2>\n<p>{}</p>\n<p>accept it with <code>{}</code></p>\n",
+                    anchorOf(finding), htmlText(finding.subject), htmlText(finding.name),
+                    htmlText(finding.verdict()), htmlText(holding.approvalOf(finding.subject)));
     html += finding.numbers ? numberPart(finding) : imagePart(finding);
   }
   return html + kTail;

@@ -26,8 +26,9 @@ std::string labelOf(const Scene& scene, int index) {
   if (text.find('{') == std::string::npos) return text;
 
   replaceAll(text, "{name}", body.name);
-  replaceAll(text, "{restitution}", fmt::format("{:.3g}", body.restitution));
-  replaceAll(text, "{friction}", fmt::format("{:.3g}", body.friction));
+  const Surface surface = actingSurface(scene.world, index);
+  replaceAll(text, "{restitution}", fmt::format("{:.3g}", surface.restitution));
+  replaceAll(text, "{friction}", fmt::format("{:.3g}", surface.friction));
   if (body.density) replaceAll(text, "{density}", fmt::format("{:.4g}", *body.density));
   if (moves(body)) replaceAll(text, "{mass}", fmt::format("{:.4g}", bodyMass(body)));
   return text;

@@ -34,30 +34,34 @@ Colour single(const Rgb& rgb) {
   return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
 
-double massIfMoving(const BodyDef& body) {
-  return moves(body) ? bodyMass(body) : 0.0;
+double restitutionOf(const WorldDef& world, int body) {
+  return actingSurface(world, body).restitution;
+}
+
+double frictionOf(const WorldDef& world, int body) {
+  return actingSurface(world, body).friction;
+}
+
+double massIfMoving(const WorldDef& world, int body) {
+  return moves(world.bodies[body]) ? bodyMass(world.bodies[body]) : 0.0;
 }
 
 // Where each body of an array stands in [0, 1] by the first quantity that varies within it.
-std::map<std::string, double> placesInArrays(const std::vector<BodyDef>& bodies) {
-  std::map<std::string, std::vector<const BodyDef*>> arrays;
-  for (const BodyDef& body : bodies)
-    if (const std::string array = arrayOf(body.name); !array.empty())
-      arrays[array].push_back(&body);
+std::map<std::string, double> placesInArrays(const WorldDef& world) {
+  std::map<std::string, std::vector<int>> arrays;
+  for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i)
+    if (const std::string array = arrayOf(world.bodies[i].name); !array.empty())
+      arrays[array].push_back(i);
 
   std::map<std::string, double> places;
   for (const auto& [name, copies] : arrays) {
-    for (double (*quantity)(const BodyDef&) :
-         {+[](const BodyDef& body) { return body.restitution; },
-          +[](const BodyDef& body) { return body.friction; }, &massIfMoving}) {
-      double low = quantity(*copies.front()), high = low;
-      for (const BodyDef* copy : copies) {
-        low = std::min(low, quantity(*copy));
-        high = std::max(high, quantity(*copy));
-      }
-      if (high - low <= 1e-9 * high) continue;
-      for (const BodyDef* copy : copies)
-        places[copy->name] = (quantity(*copy) - low) / (high - low);
+    for (const auto quantity : {&restitutionOf, &frictionOf, &massIfMoving}) {
+      std::vector<double> values;
+      for (const int copy : copies) values.push_back(quantity(world, copy));
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      if (*high - *low <= 1e-9 * *high) continue;
+      for (std::size_t k = 0; k < copies.size(); ++k)
+        places[world.bodies[copies[k]].name] = (values[k] - *low) / (*high - *low);
       break;
     }
   }
@@ -105,7 +109,7 @@ bool anyBack(const Scene& scene) {
 std::vector<Colour> bodyColours(const Scene& scene) {
   std::vector<Colour> colours;
   std::vector<std::string> kinds;
-  const std::map<std::string, double> places = placesInArrays(scene.world.bodies);
+  const std::map<std::string, double> places = placesInArrays(scene.world);
   for (std::size_t i = 0; i < scene.world.bodies.size(); ++i) {
     const BodyDef& body = scene.world.bodies[i];
     if (i < scene.colours.size() && scene.colours[i]) {

@@ -62,6 +62,17 @@ ColourBar speedBar(double fastest) {
   return bar;
 }
 
+// Which bodies turn in the run at all: by an angle α with 1 − |cos α/2| ≈ α²/8.
+std::vector<bool> turning(const Recording& recording) {
+  constexpr double kSeen = 1e-3;  // [rad]
+  const std::vector<BodySample>& start = recording.samples.front().bodies;
+  std::vector<bool> turns(start.size(), false);
+  for (const Sample& sample : recording.samples)
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (1.0 - std::abs(sample.bodies[i].q.dot(start[i].q)) > kSeen * kSeen / 8.0) turns[i] = true;
+  return turns;
+}
+
 }  // namespace
 
 Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
@@ -86,7 +97,11 @@ Presenter::Presenter(const Scene& scene, const Recording& recording)
     : Presenter(scene, recording, framingOf(scene, motionPoints(scene, recording))) {}
 
 Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
-    : scene_(scene), recording_(recording), colours_(bodyColours(scene)), framing_(framing) {
+    : scene_(scene),
+      recording_(recording),
+      colours_(bodyColours(scene)),
+      turns_(turning(recording)),
+      framing_(framing) {
   facets_ = facetsOfBodies(scene.world.bodies);
   if (scene.show.speed) fastest_ = fastestOf(scene, recording);
   if (!scene.show.theory) return;
@@ -176,6 +191,7 @@ void Presenter::addBodies(const Sample& sample, bool byTime, Picture& picture) c
         instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
                    3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
     instance.back = backOf(scene_, i);
+    instance.banded = turns_[i];
     if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
     picture.instances.push_back(instance);
   }
@@ -197,6 +213,7 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
           instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
                      3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
       ghost.back = backOf(scene_, i);
+      ghost.banded = turns_[i];
       ghost.finish = Finish::Ghost;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);

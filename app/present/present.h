@@ -54,6 +54,7 @@ class Presenter {
   const Scene& scene_;
   const Recording& recording_;
   std::vector<Colour> colours_;
+  std::vector<bool> turns_;                            ///< per body: in the run, at all
   std::vector<std::shared_ptr<const Facets>> facets_;  // per body; null for simple shapes
   std::vector<Curve> theory_;
   Framing framing_;

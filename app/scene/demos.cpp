@@ -25,9 +25,19 @@ std::string scenePath(const std::string& scene) {
     return dataFolder("demos") + "/" + scene + ".toml";
   std::error_code ignored;
   if (fs::exists(scene, ignored)) return scene;
+  // A slip may be one of a file's name: those in the same folder are as near as the demos.
+  std::vector<std::string> near = names;
+  const fs::path folder = fs::path(scene).parent_path();
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, ignored), end; entry != end;
+       entry.increment(ignored))
+    if (entry->path().extension() == ".toml")
+      near.push_back((folder / entry->path().filename()).string());
+  std::string nearest = nearestName(scene, near);
+  if (nearest.empty()) nearest = nearestName(scene + ".toml", near);
   throw SceneError(
       {{{scene},
-        "neither a demo nor a file" + hint(scene, names) + " (`tumble list` names the demos)"}});
+        "neither a demo nor a file" + (nearest.empty() ? "" : ", did you mean '" + nearest + "'?") +
+            " (`tumble list` names the demos)"}});
 }
 
 }  // namespace tumble

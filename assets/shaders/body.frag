@@ -5,7 +5,7 @@ in vec3 worldPoint;
 in vec3 bodyPoint;
 flat in vec3 bodyNormal, half_B, centre, colour, colourBack;
 flat in vec4 turnBody;
-flat in float alpha;
+flat in float alpha, banded;
 #ifdef FACETS
 in vec3 smoothNormal, toEdge;
 flat in float thickness;
@@ -83,14 +83,20 @@ vec3 sideColour(Surface s) {
   return colourBack + front * (colour - colourBack);
 }
 
-// A band about the z axis of the body, that its spin can be seen; left out on bodies too small for it.
+// A band about an axis of the body, that its spin can be seen; left out on bodies too small for it. That
+// of a ball leans to every axis, for a ball that rolls along any of them to show it from every side.
 vec3 spinMark(vec3 base, Surface s) {
 #if defined(BOX) || defined(FACETS)
   return base;
 #else
-  float distance = abs(s.point_B.z) - 0.16 * half_B.x, pixel = pixelSize(s.point);
+#ifdef BALL
+  float along = dot(s.point_B, vec3(2.0, 2.0, 1.0) / 3.0);
+#else
+  float along = s.point_B.z;
+#endif
+  float distance = abs(along) - 0.16 * half_B.x, pixel = pixelSize(s.point);
   float band = clamp(0.5 - distance / pixel, 0.0, 1.0) * clamp((half_B.x / (pixel * lineScale()) - 8.0) / 8.0, 0.0, 1.0);
-  return mix(base, 0.45 * base + 0.42, band);
+  return mix(base, 0.45 * base + 0.42, banded * band);
 #endif
 }
 

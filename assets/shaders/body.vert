@@ -8,7 +8,7 @@ out vec3 bodyPoint;
 out vec2 heights;                 // lowest and highest point of the body above this one
 flat out vec3 bodyNormal, half_B, centre, colour, colourBack;
 flat out vec4 turnBody;
-flat out float alpha, present;
+flat out float alpha, present, banded;
 #ifdef FACETS
 layout(location = 8) in vec3 cornerToEdge;
 out vec3 smoothNormal, toEdge;
@@ -42,6 +42,7 @@ void main() {
   present = halfExtent.w;
   colour = albedo.rgb;
   colourBack = albedoBack.rgb;
+  banded = albedoBack.w;
   turnBody = turn;
   bodyNormal = cornerNormal;
   bodyPoint = corner * half_B;

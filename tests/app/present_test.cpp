@@ -132,6 +132,55 @@ TEST_CASE("labels give the values of their body") {
   CHECK(labelOf(scene, 0).empty());
 }
 
+TEST_CASE("labels and colours of a varied array tell the restitution that acts, not a body's own") {
+  const std::string row = R"(
+[world]
+[materials.rubber]
+density = 1.0
+[materials.floor]
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+material = "floor"
+[[array]]
+name = "ball"
+kind = "row"
+count = 2
+step = [1, 0, 0]
+vary = { restitution = [0.2, 0.6] }
+body = { shape = { sphere = 0.1 }, material = "rubber", position = [0, 1, 0], label = "{restitution}" }
+)";
+  const Scene own = parseScene(row, "row");
+  CHECK(labelOf(own, 1) == "0.2");
+  CHECK(labelOf(own, 2) == "0.6");
+  CHECK(bodyColours(own)[1] != bodyColours(own)[2]);
+  const Scene pair = parseScene(row + "[pairs]\nrubber-floor = { restitution = 0.9 }\n", "row");
+  CHECK(labelOf(pair, 1) == "0.9");
+  CHECK(labelOf(pair, 2) == "0.9");
+  CHECK(bodyColours(pair)[1] == bodyColours(pair)[2]);
+}
+
+TEST_CASE("only what turns in the run has a band to see it by") {
+  const char* const scene = R"(
+[world]
+duration = 0.2
+[[body]]
+name = "still"
+shape = { sphere = 0.1 }
+mass = 1
+[[body]]
+name = "spinning"
+shape = { sphere = 0.1 }
+mass = 1
+position = [1, 0, 0]
+angular_velocity = [0, 3, 0]
+)";
+  const Scene balls = parseScene(scene, "balls");
+  const Recording recording = record(balls, 60.0);
+  const Picture picture = Presenter(balls, recording).strobe();
+  for (const Instance& ball : picture.instances) CHECK(ball.banded == (ball.position.x() > 0.5));
+}
+
 TEST_CASE("force arrows are as long as their force is large, and point up from the contact") {
   Sample sample;
   sample.contacts = {{1, 0, {0.0, 0.0, 0.0}, Vec3::UnitY(), 0.0, {0.0, 10.0, 0.0}},

@@ -43,9 +43,9 @@ TEST_CASE("the worst line and column are told, and their curve is that of one bo
   const auto difference = compareNumbers(expected, actual);
   CHECK(difference.line == 5);
   CHECK(difference.column == 4);
-  const auto curve = tumble::curveOf(actual, difference.line, difference.column);
+  const auto curve = tumble::columnOf(actual, difference.line, difference.column);
   CHECK(curve.x == std::vector<double>{0, 1});
   CHECK(curve.y == std::vector<double>{6, 9});
   CHECK(compareNumbers(expected, "t\n").line == 0);
-  CHECK(tumble::curveOf(actual, 0, 0).x.empty());
+  CHECK(tumble::columnOf(actual, 0, 0).x.empty());
 }

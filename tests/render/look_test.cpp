@@ -283,6 +283,26 @@ TEST_CASE("a sheet holds its panels' pixels, in rows, and refuses unlike ones") 
   CHECK_THROWS_AS(drawSheet(unlike, 2, "", "", fonts), std::invalid_argument);
 }
 
+TEST_CASE("text is set on lines that are no wider than asked, broken at blanks alone") {
+  Fonts fonts(kFonts);
+  Image nothing;
+  Canvas canvas(nothing, fonts, 1.0);
+  const Canvas::TextStyle style{15.0};
+  const std::string text = "A title that is longer than the page is wide   t = 0.50 s";
+  CHECK(canvas.lines(text, 1e4, style) == std::vector<std::string>{text});
+  const std::vector<std::string> lines = canvas.lines(text, 150.0, style);
+  CHECK(lines.size() > 2);
+  std::string joined;
+  for (const std::string& line : lines) {
+    CAPTURE(line);
+    CHECK(canvas.textWidth(line, style) <= 150.0);
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  CHECK(joined.find("A title that is longer than the page is wide") == 0);
+  CHECK(canvas.lines("unbreakably", 10.0, style).size() == 1);
+  CHECK(canvas.lines("", 10.0, style).empty());
+}
+
 TEST_CASE("labels at one point stand above each other, not on each other") {
   Picture picture;
   picture.camera = straight(0.0);

@@ -1,0 +1,162 @@
+// The program among other programs: completions, the manual, quiet, parts of a sequence, Ctrl-C.
+#include <set>
+
+#include "tests/catch.h"
+#include "tests/program/program.h"
+
+namespace {
+
+const std::string kBall = R"([world]
+duration = 0.2
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1.0
+position = [0, 2, 0]
+[image]
+size = [160, 96]
+)";
+
+std::set<std::string> namesIn(const std::string& text, const std::string& begin) {
+  std::set<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(begin);
+    if (at == std::string::npos ||
+        line.substr(0, at).find_first_not_of(" -,qoh") != std::string::npos)
+      continue;
+    names.insert(line.substr(at, line.find_first_of(" ,", at) - at));
+  }
+  return names;
+}
+
+std::vector<std::string> commands(const Scratch& scratch) {
+  std::vector<std::string> names;
+  std::istringstream lines(tumbleRun(scratch, "--help").out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("  ") && line.size() > 2)
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("completions and the manual know every command and every option of its help") {
+  const Scratch scratch;
+  const std::string manual = tumbleRun(scratch, "man").out;
+  const std::string bash = tumbleRun(scratch, "completion bash").out;
+  const std::string zsh = tumbleRun(scratch, "completion zsh").out;
+  const std::string fish = tumbleRun(scratch, "completion fish").out;
+  int options = 0;
+  for (const std::string& command : commands(scratch)) {
+    CAPTURE(command);
+    CHECK(holds(manual, ".SS tumble " + command));
+    CHECK(holds(bash, "    " + command + ") words="));
+    CHECK(holds(zsh, "    " + command + ") _arguments"));
+    for (const std::string& option : namesIn(tumbleRun(scratch, command + " --help").out, "--")) {
+      if (option == "--help") continue;
+      CAPTURE(option);
+      ++options;
+      std::string dashes = option;
+      for (std::size_t at = 0; (at = dashes.find('-', at)) != std::string::npos; at += 2)
+        dashes.insert(at, "\\");
+      CHECK(holds(manual, dashes));
+      CHECK(holds(bash, option));
+      CHECK(holds(zsh, "'*" + option + "["));
+      CHECK(holds(fish, "_from " + command + "' -l " + option.substr(2) + " "));
+    }
+  }
+  CHECK(options > 40);
+  CHECK(tumbleRun(scratch, "completion zhs").says("'zsh'"));
+}
+
+TEST_CASE("bash completes commands, options of the command and demos") {
+  const Scratch scratch;
+  const std::string ask =
+      "export PATH=\"$(dirname '" + std::string(TUMBLE_PROGRAM) +
+      "'):$PATH\"; bash -c 'source <(tumble completion bash); ask() { COMP_WORDS=(\"$@\"); "
+      "COMP_CWORD=$(($# - 1)); _tumble; echo \"${COMPREPLY[@]}\" >>said; }; ask tumble rend; "
+      "ask tumble golden --fol; ask tumble check path-of'";
+  CHECK(tumbleRun(scratch, "--version", ask).code == 0);
+  CHECK(textOf(scratch.path / "said") == "render\n--folder\npath-of-brick\n");
+}
+
+TEST_CASE("a misspelt option is answered with the nearest one, a file with the nearest file") {
+  const Scratch scratch;
+  scratch.file("billiard.toml", kBall);
+  const Outcome option = tumbleRun(scratch, "render billiard.toml --stil 1");
+  CHECK(option.code == 2);
+  CHECK(option.says("did you mean '--still'"));
+  CHECK(option.lines() == 1);
+  const Outcome scene = tumbleRun(scratch, "render bilard.toml");
+  CHECK(scene.code == 3);
+  CHECK(scene.says("did you mean 'billiard.toml'"));
+  CHECK(tumbleRun(scratch, "render bilard").says("did you mean 'billiard.toml'"));
+}
+
+TEST_CASE("two shards, three jobs and one run draw the same bytes, and quiet says nothing") {
+  const Scratch scratch;
+  scratch.file("ball.toml", kBall);
+  CHECK(tumbleRun(scratch, "render ball.toml -o one").code == 0);
+  for (const std::string arguments :
+       {"-o two --shard 1/2", "-o two --shard 0/2", "-o jobs --jobs 3"}) {
+    const Outcome outcome = tumbleRun(scratch, "render ball.toml -q " + arguments);
+    CAPTURE(arguments, outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+  }
+  REQUIRE(filesBelow(scratch.path / "one") == 13);
+  for (const char* folder : {"two", "jobs"}) {
+    CHECK(filesBelow(scratch.path / folder) == 13);
+    for (const auto& image : std::filesystem::directory_iterator(scratch.path / "one"))
+      CHECK(textOf(image.path()) == textOf(scratch.path / folder / image.path().filename()));
+  }
+}
+
+TEST_CASE("images of another run are named, and so is a range that reaches beyond the end") {
+  const Scratch scratch;
+  scratch.file("ball.toml", kBall);
+  const Outcome first = tumbleRun(scratch, "render ball.toml -o out --frames 11:50");
+  CHECK(first.code == 0);
+  CHECK(first.says("--frames 11:50: the sequence ends with image 12"));
+  const Outcome second =
+      tumbleRun(scratch, "render ball.toml -o out --frames 0:1 --set world.gravity=[0,-1,0]");
+  CHECK(second.says("2 of the images in out are not of this run, the first is image-000011.png"));
+  CHECK_FALSE(tumbleRun(scratch, "render ball.toml -o out --frames 12:13").says("image-000012"));
+}
+
+TEST_CASE("Ctrl-C ends between two images, says how many are there, and the next run goes on") {
+  const Scratch scratch;
+  scratch.file("long.toml", "camera = { elevation = 20 }\n" + kBall + "rate = 500\n");
+  const Outcome outcome =
+      tumbleRun(scratch, "render long.toml -o out",
+                "me=$(exec sh -c 'echo $PPID'); "
+                "(while [ ! -e out/image-000002.png ]; do sleep .02; done; kill -INT $me) & :");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(outcome.says(" of 101 images are there; run again to go on"));
+  const long drawn = filesBelow(scratch.path / "out");
+  CHECK(drawn >= 3);
+  CHECK(drawn < 101);
+}
+
+TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in which nothing moved") {
+  const Scratch scratch;
+  scratch.file("rest.toml",
+               "checks = [\"settled\"]\n" + kBall +
+                   "[sweep]\nparameter = \"body.ball.position\"\nvalues = [[0, 0.5, 0]]\n");
+  const Outcome sweep = tumbleRun(scratch, "sweep rest.toml -o out");
+  CHECK(sweep.code == 1);
+  CHECK(sweep.says("claims fail for 1 of 1 values of body.ball.position"));
+  const Outcome check = tumbleRun(scratch, "check rest.toml --set body.ball.position=[0,0.1,0]");
+  CAPTURE(check.out, check.err);
+  CHECK(holds(check.out, "nothing moved"));
+}
