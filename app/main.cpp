@@ -4,6 +4,7 @@
 namespace tumble::command {
 int check(int argc, char** argv);
 int completion(int argc, char** argv);
+int converge(int argc, char** argv);
 int describe(int argc, char** argv);
 int doctor(int argc, char** argv);
 int gallery(int argc, char** argv);
@@ -29,6 +30,8 @@ int main(int argc, char** argv) {
        command::sweep},
       {"gallery", "the key pictures of every demo and a page to leaf through", command::gallery},
       {"check", "hold scenes to their closed forms", command::check},
+      {"converge", "halved steps and all methods: differences, order, error, cost",
+       command::converge},
       {"golden", "hold small images and numbers against the approved ones", command::golden},
       {"report", "speed against error: numbers, figures, a table", command::report},
       {"view", "the window: play, step, scrub, turn", command::view},

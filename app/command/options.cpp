@@ -53,6 +53,24 @@ std::optional<std::pair<int, int>> twoNumbers(const std::string& text, char sepa
 
 }  // namespace
 
+std::vector<double> parseInstants(const std::string& text, double duration) {
+  std::vector<double> instants;
+  const char *at = text.data(), *const end = at + text.size();
+  while (true) {
+    double t = 0.0;
+    const std::from_chars_result read = std::from_chars(at, end, t);
+    const bool number = read.ec == std::errc() && (read.ptr == end || *read.ptr == ',');
+    if (!number || !(t > 0.0 && t <= duration) || (!instants.empty() && t <= instants.back()))
+      throw UsageError(fmt::format(
+          "--at {}: expected ascending instants T,T,... in seconds, above 0 and up to the duration "
+          "of {:g} s, for example {:g},{:g}",
+          text, duration, 0.5 * duration, duration));
+    instants.push_back(t);
+    if (read.ptr == end) return instants;
+    at = read.ptr + 1;
+  }
+}
+
 std::pair<int, int> parseFrames(const std::string& text) {
   const std::optional<std::pair<int, int>> range = twoNumbers(text, ':');
   if (!range || range->first < 0 || range->second <= range->first)

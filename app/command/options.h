@@ -27,6 +27,10 @@ void addRate(CommandLine& line, double& rate);
 /// @throws UsageError, SceneError
 Scene load(const SceneOptions& options);
 
+/// Instants in ascending order, "T,T,…" with 0 < T ≤ the duration [s].
+/// @throws UsageError naming the option, its text and what is expected.
+std::vector<double> parseInstants(const std::string& text, double duration);
+
 /// Two whole numbers: "A:B" with 0 ≤ A < B, "WxH" with 16 ≤ W, H ≤ 8192, "I/N" with 0 ≤ I < N.
 /// @throws UsageError naming the option, its text and what is expected.
 std::pair<int, int> parseFrames(const std::string& text);

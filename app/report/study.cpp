@@ -10,7 +10,7 @@
 #include "app/claim/claim.h"
 #include "app/record/output.h"
 #include "app/report/cost.h"
-#include "app/scene/random.h"
+#include "app/report/nudge.h"
 
 namespace tumble {
 
@@ -73,28 +73,6 @@ std::optional<double> stepOrder(const ChartDef& chart, ChartSeries series) {
   return observedOrder(bySteps, series);
 }
 
-// One unit in the last place of the vector's size up, down or none, number by number.
-void nudge(Vec3& v, Random& random) {
-  const double unit = v.norm() * std::numeric_limits<double>::epsilon();
-  for (int i = 0; i < 3; ++i) {
-    const double draw = std::floor(random.between(-1.0, 2.0));
-    v[i] += draw * unit;
-  }
-}
-
-void nudge(BodyDef& body, Random& random) {
-  if (std::holds_alternative<HalfSpace>(body.shape)) return;
-  nudge(body.position, random);
-  nudge(body.velocity, random);
-  nudge(body.angularVelocity, random);
-  if (std::holds_alternative<Particle>(body.shape)) return;
-  Vec3 turn = Vec3::Ones();
-  nudge(turn, random);
-  const Quat& q = body.orientation;
-  const Vec3 small = 0.5 * (turn - Vec3::Ones());
-  body.orientation = (Quat(1.0, small.x(), small.y(), small.z()) * q).normalized();
-}
-
 // Refuses a chart without a single such error where its check is named.
 void requireError(const Scene& scene, std::size_t index, const std::vector<ChartSeries>& series,
                   bool (*such)(double error), const std::string& otherwise) {
@@ -114,7 +92,7 @@ double roundingFloor(const Scene& scene, const Scene& flown, const ChartDef& cha
   std::vector<double> errors;
   for (int k = 0; k < members; ++k) {
     Scene nudged = flown;
-    for (BodyDef& body : nudged.world.bodies) nudge(body, random);
+    nudge(nudged.world, random);
     const double after = largestError(chart, scene, record(nudged, scene.image.rate));
     errors.push_back(std::abs(after - before));
   }
