@@ -14,7 +14,7 @@ namespace tumble {
 struct Bonds {
   std::vector<Row> rows;
   std::vector<ConeKind> kinds;  ///< per row: Equality or Push
-  std::vector<int> owners;      ///< per row: the joint that it belongs to
+  std::vector<int> owners;      ///< per row: the joint that it belongs to; −1: none
   std::vector<double> lambda;   ///< per row: force [N, N m] or impulse, as found
 
   bool empty() const { return rows.empty(); }

@@ -132,6 +132,7 @@ void jointForces(std::span<const RigidBody> bodies, std::span<const Joint> joint
     forces[k].p = toWorld(bodies[joints[k].a].pose(), joints[k].anchorA_B);
   }
   for (std::size_t i = 0; i < bonds.rows.size(); ++i) {
+    if (bonds.owners[i] < 0) continue;
     const Row& row = bonds.rows[i];
     JointForce& force = forces[bonds.owners[i]];
     const Vec3 part = bonds.lambda[i] / h * row.linear;

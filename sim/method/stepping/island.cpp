@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "sim/contact/rows.h"
+#include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
 
@@ -19,10 +20,12 @@ std::pair<int, int> Stepping::ends(Link link) const {
 
 void Stepping::solveIslands(double h) {
   const std::size_t n = state_.bodies.size();
+  bindGroups(h);
   foreseeTwists(h);
   work_.after = work_.star;
   work_.bonds.clear();
   if (!model_.joints.empty()) stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
+  addSprings(h);
   work_.touched.assign(n, 0);
   work_.later.assign(n, 0.0);
   memory_.islands.resize(n);
@@ -31,7 +34,7 @@ void Stepping::solveIslands(double h) {
   for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i)
     solveIsland(std::span(work_.order).subspan(work_.begin[i], work_.begin[i + 1] - work_.begin[i]),
                 h);
-  if (!model_.joints.empty()) bookJoints(h);
+  if (!work_.bonds.empty()) bookJoints(h);
 }
 
 [[gnu::flatten]] void Stepping::foreseeTwists(double h) {
@@ -40,6 +43,14 @@ void Stepping::solveIslands(double h) {
     Vec6& star = work_.star[i];
     star = work_.before[i];
     if (body.fixed()) continue;
+    if (const int drag = memory_.drives->dragOf[i]; drag >= 0) {
+      const DragStep& step = work_.drags[drag];
+      const Vec3 force = body.force + memory_.drives->drags[drag].linear * body.v;
+      const Vec3 torque = body.torque + memory_.drives->drags[drag].angular * body.omega;
+      star.head<3>() = step.way.left * body.v + h * step.way.mean * body.invM * force;
+      star.tail<3>() = step.left * body.omega + h * step.Iinv * torque;
+      continue;
+    }
     star.head<3>() = body.v + h * body.invM * body.force;
     star.tail<3>() = body.Iinv * (body.L + h * body.torque);
   }
@@ -180,7 +191,7 @@ void Stepping::swing(std::span<const Link> links, double h) {
     if (isPair(link) || work_.bonds.kinds[link - state_.near.size()] != ConeKind::Equality) return;
   for (const int i : work_.movers) {
     const RigidBody& body = state_.bodies[i];
-    if (sprung(body)) continue;
+    if (isDriven(i)) continue;
     work_.later[i] = 0.5 * h;
     work_.star[i] << body.v + work_.later[i] * body.invM * body.force,
         body.Iinv * (body.L + work_.later[i] * body.torque);
@@ -224,11 +235,13 @@ int Stepping::localOf(int body) {
   if (work_.local[body] < 0) {
     work_.local[body] = static_cast<int>(work_.problem.invM.size());
     const bool world = body == static_cast<int>(state_.bodies.size());
-    work_.problem.invM.push_back(world ? 0.0 : state_.bodies[body].invM);
+    const int drag = world ? -1 : memory_.drives->dragOf[body];
+    const double share = drag < 0 ? 1.0 : work_.drags[drag].way.mean;
+    work_.problem.invM.push_back(world ? 0.0 : share * state_.bodies[body].invM);
     if (world)
       work_.problem.Iinv.push_back(Mat3::Zero());
     else
-      work_.problem.Iinv.push_back(state_.bodies[body].Iinv);
+      work_.problem.Iinv.push_back(drag < 0 ? state_.bodies[body].Iinv : work_.drags[drag].Iinv);
     work_.problem.vStar.push_back(work_.star[body]);
     work_.solution.v.push_back(work_.before[body]);
     work_.bodies.push_back(body);
@@ -287,12 +300,40 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
   normal.bias = gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
 
+  const Vec3 lead = carried(contact, h);
+  if (model_.fixed(contact.a) || model_.fixed(contact.b)) normal.bias += c.n.dot(lead);
   if (contact.friction <= 0.0) return;
   cone.kind = ConeKind::Friction;
   cone.mu = contact.friction;
   Vec3 t1, t2;
   tangents(c.n, slipVelocity(state_.bodies[contact.a], state_.bodies[contact.b], c), t1, t2);
-  for (const Vec3& t : {t1, t2}) addAlong(t);
+  for (const Vec3& t : {t1, t2}) addAlong(t).bias = t.dot(lead);
+}
+
+/// What goes round with ω has moved along chords: v = (1 − exp(−hω)) d/h in the last step, and
+/// (exp(hω) − 1) d/h in this one, of which ω × d is known. The rest is, across ω, with θ = h |ω|,
+///   (sin θ − θ/2) ω̂ × v + (cos θ − (θ/2) cot(θ/2)) v,
+/// and ½ h ω × v to second order also of what rolls: the velocity of the carrier where the body
+/// will be in the middle of the step. Bodies that are both free have in common the part (p·q)(p +
+/// q)/(p² + q²) of their angular velocities p, q, along the tangents alone: normals follow the gap.
+Vec3 Stepping::carried(const Contact& contact, double h) const {
+  const RigidBody &a = state_.bodies[contact.a], &b = state_.bodies[contact.b];
+  const Vec3 &p = b.fixed() ? b.omega : a.omega, &q = a.fixed() ? a.omega : b.omega;
+  const double common = p.dot(q);
+  if (!(common > 0.0)) return Vec3::Zero();
+  const Vec3 omega = common / (p.squaredNorm() + q.squaredNorm()) * (p + q);
+  const double theta = h * omega.norm();
+  if (theta == 0.0) return Vec3::Zero();
+  double s, c, halfS, halfC;
+  sinCos(theta, s, c);
+  sinCos(0.5 * theta, halfS, halfC);
+  const Vec3 axis = omega.normalized();
+  const Vec3 v = (work_.before[contact.a] - work_.before[contact.b]).head<3>();
+  const Vec3 across = v - axis.dot(v) * axis;
+  // The velocities of the start are those of an instant, not of a chord.
+  const double turned = atStart() ? (1.0 - c) / theta : s - 0.5 * theta;
+  const double along = atStart() ? s / theta - 1.0 : c - 0.5 * theta * halfC / halfS;
+  return -(turned * axis.cross(v) + along * across);
 }
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.

@@ -8,6 +8,7 @@
 #include "sim/contact/bonds.h"
 #include "sim/contact/contact.h"
 #include "sim/joint/swing.h"
+#include "sim/method/stepping/drives.h"
 #include "sim/problem/problem.h"
 
 namespace tumble {
@@ -97,8 +98,13 @@ struct SteppingWork {
   SwingWork swing;
   /// Per body: twists at both ends of the step, and what they would be without contacts.
   std::vector<Vec6> before, star, after;
-  std::vector<char> touched;  ///< per body: a contact pushed it in this step
-  std::vector<char> held;     ///< per body: it moves, and a contact or joint acts on it
+  std::vector<char> touched;       ///< per body: a contact pushed it in this step
+  std::vector<char> held;          ///< per body: it moves, and a contact or joint acts on it
+  std::vector<char> joined;        ///< per body: a contact or a joint may act on it in this step
+  std::vector<char> flown;         ///< per body: its driven group moves it
+  std::vector<DragStep> drags;     ///< per drag
+  std::vector<SpringRow> springs;  ///< of this step
+  double stored = 0.0;             ///< [J] in the springs of stiff groups, at its start
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
   std::vector<LastingPair> lasting;
 };
@@ -109,6 +115,8 @@ struct SteppingMemory {
   std::vector<LastingPair> lasting;   ///< of the step before, in order of pairs
   int parts = 1;                      ///< equal ones that the next step is made in
   Swing swing;                        ///< the fastest in joints
+  std::optional<Drives> drives;       ///< once dealt out
+  std::vector<FreeSpin> spins;        ///< per body
   SteppingWork work;
   long looks = 0;
   long asked = 0;  ///< looks up to which pairs were asked whether they meet at a seam

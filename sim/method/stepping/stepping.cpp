@@ -33,7 +33,9 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       work_(state.stepping.work),
       tolerance_(ContactTolerance::forSize(model.size)),
       gravity_(model.def.gravity.norm()),
-      solver_(*findSolver(model.def.stepping.solver)) {}
+      solver_(*findSolver(model.def.stepping.solver)) {
+  if (!memory_.drives) memory_.drives = drivesOf(model, state.bodies);
+}
 
 bool Stepping::finite() const {
   return std::all_of(state_.bodies.begin(), state_.bodies.end(), [](const RigidBody& body) {
@@ -82,6 +84,7 @@ void Stepping::moveTo(double t1, double h) {
   applyTwists(h);
   recordEvents(t1);
   moveBodies(h);
+  bookSprings(h);
   if (!finite()) return stop("the motion left the range of numbers");
   if (!project()) {
     if (const Joint* open = brokenJoint()) {
@@ -137,10 +140,14 @@ void Stepping::endSegment(double t1) {
 /// Momenta at the end of the step: those of the forces, and what contacts changed.
 [[gnu::flatten]] void Stepping::applyTwists(double h) {
   Certificate& books = report_.certificate;
-  const double powerBefore = powerOfForces(model_.def.forces, state_.bodies);
+  const double powerBefore = steadyPower();
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
-    if (body.fixed()) continue;
+    if (body.fixed() || work_.flown[i]) continue;
+    if (memory_.drives->dragOf[i] >= 0) {
+      applyDragged(static_cast<int>(i), h);
+      continue;
+    }
     body.P += h * body.force;
     body.L += h * body.torque;
     state_.externalImpulse += h * body.force;
@@ -153,23 +160,7 @@ void Stepping::endSegment(double t1) {
     }
     updateVelocities(body);
   }
-  books.work_of_forces += 0.5 * h * (powerBefore + powerOfForces(model_.def.forces, state_.bodies));
-}
-
-bool Stepping::sprung(const RigidBody& body) const {
-  const auto pulls = [&](const Force& force) {
-    const Spring* spring = std::get_if<Spring>(&force);
-    return spring && (&state_.bodies[spring->a] == &body ||
-                      (spring->b != kNoBody && &state_.bodies[spring->b] == &body));
-  };
-  return std::any_of(model_.def.forces.begin(), model_.def.forces.end(), pulls);
-}
-
-void Stepping::coast(RigidBody& body, const Vec3& before, double h) const {
-  // The parabola, where the force is constant; a spring must not be met with the mean velocity,
-  // which would feed its oscillation.
-  body.x += sprung(body) ? Vec3(h * body.v) : Vec3(0.5 * h * (before + body.v));
-  turn(body, body.L - 0.5 * h * body.torque, h);
+  books.work_of_forces += 0.5 * h * (powerBefore + steadyPower());
 }
 
 // The rotor by the midpoint rule, in turns small enough for it: its energy stays, however fast it
@@ -188,8 +179,10 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
 }
 
 [[gnu::flatten]] void Stepping::moveBodies(double h) {
+  flyGroups(h);
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
     RigidBody& body = state_.bodies[i];
+    if (work_.flown[i]) continue;
     if (body.fixed() && body.v.isZero(0.0) && body.omega.isZero(0.0)) continue;
     const Quat before = body.q;
     if (body.fixed()) {
@@ -199,9 +192,9 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
       body.x += h * (body.v - work_.later[i] * body.invM * body.force);
       turn(body, body.L - work_.later[i] * body.torque, h);
     } else {
-      coast(body, work_.before[i].head<3>(), h);
+      coast(static_cast<int>(i), h);
     }
-    body.q.normalize();
+    if (body.fixed() || work_.touched[i]) body.q.normalize();
     // What is derived follows from q and from momenta, which stay.
     if (body.q.coeffs() != before.coeffs()) updateDerived(body);
   }

@@ -103,6 +103,10 @@ class Stepping {
   void stretch(IslandMemory& memory, std::span<const Link> links, double h);
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);
+  /// What a step adds to the relative velocity of two bodies that turn together: each goes along
+  /// its chord, not along its tangent.
+  Vec3 carried(const Contact& contact, double h) const;
+  bool atStart() const { return state_.trail.back().t0 == 0.0; }
   Row& addRow(const Row& row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
@@ -123,11 +127,32 @@ class Stepping {
   // stepping.cpp: the bodies.
   void applyTwists(double h);
   void moveBodies(double h);
-  bool sprung(const RigidBody& body) const;
-  /// Free flight of one body through a step; `before` is its velocity [m/s] at the start.
-  void coast(RigidBody& body, const Vec3& before, double h) const;
   /// Turns a body for h seconds with the angular momentum L [kg m²/s].
   void turn(RigidBody& body, const Vec3& L, double h) const;
+
+  // flight.cpp: what nothing touches.
+  /// Free flight of one body through a step.
+  void coast(int body, double h);
+  /// Turns a body that nothing twists for h seconds.
+  void spin(int body, double h);
+  void flyGroups(double h);
+
+  // driven.cpp: springs and drag.
+  bool isDriven(int body) const {
+    return memory_.drives->groupOf[body] >= 0 || memory_.drives->dragOf[body] >= 0;
+  }
+  /// Decides which driven groups are free in this step; the springs of others leave the forces.
+  void bindGroups(double h);
+  /// Rows of the springs of bound groups.
+  void addSprings(double h);
+  void addSpring(const Spring& spring, bool stiff, double h);
+  double bend(const Spring& spring, const Vec3& pa, const Vec3& pb) const;
+  void addSpringRow(const Row& row, const SpringLaw& law, double h);
+  void applyDragged(int body, double h);
+  double steadyPower() const;
+  /// What springs and dampers take that the step treats as rows.
+  void bookSprings(double h);
+  double storedInStiff() const;
 
   // project.cpp
   /// @return whether all that overlapped or gaped is closed

@@ -1,0 +1,202 @@
+// Springs and drag in a step. Driven groups that something touches, or that are too stiff to be
+// followed, have their springs solved together with contacts; drag decays on the way.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/body/force.h"
+#include "sim/contact/rows.h"
+#include "sim/math/frames.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+
+void Stepping::bindGroups(double h) {
+  constexpr double kStiff =
+      4.0;  // [rad] in a step; below, some hundred evaluations follow a spring
+  Drives& drives = *memory_.drives;
+  work_.flown.assign(state_.bodies.size(), 0);
+  work_.drags.clear();
+  for (const Drag& drag : drives.drags)
+    work_.drags.push_back(dragStep(drag, state_.bodies[drag.body], h));
+  if (drives.groups.empty()) return;
+  work_.joined.assign(state_.bodies.size() + 1, 0);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    for (const Touch& touch : memory_.pairs[k].touches)
+      if (!flies(touch, h))
+        work_.joined[state_.near[k].first] = work_.joined[state_.near[k].second] = 1;
+  for (const Joint& joint : model_.joints) work_.joined[joint.a] = work_.joined[joint.b] = 1;
+  for (DrivenGroup& group : drives.groups) {
+    const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
+    group.stiff = fastest * model_.def.stepping.step > kStiff;
+    const auto held = [&](int i) { return !model_.fixed(i) && work_.joined[i]; };
+    group.bound = group.stiff || std::any_of(group.bodies.begin(), group.bodies.end(), held);
+    for (std::size_t k = 0; k < group.bodies.size(); ++k) {
+      if (model_.fixed(group.bodies[k])) continue;
+      if (!group.bound) work_.flown[group.bodies[k]] = 1;
+      group.moved[k] = state_.bodies[group.bodies[k]];
+    }
+    if (!group.bound || group.springs.empty()) continue;
+    sumForces(model_.def.gravity, group.others, group.moved);
+    for (std::size_t k = 0; k < group.bodies.size(); ++k) {
+      RigidBody& body = state_.bodies[group.bodies[k]];
+      if (body.fixed()) continue;
+      body.force = group.moved[k].force;
+      body.torque = group.moved[k].torque;
+    }
+  }
+}
+
+double Stepping::storedInStiff() const {
+  double sum = 0.0;
+  for (const DrivenGroup& group : memory_.drives->groups)
+    if (group.bound && group.stiff)
+      sum += potentialEnergy(Vec3::Zero(), group.stores, state_.bodies);
+  return sum;
+}
+
+void Stepping::addSprings(double h) {
+  work_.springs.clear();
+  for (const DrivenGroup& group : memory_.drives->groups) {
+    if (!group.bound) continue;
+    for (const Spring& spring : group.springs) addSpring(spring, group.stiff, h);
+    if (group.stiff && !group.springs.empty())
+      report_.note(
+          "springs or dampers that are too fast for a step were followed implicitly, which damps "
+          "them; a smaller stepping.step follows them closer");
+  }
+  work_.stored = storedInStiff();
+}
+
+/// What the length of a spring gains per second squared while its ends go on as they do:
+///   |ṗ⊥|²/l + n·(ω × (ω × r))  of one end against the other.
+double Stepping::bend(const Spring& spring, const Vec3& pa, const Vec3& pb) const {
+  struct Way {
+    Vec3 v = Vec3::Zero(), turn = Vec3::Zero();
+  };
+  const auto wayOf = [&](int i, const Vec3& p) {
+    if (i == kNoBody) return Way{};
+    const RigidBody& body = state_.bodies[i];
+    return Way{pointVelocity(body, p), body.omega.cross(body.omega.cross(p - body.x))};
+  };
+  const Way a = wayOf(spring.a, pa), b = wayOf(spring.b, pb);
+  const Vec3 n = (pa - pb).normalized(), v = a.v - b.v;
+  return (v - n.dot(v) * n).squaredNorm() / (pa - pb).norm() + n.dot(a.turn - b.turn);
+}
+
+/// Along the spring, and, where it pulls, across it: tension over length is what it resists there.
+void Stepping::addSpring(const Spring& spring, bool stiff, double h) {
+  const auto end = [&](int body, const Vec3& anchor_B) {
+    return body == kNoBody ? anchor_B : toWorld(state_.bodies[body].pose(), anchor_B);
+  };
+  const int world = static_cast<int>(state_.bodies.size());
+  const Vec3 pa = end(spring.a, spring.anchorA_B), pb = end(spring.b, spring.anchorB_B);
+  const int a = spring.a, b = spring.b == kNoBody ? world : spring.b;
+  const auto row = [&](const Vec3& d) {
+    Row made{.a = a, .b = b, .linear = d, .angularA = turnAbout(state_.bodies[a].x, pa, d)};
+    if (b != world) made.angularB = -turnAbout(state_.bodies[b].x, pb, d);
+    return made;
+  };
+  const auto add = [&](const Vec3& d, const SpringLaw& law) {
+    const int bond = static_cast<int>(work_.bonds.rows.size());
+    work_.springs.push_back({.bond = bond, .law = law, .stiff = stiff});
+    addSpringRow(row(d), law, h);
+  };
+  const double length = (pa - pb).norm(), stretch = length - spring.rest;
+  if (length == 0.0) {  // no direction: it pulls alike along all, or at nothing
+    if (spring.rest == 0.0)
+      for (int k = 0; k < 3; ++k) add(Vec3::Unit(k), {spring.stiffness, 0.0, 0.0});
+    return;
+  }
+  const Vec3 along = (pa - pb) / length;
+  add(along, {spring.stiffness, spring.damping, stretch, 0.5 * h * h * bend(spring, pa, pb)});
+  const double across = spring.stiffness * stretch / length;
+  if (across <= 0.0) return;
+  const Vec3 t1 = along.unitOrthogonal(), t2 = along.cross(t1);
+  for (const Vec3& t : {t1, t2}) add(t, {across, 0.0, 0.0});
+}
+
+void Stepping::addSpringRow(const Row& made, const SpringLaw& law, double h) {
+  SpringRow& spring = work_.springs.back();
+  Row row = made;
+  const auto mobility = [&](int i, const Vec3& turn) {
+    if (i == static_cast<int>(state_.bodies.size()) || model_.fixed(i)) return 0.0;
+    return state_.bodies[i].invM + turn.dot(state_.bodies[i].Iinv * turn);
+  };
+  const double moves = mobility(row.a, row.angularA) + mobility(row.b, row.angularB);
+  const auto share = [](double x) { return x * x / (16.0 + x * x); };
+  const double swift = share(h * h * law.stiffness * moves),
+               damped = share(h * law.damping * moves);
+  spring.a = 0.25 + 0.75 * swift;
+  spring.b = 0.25 - 0.25 * swift;
+  spring.theta = 0.5 + 0.5 * damped;
+  spring.before = rowSpeed(row, work_.before[row.a], work_.before[row.b]);
+  const double yields = h * (h * law.stiffness * spring.a + law.damping * spring.theta);
+  if (yields <= 0.0) {
+    work_.springs.pop_back();
+    return;
+  }
+  const double slow = h * law.stiffness * spring.b - law.damping * (1.0 - spring.theta);
+  row.compliance = 1.0 / yields;
+  const double stretch = law.stretch + swift * law.bend;
+  row.bias = h * (law.stiffness * stretch - slow * spring.before) / yields;
+  work_.bonds.add(row, ConeKind::Equality, -1);
+}
+
+/// Of soft springs, what the damper takes and what the row damps; of stiff ones, all that goes.
+void Stepping::bookSprings(double h) {
+  double work = 0.0;
+  for (const SpringRow& spring : work_.springs) {
+    const Row& row = work_.bonds.rows[spring.bond];
+    const double after = rowSpeed(row, work_.after[row.a], work_.after[row.b]);
+    const double mean = 0.5 * (spring.before + after);
+    const SpringLaw& law = spring.law;
+    if (spring.stiff) {
+      work += work_.bonds.lambda[spring.bond] * mean;
+    } else {
+      const double damper =
+          law.damping * (spring.theta * after + (1.0 - spring.theta) * spring.before);
+      work -= h * (damper + h * law.stiffness * (spring.a - spring.b) * after) * mean;
+    }
+  }
+  report_.certificate.work_of_forces += work + storedInStiff() - work_.stored;
+}
+
+/// Drag takes what neither contacts nor the other forces explain.
+void Stepping::applyDragged(int i, double h) {
+  RigidBody& body = state_.bodies[i];
+  const Drag& drag = memory_.drives->drags[memory_.drives->dragOf[i]];
+  const DragStep& step = work_.drags[memory_.drives->dragOf[i]];
+  const Vec6 before = work_.before[i];
+  const Vec6& after = work_.touched[i] ? work_.after[i] : work_.star[i];
+  const Vec6 pushed = after - work_.star[i];
+  const Vec3 contact = body.M / step.way.mean * pushed.head<3>();
+  const Vec3 gain = body.M * (after - before).head<3>() - contact;
+  const Vec3 force = body.force + drag.linear * before.head<3>();
+  body.P = body.M * after.head<3>();
+  state_.externalImpulse += gain;
+  if (!body.particle) body.L = body.R * (body.Ibody * (body.R.transpose() * after.tail<3>()));
+  if (work_.touched[i]) {
+    const Vec6 mean = 0.5 * (before + after);
+    double work = (gain - h * force).dot(mean.head<3>());
+    if (!body.particle) {
+      const Vec3 turned = body.R * (body.Ibody * (body.R.transpose() * (after - before).tail<3>()));
+      const Vec3 torque = body.torque + drag.angular * before.tail<3>();
+      work += (turned - step.I * pushed.tail<3>() - h * torque).dot(mean.tail<3>());
+    }
+    report_.certificate.work_of_forces += work;
+  }
+  updateVelocities(body);
+}
+
+/// Power [W] of wind and point forces on bodies that no driven group moves.
+double Stepping::steadyPower() const {
+  double sum = 0.0;
+  for (const Force& force : memory_.drives->steady) {
+    const UniformWind* wind = std::get_if<UniformWind>(&force);
+    if (!work_.flown[wind ? wind->body : std::get<PointForce>(force).body])
+      sum += powerOfForces(std::span(&force, 1), state_.bodies);
+  }
+  return sum;
+}
+
+}  // namespace tumble
