@@ -34,7 +34,7 @@ void Stepping::solveIslands(double h) {
   for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i)
     solveIsland(std::span(work_.order).subspan(work_.begin[i], work_.begin[i + 1] - work_.begin[i]),
                 h);
-  if (!work_.bonds.empty()) bookJoints(h);
+  if (!work_.bonds.empty() || !model_.joints.empty()) bookJoints(h);
 }
 
 [[gnu::flatten]] void Stepping::foreseeTwists(double h) {
