@@ -53,7 +53,7 @@ int converge(int argc, char** argv) {
   line.option("-o,--output", folder,
               "folder for converge.csv and the figure speed.svg [out/<scene>]");
   line.option("--budget", budget, "CPU seconds that a run may take [60]",
-              {.type = "S", .range = {{1e-3, 1e6}}});
+              {.type = "S", .range = {{1.0, 1e6}}});
   if (!line.read(argc, argv)) return kOk;
 
   const Scene scene = load(options);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "app/command/command.h"
 #include "app/command/options.h"
@@ -22,6 +23,7 @@ struct Options {
   std::vector<std::string> scenes;
   std::string folder = "out/report";
   double budget = 0.1;  // [s] of CPU time a point
+  bool convergence = false;
   std::vector<std::string> overrides;
 };
 
@@ -94,6 +96,46 @@ std::vector<Profile> contact(const Options& options) {
   return profiles;
 }
 
+// What halved steps say of the demos: numbers and scripts.
+std::vector<SpeedOfScene> convergence(const Options& options, const std::string& machine) {
+  Progress progress("Convergence");
+  std::vector<SpeedOfScene> demos;
+  std::string csv;
+  const std::vector<std::string> names = demoNames();
+  for (const std::string& name : names) {
+    const Scene scene = load({name, options.overrides});
+    const HalvingPlan plan{quarters(std::min(scene.world.duration, kDemoSpan)), kDemoBudget};
+    SpeedOfScene& demo = demos.emplace_back();
+    demo.convergence = convergenceOf(scene, plan, runHalved(scene, plan));
+    demo.speed = speedOf(demo.convergence);
+    demo.speed.name = "converge-" + name;
+    const std::string file = options.folder + "/" + demo.speed.name;
+    writeFile(file + ".csv", studyCsv(demo.speed));
+    writeFile(file + ".gp",
+              plotScript(demo.speed, labelsOf(std::span<const Study>(&demo.speed, 1)), machine));
+    // One table for all of them: the scene's name before each row.
+    std::istringstream rows(convergenceCsv(demo.convergence));
+    std::string row;
+    std::getline(rows, row);
+    if (csv.empty()) csv = "demo," + row + "\n";
+    while (std::getline(rows, row)) csv += name + "," + row + "\n";
+    progress.show(static_cast<double>(demos.size()) / static_cast<double>(names.size()));
+  }
+  writeFile(options.folder + "/convergence.csv", csv);
+  return demos;
+}
+
+// The page on convergence, without figures first: it stays if gnuplot is missing.
+void writeConvergence(const Options& options, const std::string& machine) {
+  const std::vector<SpeedOfScene> demos = convergence(options, machine);
+  const std::string page = options.folder + "/convergence.html";
+  writeFile(page, convergencePage(demos, machine, false));
+  for (const SpeedOfScene& demo : demos)
+    if (drawable(demo.speed)) runGnuplot(options.folder, demo.speed.name);
+  writeFile(page, convergencePage(demos, machine, true));
+  fmt::print("{}\n", page);
+}
+
 }  // namespace
 
 int report(int argc, char** argv) {
@@ -108,6 +150,8 @@ int report(int argc, char** argv) {
   line.option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
   line.option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]",
               {.type = "S", .range = {{0.0, 100.0}}});
+  line.flag("--convergence", options.convergence,
+            "instead: only the page on halved steps of the demos, convergence.html");
   addOverrides(line, options.overrides);
   if (!line.read(argc, argv)) return kOk;
   const bool whole = options.scenes.empty();
@@ -116,6 +160,10 @@ int report(int argc, char** argv) {
   // Numbers first: they stay if gnuplot is missing.
   makeFolder(options.folder);
   const std::string machine = machineLine();
+  if (options.convergence) {
+    writeConvergence(options, machine);
+    return kOk;
+  }
   const std::vector<Study> studies = study(options);
   const std::vector<Scaling> scalings = whole ? detection(options) : std::vector<Scaling>{};
   const std::vector<Profile> profiles = whole ? contact(options) : std::vector<Profile>{};
@@ -136,6 +184,7 @@ int report(int argc, char** argv) {
   for (const Profile& one : profiles) runGnuplot(options.folder, one.name);
   writeFile(options.folder + "/index.html", reportPage(studies, machine, true, scalings, profiles));
   fmt::print("{}/index.html\n", options.folder);
+  if (whole) writeConvergence(options, machine);
   return kOk;
 }
 

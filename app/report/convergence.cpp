@@ -13,6 +13,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAbove = 10.0;      // times the noise: a difference that means something
 constexpr double kLeastOrder = 0.5;  // below, differences do not shrink
 constexpr double kChaos = 1e-8;      // of the size: rounding that has grown 1e8 times
+constexpr double kApart = 1e-9;      // of the size: what tolerances of instants may leave
 constexpr double kFar = 10.0;        // times the errors: a limit that is another one
 
 // How far [m] the farthest point is from the origin: what coordinates are rounded against.
@@ -94,8 +95,10 @@ void holdToReference(const std::vector<double>& radii, const std::vector<MethodR
     const Halving halving = method.richardson.halving;
     if (method.steps.empty() || (halving != Halving::Converges && halving != Halving::Rounding))
       continue;
-    method.elsewhere = method.offReference.back() >
-                       kFar * (method.richardson.errors.back() + other.richardson.errors.back());
+    const double size = sizeOf(radii, finest.bodies[instant]);
+    method.elsewhere =
+        method.offReference.back() >
+        kApart * size + kFar * (method.richardson.errors.back() + other.richardson.errors.back());
   }
 }
 
@@ -187,11 +190,9 @@ Study speedOf(const Convergence& convergence) {
     if (method.steps.empty()) continue;
     ChartSeries& series = study.series.emplace_back();
     series.parameter = "step";
-    const Halving halving = method.richardson.halving;
-    const bool converges = halving == Halving::Converges;
     series.label = convergence.methods[i];
-    if (!converges || method.elsewhere) series.label += "  (" + wordFor(method) + ")";
-    study.orders.push_back(converges ? std::optional(method.richardson.order) : std::nullopt);
+    study.orders.emplace_back();
+    study.notes.push_back(wordFor(method));
     for (std::size_t k = 0; k < method.steps.size(); ++k)
       series.points.push_back({fmt::format("{:.17g}", method.steps[k]), method.richardson.errors[k],
                                0, method.seconds[k] / at.t});

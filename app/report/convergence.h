@@ -9,6 +9,10 @@
 
 namespace tumble {
 
+/// How much of each demo the report's chapter on convergence takes [s], and how much CPU time [s]
+/// it gives to a run.
+inline constexpr double kDemoSpan = 1.0, kDemoBudget = 1.0;
+
 /// What the differences between a run and the one at half its step come to.
 enum class Halving {
   Converges,  ///< they shrink with some order in the step
@@ -71,6 +75,10 @@ std::string convergenceText(const Convergence& convergence);
 /// t, method, step, difference, order, error, off_reference, noise, cpu_seconds, says: a row for
 /// each run and instant; numbers that are not known are left out.
 std::string convergenceCsv(const Convergence& convergence);
+
+/// The scenes of a report side by side: a table of HTML with a row for each method at the last
+/// instant that it came to.
+std::string convergenceTable(std::span<const Convergence> scenes);
 
 /// Speed against error at the last instant that a run came to, as a study of the report.
 Study speedOf(const Convergence& convergence);

@@ -1,8 +1,10 @@
 // A convergence as tables of text and as CSV.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "app/file/html.h"
 #include "app/record/output.h"
 #include "app/report/convergence.h"
 
@@ -62,6 +64,35 @@ std::string convergenceText(const Convergence& convergence) {
       addVerdict(convergence, instant, i, out);
   }
   return out;
+}
+
+std::string convergenceTable(std::span<const Convergence> scenes) {
+  std::string out =
+      "<table><tr><th>scene</th><th>method</th><th>t / s</th><th>says</th><th>error, first run</th>"
+      "<th>last run</th><th>off the reference</th><th>CPU s per s, first run</th></tr>\n";
+  for (const Convergence& scene : scenes)
+    for (std::size_t i = 0; i < scene.methods.size(); ++i) {
+      const auto& all = scene.instants;
+      const auto found = std::find_if(all.rbegin(), all.rend(), [&](const ConvergenceAt& instant) {
+        return !instant.methods[i].steps.empty();
+      });
+      const ConvergenceAt& instant = found == all.rend() ? all.front() : *found;
+      const MethodAt& method = instant.methods[i];
+      out += fmt::format("<tr><td>{}</td><td>{}</td>", htmlText(scene.scene),
+                         htmlText(scene.methods[i]));
+      if (method.steps.empty()) {
+        out += fmt::format("<td>–</td><td colspan=\"5\">{}</td></tr>\n", htmlText(method.missing));
+        continue;
+      }
+      out += fmt::format("<td>{:.3g}</td><td>{}</td>", instant.t, htmlText(wordFor(method)));
+      for (const double value :
+           {method.richardson.errors.front(), method.richardson.errors.back(),
+            at(method.offReference, method.steps.size() - 1), method.seconds.front() / instant.t})
+        out +=
+            fmt::format("<td>{}</td>", std::isfinite(value) ? fmt::format("{:.1e}", value) : "–");
+      out += "</tr>\n";
+    }
+  return out + "</table>\n";
 }
 
 std::string convergenceCsv(const Convergence& convergence) {

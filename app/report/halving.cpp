@@ -3,20 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <string_view>
 
 #include "app/claim/free_body.h"
-#include "app/report/cost.h"
+#include "app/report/bounded.h"
 #include "app/report/nudge.h"
+#include "app/report/swarm.h"
 
 namespace tumble {
 
 namespace {
 
-constexpr int kLevels = 4;           // h, h/2, h/4, h/8
-constexpr double kSlice = 1.0 / 60;  // [s] of motion between two looks at the clock
-constexpr double kQuick = 5e-3;      // [s] CPU of a run that is worth timing again
-constexpr int kTimings = 3;          // of such a run
+constexpr int kLevels = 4;       // h, h/2, h/4, h/8
+constexpr double kQuick = 5e-3;  // [s] CPU of a run that is worth timing again
+constexpr int kTimings = 3;      // of such a run
 
 // The scene's setting of the step that a method takes, if it takes one.
 double* stepOf(WorldDef& world) {
@@ -25,35 +28,62 @@ double* stepOf(WorldDef& world) {
   return nullptr;
 }
 
-// Goes on to an instant; false if the run has ended before.
-bool reach(World& world, double from, double to, double budgetEnd, HalvedRun& run) {
-  const int slices = std::max(1, static_cast<int>(std::ceil((to - from) / kSlice)));
-  for (int k = 1; k <= slices; ++k) {
-    const double t = k == slices ? to : from + (to - from) * k / slices;
+// Numbers as bytes, and back.
+template <class Value>
+void put(const Value& value, std::string& bytes) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+template <class Value>
+Value take(std::string_view& bytes) {
+  Value value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  bytes.remove_prefix(sizeof value);
+  return value;
+}
+
+// A body's place and attitude; velocities stay behind.
+using Placed = std::array<double, 7>;
+
+constexpr char kInstant = 'i', kStopped = 's';  // what begins a message
+
+// Lets the world run and sends time and bodies at each instant, or why it stopped.
+void runAndSend(World& world, const std::vector<double>& instants, const Send& send) {
+  // Of the thread: the process's own clock goes in ticks where its time is bounded.
+  const double start = cpuTime();
+  for (const double t : instants) {
     world.advance(t);
-    if (world.report().stopped) {
-      run.ended = "stopped: " + world.report().reason;
-      return false;
-    }
-    if (processSeconds() > budgetEnd) {
-      run.ended = fmt::format("left at t = {:.4g} s, beyond its CPU time", t);
-      return false;
-    }
+    if (world.report().stopped) return send(kStopped + ("stopped: " + world.report().reason));
+    std::string bytes(1, kInstant);
+    const Sample sample = world.sample(t);
+    put(cpuTime() - start, bytes);
+    for (const BodySample& body : sample.bodies)
+      put(Placed{body.x.x(), body.x.y(), body.x.z(), body.q.w(), body.q.x(), body.q.y(),
+                 body.q.z()},
+          bytes);
+    send(bytes);
   }
-  return true;
 }
 
 HalvedRun runOnce(const Scene& scene, const HalvingPlan& plan) {
-  HalvedRun run;
-  const double start = processSeconds();
   World world = makeWorld(scene);
-  double from = 0.0;
-  for (const double t : plan.instants) {
-    if (!reach(world, from, t, start + plan.budget, run)) return run;
-    run.bodies.push_back(world.sample(t).bodies);
-    run.seconds.push_back(processSeconds() - start);
-    from = t;
+  const Bounded bounded =
+      runBounded(plan.budget, [&](const Send& send) { runAndSend(world, plan.instants, send); });
+  HalvedRun run;
+  std::string_view bytes = bounded.sent;
+  const std::size_t count = scene.world.bodies.size();
+  while (bytes.starts_with(kInstant) && bytes.size() > sizeof(double) + count * sizeof(Placed)) {
+    bytes.remove_prefix(1);
+    run.seconds.push_back(take<double>(bytes));
+    std::vector<BodySample>& bodies = run.bodies.emplace_back();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Placed p = take<Placed>(bytes);
+      bodies.push_back({.x = {p[0], p[1], p[2]}, .q = {p[3], p[4], p[5], p[6]}});
+    }
   }
+  if (bytes.starts_with(kStopped)) run.ended = bytes.substr(1);
+  if (bounded.outOfTime)
+    run.ended = fmt::format("ended after {:.0f} CPU s", std::ceil(plan.budget));
+  if (!bounded.outOfTime && !bounded.whole) run.ended = "the program failed";
   return run;
 }
 

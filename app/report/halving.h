@@ -29,7 +29,7 @@ struct MethodRuns {
 /// What is asked of the runs.
 struct HalvingPlan {
   std::vector<double> instants;  ///< [s] ascending, within the duration
-  double budget = 60.0;          ///< [s] CPU; a run that takes longer is left where it is, and one
+  double budget = 60.0;          ///< [s] CPU; a run that takes longer is ended, and one
                                  ///< that would is not begun
 };
 

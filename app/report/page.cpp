@@ -8,9 +8,9 @@ namespace tumble {
 
 namespace {
 
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>tumble: speed against error</title>
-<meta name="viewport" content="width=device-width, initial-scale=1">
+// The start of a page with that title.
+std::string headOf(const std::string& title) {
+  constexpr const char* kStyle = R"(
 <style>
 body { margin: 2rem auto; max-width: 1000px; padding: 0 1rem; background: #f8f8f6; color: #2b2f36;
        font: 16px/1.5 Lato, "DejaVu Sans", sans-serif; }
@@ -19,8 +19,15 @@ table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabula
 td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
 td:first-child, th:first-child, td:nth-child(2), th:nth-child(2) { text-align: left; }
 </style></head><body>
-<h1>Speed against error</h1>
-<p>Good is lower left. Each point is one run: across, the error that the figure names, over the whole
+)";
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>tumble: " +
+         title +
+         "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">" +
+         kStyle + "<h1>" + title + "</h1>\n";
+}
+
+constexpr const char* kIntroduction =
+    R"(<p>Good is lower left. Each point is one run: across, the error that the figure names, over the whole
 run; upwards, the CPU seconds that a simulated second takes, the least of at least five runs made for
 the clock alone. The dashed line is what double precision leaves to any method: the error of starts
 that differ in the last place. The order in the legend is the slope of error over step, fitted where the
@@ -57,7 +64,7 @@ void addFigure(const std::string& name, const std::string& title, const std::str
 
 std::string reportPage(const std::vector<Study>& studies, const std::string& machine, bool figures,
                        const std::vector<Scaling>& scalings, const std::vector<Profile>& profiles) {
-  std::string out = kHead;
+  std::string out = headOf("Speed against error") + kIntroduction;
   out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine));
   for (const Study& study : studies)
     addFigure(study.name, study.chart.variant.title, study.chart.subtitle, figures, out);
@@ -76,6 +83,33 @@ std::string reportPage(const std::vector<Study>& studies, const std::string& mac
         "is that of the natural map, over the largest velocity of the problem.</p>\n";
   for (const Profile& profile : profiles)
     addFigure(profile.name, profile.title, profile.subtitle, figures, out);
+  if (!profiles.empty())
+    out +=
+        "<h1>Convergence</h1>\n<p><a href=\"convergence.html\">Every demo</a> at halved steps, by "
+        "every method.</p>\n";
+  return out + "</body></html>\n";
+}
+
+std::string convergencePage(const std::vector<SpeedOfScene>& demos, const std::string& machine,
+                            bool figures) {
+  std::string out = headOf("Convergence");
+  out += fmt::format(
+      "<p>The first {:g} s of each demo by every method "
+      "that takes it, at the demo's step, its half, quarter and eighth. The error is Richardson's "
+      "estimate of how far [m] the farthest point of a body is from where it would be without "
+      "steps; a method without a step has what the last place of its start changes. The reference "
+      "is `exact` where it came so far, else the method with the least error. No run takes more "
+      "than {:g} CPU s: it is ended there, and finer ones are not begun, as the table says; "
+      "`tumble converge` has no such bound. <a "
+      "href=\"convergence.csv\">numbers</a></p>\n<p>Measured on {}.</p>\n",
+      kDemoSpan, kDemoBudget, htmlText(machine));
+  std::vector<Convergence> tables;
+  for (const SpeedOfScene& demo : demos) tables.push_back(demo.convergence);
+  out += convergenceTable(tables);
+  for (const SpeedOfScene& demo : demos)
+    if (drawable(demo.speed))
+      addFigure(demo.speed.name, demo.speed.chart.variant.title, demo.speed.chart.subtitle, figures,
+                out);
   return out + "</body></html>\n";
 }
 

@@ -55,6 +55,7 @@ std::string quotedFile(const std::string& name, const char* kind) {
 
 std::string curveTitle(const Study& study, std::size_t i) {
   const std::string& label = study.series[i].label;
+  if (i < study.notes.size()) return fmt::format("{}  ({})", label, study.notes[i]);
   return study.orders[i] ? fmt::format("{}  (order {:.1f})", label, *study.orders[i]) : label;
 }
 

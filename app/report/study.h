@@ -14,6 +14,7 @@ struct Study {
   ChartDef chart;     ///< with `floor` set, cost "cpu"
   std::vector<ChartSeries> series;
   std::vector<std::optional<double>> orders;  ///< of each curve: error over the chart's number
+  std::vector<std::string> notes = {};        ///< of each curve, in place of an order
 };
 
 /// Name for the files of a scene's next study: the scene's own, or, where an earlier study or the
