@@ -32,8 +32,8 @@ struct Segment {
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
   std::vector<Limit> limits = {};       ///< of joints, that hold
   std::vector<JointForce> joints = {};  ///< of `stepping`: the forces of the step
-  double tolerance = 0.0;               ///< of `exact`: of the integrator
   bool still = false;                   ///< of `course`: nothing moves in it
+  bool crossing = false;                ///< of `exact`: a step across events that crowd
 };
 
 /// Time, bodies, and what a method remembers from step to step.
@@ -115,6 +115,7 @@ struct State {
   bool sustained = false;   ///< bodies go on through such a stretch
   bool modesKnown = false;  ///< which contact sticks, slides or idles
   bool jammed = false;      ///< forces grow beyond all bounds
+  bool lawless = false;     ///< no forces were found that obey the laws of contact
   int stretchesLeft = 0;    ///< until closed forms are tried again,
   int patience = 0;         ///< and how many the next time
   Pace pace;                ///< of its events

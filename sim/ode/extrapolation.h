@@ -20,8 +20,6 @@ class Extrapolation {
   /// @param tolerance  error per step in each number y of Y, relative to 1 + |y|
   Extrapolation(int size, double tolerance);
 
-  void setTolerance(double tolerance) { tolerance_ = tolerance; }
-
   /// Replaces y = Y(t) by Y(t + h), h > 0 [s], in as many steps as the tolerance asks for, and
   /// normalises it. The result depends on t, h and y alone.
   /// @return h [s], or how far a limited number of attempts led, which is where y then is

@@ -22,7 +22,7 @@ TEST_CASE("a crowd of events makes the look coarser, and calm makes it fine agai
   CHECK(pace.level == 0);
   for (int k = 0; k <= Pace::kCoarsest; ++k) {
     CHECK_FALSE(pace.lost());
-    pace.see(1.0, Pace::kMany + 1);
+    pace.see(1.0, pace.most() + 1);
   }
   CHECK(pace.lost());
 }

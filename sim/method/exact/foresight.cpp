@@ -13,8 +13,6 @@ namespace {
 constexpr double kLongest = 0.25, kTurn = 0.5, kTurnRound = 5.0;
 /// [m] per size of the world: overlap that dates an event of a pair that touches already.
 constexpr double kOff = 1e-12;
-/// And the most of it where events crowd.
-constexpr double kDeep = 1e-10;
 /// Part of a stretch below which no closer look is taken at what may have happened unseen.
 constexpr double kClosest = 1.0 / 64.0;
 
@@ -97,8 +95,7 @@ void Sustained::findNear(double h) {
     pair.now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
                           state_.bodies[b].pose());
     if (!pair.lasts && pair.now > pair.speed * h) continue;
-    const double slack =
-        std::min(kDeep, kOff * state_.pace.coarseness()) * std::max(1.0, model_.size);
+    const double slack = kOff * std::max(1.0, model_.size);
     pair.floor = pair.now < tolerance_.touch ? std::min(-slack, pair.now - 0.1 * slack) : 0.0;
     near_.push_back(pair);
     if (!pair.lasts) continue;
@@ -126,7 +123,6 @@ double Sustained::lowestWatched() const {
 }
 
 bool Sustained::slipTurned() const {
-  if (blind_) return false;
   for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
     const Contact& c = system_.contacts()[k];
     if (!c.sliding || slip_[k] <= tolerance_.stick) continue;
@@ -146,7 +142,7 @@ bool Sustained::slipBegan() const {
 
 double Sustained::doubt(const Look& lo, const Look& hi) const {
   const double span = hi.s - lo.s;
-  if (blind_ || span <= kClosest * most_) return hi.s;
+  if (span <= kClosest * most_) return hi.s;
   for (std::size_t k = 0; k < near_.size(); ++k)
     if (!near_[k].lasts && lo.gaps[k] + hi.gaps[k] < near_[k].speed * span)
       return lo.s + 0.5 * span;

@@ -211,10 +211,10 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
 void Exact::hold(double t, Cluster& cluster) {
   std::vector<Contact> resting;
   const double residual = findForces(t, cluster, resting);
-  if (residual > kLawless)
-    return stop("no forces were found at t = " + digits(t) +
-                " s that obey the laws of contact and friction: what slides may jam there; try "
-                "method \"stepping\", or less friction");
+  if (residual > kLawless) {
+    state_.lawless = true;
+    return sustain(t, cluster);
+  }
   double& worst = report_.certificate.max_complementarity;
   worst = std::max(worst, residual);
   const bool slowly = letGo(resting);

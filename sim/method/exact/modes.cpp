@@ -64,7 +64,6 @@ void Sustained::chooseModes() {
     c.creeping = false;
     c.onset = 0.0;
     if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
-    c.creeping = state_.pace.level > 0;
   }
   if (!state_.modesKnown) {
     const std::vector<Contact> before = lasting;

@@ -5,14 +5,14 @@ namespace tumble {
 
 /// Hits of unlike bodies, and contacts that stick and slip in turns, may come faster than any run
 /// could follow: without end in finite time, or as fast as rounding lets them. After kMany events
-/// within kSpan, lengths that count as nothing grow by kCoarser, and contacts keep to their modes
-/// for a while whatever their forces say; one level is taken back after every kCalm without
-/// another. So a unit of time holds a bounded number of events.
+/// within kSpan, kMore times as many at each further level, bounces that count as nothing grow by
+/// kCoarser, and contacts that last are crossed in steps; one level is taken back after every kCalm
+/// without another. So a unit of time holds a bounded number of events.
 struct Pace {
   static constexpr double kSpan = 1.0 / 64.0, kCalm = 1.0 / 8.0;  ///< [s]
-  static constexpr int kMany = 1000, kCoarsest = 4;
+  static constexpr long kMany = 1000, kMore = 4, kCoarsest = 4;
   static constexpr double kCoarser = 30.0;
-  /// [s] a stretch without changes of mode at the first level, and its growth.
+  /// [s] a step at the first level, and its growth.
   static constexpr double kStretch = 3e-4, kLonger = 2.0;
 
   double t0 = 0.0;    ///< [s]
@@ -25,10 +25,16 @@ struct Pace {
     for (; level > 0 && t - calm >= kCalm; calm += kCalm) --level;
     if (t - t0 >= kSpan) t0 = t, events = 0;
     events += weight;
-    if (events <= kMany) return;
+    if (events <= most()) return;
     ++level;
     t0 = calm = t;
     events = 0;
+  }
+  /// Events that kSpan may hold.
+  long most() const {
+    long count = kMany;
+    for (int k = 0; k < level; ++k) count *= kMore;
+    return count;
   }
   /// Whether there are too many events even for the coarsest level.
   bool lost() const { return level > kCoarsest; }
@@ -38,7 +44,7 @@ struct Pace {
     for (int k = 0; k < level; ++k) factor *= kCoarser;
     return factor;
   }
-  /// [s] to keep to the modes of now.
+  /// [s] to cross at once.
   double stretch() const {
     double length = kStretch;
     for (int k = 1; k < level; ++k) length *= kLonger;

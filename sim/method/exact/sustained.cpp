@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/collide/collide.h"
+#include "sim/method/exact/crossing.h"
 #include "sim/method/exact/exact.h"
 
 namespace tumble {
@@ -19,6 +20,13 @@ constexpr double kOff = 1e-12;
 constexpr double kAstray = 1e-9;
 /// Energy that friction gives, of the kinetic energy: what slides is no longer what was asked.
 constexpr double kGiven = 1e-6;
+/// Residual of a contact problem that took all that solvers have.
+constexpr double kUnsolved = 1e-9;
+constexpr char kCrowdedNote[] =
+    "more events than time can hold were crossed in short steps, which are right to first order";
+constexpr char kLawlessNote[] =
+    "where no forces obey the laws of contact and friction, a short step went on with impulses "
+    "that do; it is right to first order";
 /// [1] Normals that differ by less are one: faces that lie on each other may take turns.
 constexpr double kOneNormal = 1e-8;
 /// [s] A stretch that is shorter stands still; or counts as an event, however it ended.
@@ -57,6 +65,7 @@ Sustained::Sustained(const Model& model, State& state, Report& report)
 
 void Sustained::next() {
   system_.effort = state_.effort;
+  if (state_.pace.level > 0 || state_.lawless) return cross(state_.pace.stretch());
   chooseModes();
   system_.begin(state_.lasting);
   system_.pack(state_.bodies, y0_);
@@ -64,26 +73,24 @@ void Sustained::next() {
   system_.findForces(trial_);
   markOnset();
   most_ = lookAhead();
-  blind_ = state_.pace.level > 0;
-  integrator_.setTolerance(kTolerance * state_.pace.coarseness());
-  if (blind_) {
-    most_ = std::min(model_.def.duration - state_.t, state_.pace.stretch());
-    report_.note("more events than time can hold were seen late; max_penetration has the cost");
-  }
   findNear(most_);
   if (report_.stopped) return;
   double h = most_;
   bool event = findEvent(h);
   allowance(h);
   // What contacts keep from one try to the next may lead a motion astray: it is cut short.
-  for (; !blind_ && overlap_ > kAstray * std::max(1.0, model_.size) && h > kInstant; allowance(h)) {
+  for (; overlap_ > kAstray * std::max(1.0, model_.size) && h > kInstant; allowance(h)) {
     h *= 0.5;
     event = false;
+  }
+  if (givesEnergy()) {
+    state_.lawless = true;
+    return cross(state_.pace.stretch());
   }
   commit(h);
   state_.effort = system_.effort;
   keepPace(event || h < kShort);
-  if (event || blind_ || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
+  if (event || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
 }
 
 void Sustained::keepPace(bool event) {
@@ -157,6 +164,52 @@ Sustained::Look Sustained::look(double s) {
   return look;
 }
 
+// Friction that would give energy is none.
+bool Sustained::givesEnergy() const {
+  return system_.books(y_).rubbed < -kGiven * state_.kineticMax - state_.load * tolerance_.touch;
+}
+
+void Sustained::cross(double most) {
+  report_.note(state_.lawless ? kLawlessNote : kCrowdedNote);
+  const double left = model_.def.duration - state_.t;
+  Crossing step(model_, state_);
+  step.take(std::min(most, left));
+  if (step.h == 0.0) {
+    keepPace(true);
+    return leave();
+  }
+  system_.effort.done += Effort::kPolished * countMoving(state_.bodies);
+  if (step.residual > kUnsolved) system_.effort.done += Effort::kUnsolved;
+  Certificate& books = report_.certificate;
+  const std::vector<Contact> before = state_.lasting;
+  const double t1 = step.h < left ? state_.t + step.h : model_.def.duration;
+  step.segment.t1 = t1;
+  state_.bodies = step.segment.end;
+  state_.lasting = step.segment.contacts;
+  std::erase_if(state_.lasting, [&](Contact& c) {
+    follow(state_.bodies[c.a], state_.bodies[c.b], c);
+    return std::abs(c.point.separation) > tolerance_.touch;
+  });
+  state_.trail.push_back(std::move(step.segment));
+  books.max_penetration = std::max(books.max_penetration, step.deepest);
+  books.max_complementarity = std::max(books.max_complementarity, step.residual);
+  books.work_of_forces += step.work;
+  books.energy_lost_friction += step.lostFriction;
+  books.energy_lost_impact += step.lostImpact;
+  books.energy_added_repair += step.mended;
+  state_.externalImpulse += step.impulse;
+  state_.t = t1;
+  ++books.steps;
+  ++books.evaluations;
+  recordChanges(before, state_.lasting, state_.t, report_);
+  account(model_, state_, report_);
+  state_.effort = system_.effort;
+  before_ = system_.evaluations();
+  keepPace(step.touches || state_.lawless);
+  state_.lawless = false;
+  leave();
+}
+
 void Sustained::leave() {
   state_.sustained = false;
   state_.settled = true;
@@ -180,7 +233,6 @@ double Sustained::allowance(double h) {
     cause_ = Cause::Touch;
   else
     least = std::min(above, lowestWatched());
-  if (blind_) return least;
   const double mode = modeAllowance();
   if (mode < least) {
     least = mode;
@@ -253,17 +305,10 @@ void Sustained::commit(double h) {
     return;
   }
   const SustainedSystem::Books done = system_.books(y_);
-  if (done.rubbed < -kGiven * state_.kineticMax - state_.load * tolerance_.touch) {
-    report_.stopped = true;
-    report_.reason = "friction would give energy after t = " + shortNumber(state_.t) +
-                     " s: what slides may jam there; try method \"stepping\", or less friction";
-    return;
-  }
   const double t1 = h < model_.def.duration - state_.t ? state_.t + h : model_.def.duration;
   if (t1 > state_.t)
     state_.trail.push_back(
         {.t0 = state_.t, .t1 = t1, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
-  if (t1 > state_.t) state_.trail.back().tolerance = kTolerance * state_.pace.coarseness();
   state_.bodies = trial_;
   state_.lasting = system_.contacts();
   for (const Near& pair : near_)
@@ -292,12 +337,18 @@ void lookSustained(const Model& model, const State& state, double t, std::vector
     for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
     return;
   }
+  if (!now && segment->crossing) {
+    lookAcross(model, state, *segment, t, bodies);
+    contacts = segment->contacts;
+    for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
+    return;
+  }
   SustainedSystem system(model, bodies);
   system.begin(now ? state.lasting : segment->contacts);
   if (!now && t > segment->t0) {
     std::vector<double> y(static_cast<std::size_t>(system.size()));
     system.pack(bodies, y);
-    Extrapolation(system.size(), segment->tolerance).step(system, segment->t0, t - segment->t0, y);
+    Extrapolation(system.size(), kTolerance).step(system, segment->t0, t - segment->t0, y);
     system.unpack(y, bodies);
   }
   system.findForces(bodies);

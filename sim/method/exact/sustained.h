@@ -58,6 +58,9 @@ class Sustained {
   double featureAllowance() const;
   double ambiguity(const Contact& contact) const;
   void commit(double h);
+  /// Goes on by one step of at most that length [s], whatever the contacts do.
+  void cross(double most);
+  bool givesEnergy() const;
   void leave();
   void keepPace(bool event);
 
@@ -103,7 +106,6 @@ class Sustained {
   std::vector<double> slip_;       ///< [m/s] per lasting contact, at the start
   double acceleration_ = 1.0;      ///< [m/s²] what counts as large
   double most_ = 0.0;              ///< [s] how far could be looked ahead
-  bool blind_ = false;             ///< contacts keep to their modes whatever their forces say
   long counted_ = 0;               ///< evaluations of system_ that are in the certificate,
   long before_ = 0;                ///< and those before this stretch
   Cause cause_ = Cause::None;
