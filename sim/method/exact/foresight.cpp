@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-/// [s], [rad] What is looked ahead at once; balls look the same from all sides.
+/// [s], [rad] What is looked ahead at once; balls look the same from all sides, and only what
+/// changes their spin turns them against a steady turn.
 constexpr double kLongest = 0.25, kTurn = 0.5, kTurnRound = 5.0;
 /// [m] per size of the world: overlap that dates an event of a pair that touches already.
 constexpr double kOff = 1e-12;
@@ -42,7 +43,7 @@ double Sustained::lookAhead() const {
                                    [](const Convex& part) { return part.outline.corner == 0.0; });
     const double turn = round ? kTurnRound : kTurn;
     const double speed = body.omega.norm(), rate = (body.Iinv * body.torque).norm();
-    if (speed * h > turn) h = turn / speed;
+    if (!round && speed * h > turn) h = turn / speed;
     if (rate * h * h > 2.0 * turn) h = std::sqrt(2.0 * turn / rate);
   }
   // Not far beyond the end of a slip.

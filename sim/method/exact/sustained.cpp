@@ -72,6 +72,7 @@ void Sustained::next() {
   trial_ = state_.bodies;
   system_.findForces(trial_);
   markOnset();
+  system_.turnFrom(trial_);
   most_ = lookAhead();
   findNear(most_);
   if (report_.stopped) return;
@@ -103,7 +104,7 @@ void Sustained::keepPace(bool event) {
 }
 
 bool Sustained::findEvent(double& h) {
-  path_.begin(state_.t, most_, y0_);
+  path_.begin(0.0, most_, y0_);
   Look before = look(0.0);
   h = 0.0;
   if (!(before.allowed > 0.0)) return true;
@@ -219,7 +220,7 @@ double Sustained::allowance(double h) {
   cause_ = Cause::None;
   path_.at(system_, integrator_, h, y_);
   if (!allFinite(y_)) return 1.0;  // commit() reports it
-  system_.unpack(y_, trial_);
+  system_.unpack(h, y_, trial_);
   double least = kInfinity, above = kInfinity;
   gaps_.clear();
   for (const Near& pair : near_) {
@@ -347,9 +348,11 @@ void lookSustained(const Model& model, const State& state, double t, std::vector
   system.begin(now ? state.lasting : segment->contacts);
   if (!now && t > segment->t0) {
     std::vector<double> y(static_cast<std::size_t>(system.size()));
+    system.findForces(bodies);
+    system.turnFrom(bodies);
     system.pack(bodies, y);
-    Extrapolation(system.size(), kTolerance).step(system, segment->t0, t - segment->t0, y);
-    system.unpack(y, bodies);
+    Extrapolation(system.size(), kTolerance).step(system, 0.0, t - segment->t0, y);
+    system.unpack(t - segment->t0, y, bodies);
   }
   system.findForces(bodies);
   contacts = system.contacts();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/math/rotation.h"
+
 namespace tumble {
 namespace {
 
@@ -28,6 +30,21 @@ std::vector<double> unitsOf(std::span<const RigidBody> bodies, int books) {
   return unit;
 }
 
+/// [1] Sine of the angle up to which two axes are one.
+constexpr double kOneAxis = 1e-12;
+
+/// Whether no force depends on how the body is turned.
+bool isBall(const Shape& shape, const RigidBody& body) {
+  const Vec3 inertia = body.Ibody.diagonal();
+  return std::holds_alternative<Sphere>(shape) && !body.fixed() &&
+         body.Ibody == inertia.x() * Mat3::Identity();
+}
+
+/// exp(½ θ), θ = ω₀ t + ½ α t².
+Quat turned(const Vec3& spin, const Vec3& rate, double t) {
+  return rotated(Quat::Identity(), t * (spin + 0.5 * t * rate));
+}
+
 }  // namespace
 
 SustainedSystem::SustainedSystem(const Model& model, std::span<const RigidBody> bodies)
@@ -36,7 +53,25 @@ SustainedSystem::SustainedSystem(const Model& model, std::span<const RigidBody> 
       unit_(unitsOf(bodies, kBooks)),
       work_(bodies.begin(), bodies.end()),
       moving_(countMoving(bodies)),
-      plain_(unit_.size()) {}
+      plain_(unit_.size()) {
+  std::size_t slot = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const bool held = std::any_of(model.pivots.begin(), model.pivots.end(),
+                                  [&](const Pivot& p) { return p.body == static_cast<int>(i); });
+    if (isBall(model.shapes[i], bodies[i]) && !held) balls_.push_back({i, slot + 3});
+    slot += static_cast<std::size_t>(stateSize(bodies[i]));
+  }
+}
+
+void SustainedSystem::turnFrom(std::span<const RigidBody> bodies) {
+  for (Ball& ball : balls_) {
+    const RigidBody& body = bodies[ball.body];
+    ball.spin = body.omega;
+    ball.rate = body.Iinv * body.torque;
+    const double across = ball.spin.cross(ball.rate).norm();
+    if (across > kOneAxis * ball.spin.norm() * ball.rate.norm()) ball.rate.setZero();
+  }
+}
 
 void SustainedSystem::pack(std::span<const RigidBody> bodies, std::span<double> y) const {
   bodies_.toArray(bodies, bodiesOf(y, kBooks));
@@ -48,6 +83,16 @@ void SustainedSystem::unpack(std::span<const double> y, std::span<RigidBody> bod
   for (std::size_t i = 0; i < y.size(); ++i) plain_[i] = y[i] * unit_[i];
   bodies_.fromArray(bodiesOf(std::span<const double>(plain_), kBooks), bodies);
   for (RigidBody& body : bodies) body.q.normalize();
+}
+
+void SustainedSystem::unpack(double t, std::span<const double> y,
+                             std::span<RigidBody> bodies) const {
+  unpack(y, bodies);
+  for (const Ball& ball : balls_) {
+    RigidBody& body = bodies[ball.body];
+    body.q = (turned(ball.spin, ball.rate, t) * body.q).normalized();
+    updateDerived(body);
+  }
 }
 
 SustainedSystem::Books SustainedSystem::books(std::span<const double> y) const {
@@ -83,7 +128,7 @@ SustainedSystem::Books SustainedSystem::rates() const {
   return rates;
 }
 
-void SustainedSystem::derivative(double /*t*/, std::span<const double> y,
+void SustainedSystem::derivative(double t, std::span<const double> y,
                                  std::span<double> ydot) const {
   if (effort.spent()) {
     std::fill(ydot.begin(), ydot.end(), std::numeric_limits<double>::quiet_NaN());
@@ -92,6 +137,15 @@ void SustainedSystem::derivative(double /*t*/, std::span<const double> y,
   unpack(y, work_);
   findForces(work_);
   bodies_.rates(work_, bodiesOf(ydot, kBooks));
+  for (const Ball& ball : balls_) {
+    const RigidBody& body = work_[ball.body];
+    const Vec3 turn =
+        turned(ball.spin, ball.rate, t).conjugate() * (body.omega - ball.spin - t * ball.rate);
+    const Quat rate = Quat(0.0, 0.5 * turn.x(), 0.5 * turn.y(), 0.5 * turn.z()) * body.q;
+    double* r = &ydot[ball.slot];
+    r[0] = rate.w();
+    std::copy_n(rate.vec().data(), 3, r + 1);
+  }
   const Books rates = this->rates();
   double* last = &ydot[ydot.size() - kBooks];
   last[0] = rates.work;

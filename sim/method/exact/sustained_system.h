@@ -22,6 +22,14 @@ class SustainedSystem : public System {
     contacts_.assign(contacts.begin(), contacts.end());
   }
 
+  /// Balls look the same from all sides, so that of their attitude only what differs from a turn
+  /// θ(t) is followed, which goes on from these bodies, at t = 0 s, with their spin ω₀ and, where
+  /// their torque turns them about the same axis, with the acceleration α that it gives:
+  ///   q(t) = exp(½ θ) r(t),   θ = ω₀ t + ½ α t²,   ṙ = ½ (exp(−½ θ) (ω − θ̇)) r.
+  void turnFrom(std::span<const RigidBody> bodies);
+  /// Y at t [s] of the stretch → bodies.
+  void unpack(double t, std::span<const double> y, std::span<RigidBody> bodies) const;
+
   int size() const override { return static_cast<int>(unit_.size()); }
   void derivative(double t, std::span<const double> y, std::span<double> ydot) const override;
   /// Unit quaternions, no gaps, and velocities as the modes have them.
@@ -29,7 +37,7 @@ class SustainedSystem : public System {
 
   /// Bodies → Y, with empty books.
   void pack(std::span<const RigidBody> bodies, std::span<double> y) const;
-  /// Y → bodies.
+  /// Y → bodies, the turns θ of balls left out.
   void unpack(std::span<const double> y, std::span<RigidBody> bodies) const;
 
   /// What was integrated along with the bodies.
@@ -52,11 +60,16 @@ class SustainedSystem : public System {
 
  private:
   static constexpr int kBooks = 5;
+  struct Ball {
+    std::size_t body = 0, slot = 0;                 ///< and where its r stands in Y
+    Vec3 spin = Vec3::Zero(), rate = Vec3::Zero();  ///< ω₀ [rad/s], α [rad/s²]
+  };
   Books rates() const;
 
   const Model& model_;
   BodySystem bodies_;
   std::vector<double> unit_;  ///< of each number of Y
+  std::vector<Ball> balls_;
   mutable std::vector<RigidBody> work_;
   long moving_;                        ///< bodies that are not fixed
   mutable std::vector<double> plain_;  ///< Y in SI units

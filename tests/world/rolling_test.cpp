@@ -1,0 +1,67 @@
+// Balls that roll and slide, by the exact method: closed forms, at a cost that does not grow with
+// how fast they turn.
+#include <cmath>
+
+#include "tests/catch.h"
+#include "tests/world/scenes.h"
+
+using namespace tumble;
+using namespace tumble::scenes;
+
+namespace {
+
+/// The part of a turn [rad] by which two attitudes differ.
+double turnApart(const Quat& p, const Quat& q) {
+  return 2.0 * (p.conjugate() * q).vec().norm();
+}
+
+}  // namespace
+
+// Oracle: closed form. Down a slope at the angle s a ball that rolls goes
+//   x = v t + ½ a t²,   a = g sin s/(1 + 2/5),   turned by x/r about the level axis across.
+// At the end it turns at 200 rad/s. Measured 1.4e-12 m of 124 and 2.2e-11 rad of 1,235 after 985
+// and 1,073 evaluations; without the turn that is taken off, 67,000.
+TEST_CASE("a ball rolls down a slope for ten seconds in a thousand evaluations") {
+  const double s = 0.3, r = 0.1, T = 10.0;
+  const Vec3 n(std::sin(s), std::cos(s), 0.0), down(std::cos(s), -std::sin(s), 0.0);
+  for (const double v : {0.0, 2.0}) {
+    WorldDef def = worldOf("exact", T, {ground(0.0, 0.5), ball("ball", r, r * n, 0.0, 0.5)});
+    def.bodies[0].shape = HalfSpace{n, 0.0};
+    def.bodies[1].velocity = v * down;
+    def.bodies[1].angularVelocity = n.cross(v * down) / r;
+    World world(def);
+    const BodySample end = run(world).bodies[1];
+    const double way = v * T + 0.5 * 9.81 * std::sin(s) / 1.4 * T * T;
+    const Quat turned = fromAxisAngle(n.cross(down), way / r);
+    CAPTURE(v, (end.x - r * n - way * down).norm(), turnApart(end.q, turned));
+    CHECK((end.x - r * n - way * down).norm() < 1e-10);
+    CHECK(turnApart(end.q, turned) < 1e-9);
+    CHECK(world.report().certificate.evaluations < 2000);
+  }
+}
+
+// Oracle: the same motion seen in short stretches, in each of which the ball turns little. A ball
+// that slides aside while it spins about two axes curves until it rolls. Measured 8e-16 m,
+// 4e-14 rad.
+TEST_CASE("a ball that spins about other axes than it rolls about turns as in short stretches") {
+  WorldDef def = worldOf("exact", 1.0, {ground(0.0, 0.3), ball("ball", 0.1, {0, 0.1, 0}, 0, 0.3)});
+  def.bodies[1].velocity = {1.0, 0.0, 0.5};
+  def.bodies[1].angularVelocity = {20.0, 30.0, -5.0};
+  World one(def);
+  const BodySample end = run(one).bodies[1];
+  // The rest of the motion begins anew every hundredth of a second.
+  for (int k = 0; k < 100; ++k) {
+    WorldDef part = def;
+    part.duration = 0.01;
+    World world(part);
+    const BodySample next = run(world).bodies[1];
+    def.bodies[1].position = next.x;
+    def.bodies[1].orientation = next.q;
+    def.bodies[1].velocity = next.v;
+    def.bodies[1].angularVelocity = next.omega;
+  }
+  const BodyDef& last = def.bodies[1];
+  CAPTURE((end.x - last.position).norm(), turnApart(end.q, last.orientation));
+  CHECK((end.x - last.position).norm() < 1e-12);
+  CHECK(turnApart(end.q, last.orientation) < 1e-11);
+}
