@@ -108,7 +108,7 @@ constexpr std::size_t kMostDependent = 60;  ///< rows that depend on each other
 
 /// What solveEqualities works with; kept for the sake of its storage, which only grows.
 struct EqualityWork {
-  std::vector<double> A, L, u;
+  std::vector<double> A, L, u, arms;
   std::vector<Vec6> v;
   std::array<LeastSquares, kMostDependent + 1> dependent;  ///< per number of rows
 };
@@ -124,8 +124,9 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
   work.A.resize(rows * rows);
   work.L.resize(rows * rows);
   work.u.resize(rows);
+  work.arms.resize(rows);
   Eigen::Map<MatX> A(work.A.data(), n, n), L(work.L.data(), n, n);
-  Eigen::Map<VecX> u(work.u.data(), n);
+  Eigen::Map<VecX> u(work.u.data(), n), arms(work.arms.data(), n);
   delassus(problem, A, u);
   L = A;
   const Eigen::LLT<Eigen::Ref<MatX>> factor(L);  // in its place
@@ -134,14 +135,22 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
       factor.info() == Eigen::Success && (pivots > kSingular * A.diagonal().array().sqrt()).all();
   if (!regular && rows > kMostDependent) return false;
   LeastSquares* const dependent = regular ? nullptr : &work.dependent[rows];
-  if (dependent) dependent->factor(A);
+  if (dependent) {  // by forces, in whatever units torques are
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double arm = work.arms[i] = rowArm(problem, problem.rows[i]);
+      A.row(i) *= arm;
+      A.col(i) *= arm;
+    }
+    dependent->factor(A);
+  }
 
   found.assign(rows, 0.0);
   Eigen::Map<VecX> lambda(found.data(), n);
   work.v.resize(problem.vStar.size());
   for (int k = 0; k <= kAgain; ++k) {
     if (dependent) {
-      lambda -= dependent->solve(u);
+      u.array() *= arms.array();
+      lambda.array() -= arms.array() * dependent->solve(u).array();
     } else {
       factor.solveInPlace(u);
       lambda -= u;

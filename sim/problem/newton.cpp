@@ -21,6 +21,9 @@ template <int N>
 class Newton {
  public:
   SolveReport solve(const Problem& problem, const SolveSettings& settings, Solution& solution);
+  /// Of the many answers that are as good as the one in `solution` the one that solve() gives.
+  void choose(const Problem& problem, const SolveSettings& settings, SolveReport& report,
+              Solution& solution);
 
  private:
   double accuracy(double residual) const;
@@ -33,6 +36,7 @@ class Newton {
   void keepBetter(SolveReport& report);
   void polish(SolveReport& report);
   void closeBalance(SolveReport& report);
+  void select(SolveReport& report);
 
   void takeLambda(const Problem& problem, Solution& solution, SolveReport& report);
 
@@ -245,6 +249,21 @@ void Newton<N>::closeBalance(SolveReport& report) {
   }
 }
 
+/// Of the many forces that solve the problem those of springs, if they can be had.
+template <int N>
+void Newton<N>::select(SolveReport& report) {
+  if (!(report.residual <= tolerance_) || system_.areOfSprings()) return;
+  remember();
+  const double rho = system_.rho, residual = system_.findSprings(tolerance_);
+  if (residual <= tolerance_) {
+    report.residual = residual;
+    report.balance = system_.balance();
+  } else {
+    system_.goBack(points_, movers_);
+    system_.rho = rho;
+  }
+}
+
 template <int N>
 SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settings,
                              Solution& solution) {
@@ -260,12 +279,32 @@ SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settin
   }
   report.balance = system_.balance();
   if (calm) polish(report);
+  select(report);
   closeBalance(report);
   report.iterations = system_.factorizations;
   system_.write(problem, solution);
   if (!calm || report.balance > kOpen) takeLambda(problem, solution, report);
   if (!(report.residual <= tolerance_)) report.status = SolveStatus::NotConverged;
   return report;
+}
+
+template <int N>
+void Newton<N>::choose(const Problem& problem, const SolveSettings& settings, SolveReport& report,
+                       Solution& solution) {
+  tolerance_ = settings.tolerance;
+  system_.prepare(problem);
+  system_.take(problem, solution);
+  SolveReport chosen = report;
+  select(chosen);
+  closeBalance(chosen);
+  Solution other;
+  system_.write(problem, other);
+  takeLambda(problem, other, chosen);
+  report.iterations += system_.factorizations;
+  if (!(chosen.residual <= std::max(tolerance_, report.residual))) return;
+  report.residual = chosen.residual;
+  report.balance = chosen.balance;
+  std::swap(solution, other);
 }
 
 /// Where v is not what λ gives, momentum would be lost: λ decides, unless that leaves more than the
@@ -317,7 +356,11 @@ SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, S
     solution = {};
     return solveByIslands({"newton", "", solveNewton}, problem, settings, solution);
   }
-  return lastResort(problem, settings, alone, report, solution);
+  report = lastResort(problem, settings, alone, report, solution);
+  if (report.status != SolveStatus::Solved) return report;
+  turns(problem) ? turning.choose(problem, settings, report, solution)
+                 : straight.choose(problem, settings, report, solution);
+  return report;
 }
 
 }  // namespace tumble

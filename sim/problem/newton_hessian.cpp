@@ -144,6 +144,18 @@ template <int N>
   ++factorizations;
 }
 
+/// ∂Π (1 + n mu ûtᵀ), with ût the direction of the slip; or what the law of springs has instead.
+template <int N>
+Mat3 NewtonSystem<N>::liveSlope(const Point& point) const {
+  if (springs_) return slopeOfSpring(point, point.lambda - rho * point.u);
+  const Mat3 slope = slopeOf(point, point.piece, rho, yielding(point));
+  const double slip = std::hypot(point.u[1], point.u[2]);
+  if (point.kind != ConeKind::Friction || !(slip > 0.0)) return slope;
+  Mat3 follows = Mat3::Identity();
+  follows.row(0).template tail<2>() = point.mu / slip * point.u.template tail<2>().transpose();
+  return slope * follows;
+}
+
 /// The Jacobian of the gradient where s = mu |u_t| follows v: M + ρ Jᵀ ∂Π (1 + n mu ûtᵀ) J, with ût
 /// the direction of the slip. Not symmetric.
 template <int N>
@@ -155,14 +167,7 @@ void NewtonSystem<N>::assembleLive() {
     for (int p = patch.begin; p < patch.end; ++p) {
       const Point& point = points[p];
       if (point.piece == Piece::Zero) continue;
-      Mat3 slope = rho * slopeOf(point, point.piece, rho, yielding(point));
-      const double slip = std::hypot(point.u[1], point.u[2]);
-      if (point.kind == ConeKind::Friction && slip > 0.0) {
-        Mat3 follows = Mat3::Identity();
-        follows.row(0).template tail<2>() =
-            point.mu / slip * point.u.template tail<2>().transpose();
-        slope *= follows;
-      }
+      const Mat3 slope = rho * liveSlope(point);
       if (!patch.shares) {
         addAlone(live_, patch, point, slope);
       } else {
@@ -183,6 +188,8 @@ void NewtonSystem<N>::assembleLive() {
 
 template void NewtonSystem<3>::assemble();
 template void NewtonSystem<6>::assemble();
+template Mat3 NewtonSystem<3>::liveSlope(const Point&) const;
+template Mat3 NewtonSystem<6>::liveSlope(const Point&) const;
 template void NewtonSystem<3>::assembleLive();
 template void NewtonSystem<6>::assembleLive();
 

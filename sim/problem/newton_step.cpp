@@ -13,6 +13,10 @@ namespace tumble {
 template <int N>
 void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
   const double mu = point.mu;
+  if (springs_) {
+    point.force = ofSpring(point, z, point.piece);
+    return;
+  }
   switch (point.kind) {
     case ConeKind::Equality:
       point.force = {yielding(point) * z[0], 0.0, 0.0};
@@ -223,16 +227,17 @@ double NewtonSystem<N>::merit() const {
 }
 
 /// Goes as far along the step as makes the gradient smaller, by halves.
+/// @return whether it went the whole step
 template <int N>
-void NewtonSystem<N>::shorten() {
+bool NewtonSystem<N>::shorten() {
   constexpr int kHalves = 12;
   constexpr double kGain = 0.2;
   const double before = merit();
   for (Mover& mover : movers) mover.v += mover.step;
   double alpha = 1.0;
   for (int k = 0;; ++k) {
-    look(true);
-    if (merit() <= (1.0 - kGain * alpha) * before || k == kHalves) return;
+    look(!springs_);
+    if (merit() <= (1.0 - kGain * alpha) * before || k == kHalves) return k == 0;
     alpha *= 0.5;
     for (Mover& mover : movers) mover.v -= alpha * mover.step;
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/problem/cone.h"
+#include "sim/problem/row.h"
 
 namespace tumble {
 
@@ -76,10 +77,7 @@ template <int N>
     const double mobility = split(problem, row.a, Ja, bias) + split(problem, row.b, Jb, bias);
     point.compliance = row.compliance;
     point.mobility = std::max(point.mobility, mobility);
-    if (row.linear.isZero(0.0) && mobility > 0.0) {
-      const double invM = problem.invM[row.a] + problem.invM[row.b];
-      if (invM > 0.0) point.length = std::sqrt(invM / mobility);
-    }
+    point.length = rowArm(problem, row);
     point.J.col(k) = point.length * Ja.head<N>();
     ofB.col(k) = point.length * Jb.head<N>();
     point.bias[k] = point.length * bias;
@@ -203,7 +201,7 @@ void NewtonSystem<N>::prepare(const Problem& problem) {
   addPoints(problem);
   linkBodies();
   scale = velocityScale(problem);
-  factoredRho_ = 0.0;
+  factoredRho_ = pressedRho_ = 0.0;
   factorizations = 0;
   weight = 0.0;
   for (const Mover& mover : movers)
@@ -215,6 +213,7 @@ void NewtonSystem<N>::prepare(const Problem& problem) {
 template <int N>
 void NewtonSystem<N>::nextStage(double slipPart) {
   for (Point& point : points) {
+    point.sum -= rho * point.u;
     point.lambda = point.force;
     if (point.kind == ConeKind::Slide) point.lambda[1] = -point.mu * point.force[0];
   }
@@ -266,6 +265,7 @@ void NewtonSystem<N>::restart(const Solution& start) {
   }
   for (Point& point : points) {
     point.lambda.setZero();
+    point.sum.setZero();
     point.mu = point.muTrue;
   }
   guess_ = true;

@@ -26,7 +26,7 @@ class NewtonSystem {
   /// A cone.
   struct Point {
     ConeKind kind = ConeKind::Push;
-    Piece piece = Piece::Zero, factored = Piece::Zero;
+    Piece piece = Piece::Zero, factored = Piece::Zero, pressed = Piece::Zero;
     int rows = 1;
     double mu = 0.0;
     double muTrue = 0.0;  ///< what mu is but in narrowed cones
@@ -38,6 +38,8 @@ class NewtonSystem {
     Vec3 bias = Vec3::Zero(), lambda = Vec3::Zero();  ///< λ of the last stage
     Vec3 u = Vec3::Zero(), du = Vec3::Zero();         ///< without what compliance adds
     Vec3 force = Vec3::Zero();                        ///< Π_K(λ − ρ(u + s))
+    Vec3 sum = Vec3::Zero();                          ///< −Σ ρ u of the stages that are over
+    double slip = 0.0;  ///< [m/s] of the stage before, under the law of springs
   };
 
   /// Body that moves.
@@ -68,6 +70,15 @@ class NewtonSystem {
   /// One stage more by the last factor alone, forces on the pieces that it was made for. False
   /// where there is no factor for this ρ.
   bool stageMore();
+
+  // newton_springs.cpp: of many λ, those of springs; see solveNewton.
+  /// Whether the forces are those of springs, under whatever motion.
+  bool areOfSprings() const;
+  /// v, and forces as they are in `answer`.
+  void take(const Problem& problem, const Solution& answer);
+  /// Looks for the forces of springs, at first near those of now. @return the residual
+  double findSprings(double tolerance);
+
   /// Friction cones narrower than they are, until `widen`: forces that stick come to lie inside the
   /// true ones wherever others can take what that leaves, and none on the edge between two pieces.
   void narrow();
@@ -119,6 +130,7 @@ class NewtonSystem {
   void guessPieces();
   void assemble();
   void assembleLive();
+  Mat3 liveSlope(const Point& point) const;
   template <class Factor>
   void addAlone(Factor& factor, const Patch& patch, const Point& point, const Mat3& slope);
 
@@ -136,7 +148,19 @@ class NewtonSystem {
   bool searchLine();
   bool factorFits() const;
   double merit() const;
-  void shorten();
+  bool shorten();
+
+  // newton_springs.cpp
+  Vec3 ofSpring(const Point& point, const Vec3& z, Piece& piece) const;
+  Mat3 slopeOfSpring(const Point& point, const Vec3& z) const;
+  void loosen();
+  void startFromNow();
+  bool climb();
+  bool press(int most);
+  double pressOn(double tolerance, int most);
+  void nextPress();
+  void assemblePressed();
+  bool springsFit() const;
 
   /// Gives `take` each point with Jᵀ of the twists of its bodies.
   template <class Take>
@@ -187,9 +211,10 @@ class NewtonSystem {
   BlockCholesky<N> H_;
   BlockLU<N> live_;
   std::vector<Twist> work_;
-  double factoredRho_ = 0.0;
+  double factoredRho_ = 0.0, pressedRho_ = 0.0;
   bool guess_ = false;  ///< the first step of all goes by what contacts are expected to do
   bool rubs_ = false;
+  bool springs_ = false;  ///< the law of springs takes the place of Π_K
 };
 
 }  // namespace tumble

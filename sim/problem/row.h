@@ -22,6 +22,16 @@ inline double rowMobility(const Problem& problem, const Row& row) {
          row.angularB.dot(problem.Iinv[row.b] * row.angularB) + row.compliance;
 }
 
+/// Arm [m] at which a row that only turns bodies counts as a force does, √(1/(m w)) with w what its
+/// λ turns and 1/m = 1/ma + 1/mb: λ over it is a force [N]. 1 for any other row.
+inline double rowArm(const Problem& problem, const Row& row) {
+  if (!row.linear.isZero(0.0)) return 1.0;
+  const double invM = problem.invM[row.a] + problem.invM[row.b];
+  const double turned = row.angularA.dot(problem.Iinv[row.a] * row.angularA) +
+                        row.angularB.dot(problem.Iinv[row.b] * row.angularB);
+  return invM > 0.0 && turned > 0.0 ? std::sqrt(invM / turned) : 1.0;
+}
+
 /// Sum of the sizes of all terms of J v + bias of one row.
 inline double termsOf(const Row& row, std::span<const Vec6> v) {
   const Vec6 a = v[row.a].cwiseAbs(), b = v[row.b].cwiseAbs();

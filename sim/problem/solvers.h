@@ -27,6 +27,18 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
 /// Feng 1998; Rockafellar 1976; Acary, Brémond & Huber 2018). ρ is one for the whole problem. It
 /// starts from λ = 0 whatever the solution holds, and from solution.v if that is of the right
 /// length.
+///
+/// Which forces, where several solve the problem: those of contact points, and rows of joints, of
+/// one compliance ε in all directions, without a load at first, in the limit ε → 0, where there is
+/// one. Each cone obeys its law with u + ε λ in place of u:
+///   λn = max(0, −un/ε),   λt = −ut/ε, cut to the length mu λn;   λ = −u/ε of an equality.
+/// So λ = −J δ with one small motion δ of all bodies: under a face that sticks or slides the
+/// pressure is linear in place; of equalities, and of what sticks well inside its cones, Σ λ² is
+/// the least that balances; a fit between two walls that nothing presses together does not hold. It
+/// depends on no order, frame or history. A row that turns bodies and does not move them counts as
+/// at an arm of √(1/(m w)), with w its mobility and 1/m = 1/ma + 1/mb. Forces of one stage after
+/// the other stay of this kind until one of them changes its piece; then they are looked for anew
+/// (newton_springs.cpp). Where they are not found the first answer stands.
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution);
 
 }  // namespace tumble
