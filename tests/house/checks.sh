@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# What continuous integration sees beside the quick tests, step by step: each prints its name, its time
+# and its verdict; the last line counts them. Needs the build of ./run tests in build/release.
+# usage: checks.sh [STEP…]   all of them, or those named
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+release=build/release
+root=build/checks
+clang=$root/clang
+sanitized=$root/sanitized
+jobs=$(nproc)
+mkdir -p "$root"
+export LSAN_OPTIONS=suppressions=$PWD/tests/house/leaks.supp:print_suppressions=0
+
+# Everything by clang, as a reader of its warnings and as a second opinion on bits; with fuzzers.
+warnings() {
+  cmake -G Ninja -S . -B "$clang" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" \
+    -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DTUMBLE_FUZZ=ON &&
+    cmake --build "$clang" --target tumble scene_fuzz mesh_fuzz
+}
+
+bits() {
+  tests/house/bits.sh "$root/bits" "$release/tumble" "$clang/tumble"
+}
+
+# fuzz NAME CORPUS options…: a minute of it.
+fuzz() {
+  local found=$root/found-$1
+  mkdir -p "$found"
+  "$clang/tests/fuzz/$1_fuzz" -max_total_time=60 -timeout=20 -rss_limit_mb=2048 -max_len=8192 \
+    -print_final_stats=1 "${@:3}" -artifact_prefix="$found/" "$found" "$2"
+}
+fuzz_scenes() { fuzz scene tests/fuzz/corpus -dict=tests/fuzz/scene.dict; }
+fuzz_meshes() { fuzz mesh assets/meshes; }
+
+# The physics by clang with address and undefined-behaviour checks, each file alone with its own
+# includes. The readers are under the same checks in the fuzzers.
+sanitized_rooms=(math ode shape body flight collide problem contact joint method world)
+sanitized_build() {
+  cmake -G Ninja -S . -B "$sanitized" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -gline-tables-only" \
+    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror -fsanitize=address,undefined -fno-sanitize-recover=undefined" \
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DTUMBLE_RENDER=OFF -DTUMBLE_APP=OFF &&
+    cmake --build "$sanitized" --target "${sanitized_rooms[@]/#/test_}"
+}
+sanitized_run() {
+  local rooms dear
+  rooms=$(IFS='|' && echo "${sanitized_rooms[*]}")
+  # What takes a second without the checks.
+  dear='random contacts: every solver|double pendulum is|physical pendulum keeps|closed loops of joints'
+  dear+='|momentum changes only|remembers planes moves|pushed, at the speeds|where jams at several'
+  dear+='|a chain with a load of up to|two cylinders are not deeper|shows two bodies apart'
+  dear+='|sampling errors fall|every consistent LCP'
+  ctest --test-dir "$sanitized" --output-on-failure --parallel "$jobs" --timeout 300 \
+    --label-regex '^quick$' --tests-regex "^($rooms): " --exclude-regex "$dear"
+}
+
+# References in many digits, which the quick tests do without.
+oracle() {
+  cmake --build "$release" --target test_oracle && "$release/tests/test_oracle" "~[long]"
+}
+
+# Random scenes under the audit: the cases tagged [soak], wherever they are.
+soak() {
+  local program cases=0 status=0
+  for program in "$release"/tests/test_*; do
+    [[ -x $program && -f $program ]] || continue
+    [[ -n $("$program" '[soak]' --list-test-names-only) ]] || continue
+    cases=$((cases + 1))
+    "$program" '[soak]' || status=1
+  done
+  if ((cases == 0)); then
+    echo "no case is tagged [soak]"
+    return 77
+  fi
+  return $status
+}
+
+egl_goldens() {
+  TUMBLE_GL=egl "$release/tumble" golden -o "$root/golden"
+}
+
+passed=0 failed=0
+# step NAME FUNCTION: runs it and tells how it went; 77 is a step that has nothing to do.
+step() {
+  local log=$root/$2.log start=$SECONDS code=0 verdict=passed cpu
+  "$2" >"$log" 2>&1 &
+  wait $! || code=$?
+  case $code in
+    0) passed=$((passed + 1)) ;;
+    77) verdict="skipped: $(tail -n 1 "$log")" ;;
+    *)
+      verdict="FAILED ($code), see $log"
+      failed=$((failed + 1))
+      ;;
+  esac
+  # The CPU time of all ended children so far, of which this step had the rest.
+  times >"$root/times"
+  cpu=$(awk -F'[ms ]' 'NR == 2 { print int($1 * 60 + $2 + $4 * 60 + $5) }' "$root/times")
+  printf '%-58s %5d s %6d CPU s  %s\n' "$1" $((SECONDS - start)) $((cpu - spent)) "$verdict"
+  spent=$cpu
+  if [[ $verdict == FAILED* ]]; then tail -n 40 "$log"; fi
+}
+spent=0
+
+steps=(
+  "warnings:clang builds program and fuzzers without a warning"
+  "bits:clang's program writes the same bytes for every demo"
+  "fuzz_scenes:scene files survive a minute of fuzzing"
+  "fuzz_meshes:mesh files survive a minute of fuzzing"
+  "sanitized_build:each file alone, with sanitizers, without a warning"
+  "sanitized_run:quick tests of physics under sanitizers"
+  "oracle:references in many digits"
+  "soak:random scenes under the audit"
+  "egl_goldens:goldens by EGL"
+)
+for entry in "${steps[@]}"; do
+  name=${entry%%:*}
+  if (($# == 0)) || [[ " $* " == *" $name "* ]]; then step "${entry#*:}" "$name"; fi
+done
+echo "$passed passed, $failed failed"
+((failed == 0))
