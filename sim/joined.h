@@ -1,4 +1,4 @@
-// Chapter 10: the joints that a world begins with.
+// Chapter 11: the joints that a world begins with.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Chapter 10: what bodies may stand beside each other when a world begins.
+// Chapter 11: what bodies may stand beside each other when a world begins.
 #pragma once
 
 #include <span>

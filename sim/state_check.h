@@ -1,4 +1,4 @@
-// Chapter 10: whether a state is legal – its positions, its velocities, its accelerations.
+// Chapter 11: whether a state is legal – its positions, its velocities, its accelerations.
 #pragma once
 
 #include <span>

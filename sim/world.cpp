@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "sim/audit/audit.h"
 #include "sim/collide/overlap.h"
 #include "sim/contact/impact.h"
 #include "sim/joined.h"
@@ -201,6 +202,7 @@ struct World::Parts {
   State state;
   Report report;
   const Method* method = nullptr;
+  std::optional<Audit> audit;
   double lastAdvance = 0.0;
   std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
   std::vector<Contact> seenContacts;
@@ -257,6 +259,7 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   books.energy_start =
       kineticEnergy(state.bodies) + potentialEnergy(def.gravity, def.forces, state.bodies);
   account(model, state, parts_->report);
+  parts_->audit.emplace(model, state.bodies);
 }
 
 World::~World() = default;
@@ -268,6 +271,8 @@ void World::advance(double t) {
   trimTrail(parts_->state, parts_->lastAdvance);
   parts_->method->advance(parts_->model, parts_->state, end, parts_->report);
   parts_->lastAdvance = end;
+  parts_->audit->follow(parts_->state);
+  parts_->audit->report(parts_->state, parts_->report);
 }
 
 namespace {

@@ -1,4 +1,4 @@
-// Chapter 10: a World owns Model, State and Report and lets the chosen method advance them.
+// Chapter 11: a World owns Model, State and Report and lets the chosen method advance them.
 #pragma once
 
 #include <memory>

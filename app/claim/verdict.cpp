@@ -15,6 +15,9 @@ Verdict judge(const Scene& scene, const Recording& recording) {
         if (row.silent) row.label = name + " says nothing here: " + row.label;
         verdict.rows.push_back(std::move(row));
       }
+  for (const Disagreement& d : recording.report.disagreements)
+    verdict.rows.push_back(
+        {"audit: " + std::string(d.what), d.found, d.stated, d.found - d.stated, d.allowed});
   for (const ClaimRow& row : verdict.rows) {
     if (!row.holds()) ++verdict.failed;
     double share = row.error / row.allowed;

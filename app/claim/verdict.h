@@ -15,7 +15,7 @@ struct Verdict {
   double worstShare = 0.0;  ///< its error / allowed
 };
 
-/// All rows of all checks that the scene names.
+/// All rows of all checks that the scene names, and one for each disagreement of the audit.
 Verdict judge(const Scene& scene, const Recording& recording);
 
 /// @throws SceneError if the scene names a check that the table does not have.

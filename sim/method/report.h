@@ -46,6 +46,16 @@ struct Certificate {
   /// max Σ|P|. Of a scene at rest, with less than a millionth of that: by the ½ Σ (F t)²/m and the
   /// Σ |F| t that its loads F would give it if nothing held it.
   double energy_balance_error = 0.0, momentum_error = 0.0;
+
+  // What `audit/` finds from recorded states alone, beside what is told above.
+  long audited_steps = 0;           ///< parts between two recorded states
+  long audit_untold_steps = 0;      ///< of these, ones of which states do not tell the energy
+  double audit_energy_gain = 0.0;   ///< [J] largest rise of energy beyond the work of loads
+  double audit_energy_error = 0.0;  ///< as energy_balance_error, with that work; 0 if untold
+  double audit_momentum_error = 0.0, audit_spin_error = 0.0;  ///< relative, of what nothing holds
+  double audit_max_penetration = 0.0;                         ///< [m] at the end of any part
+  double audit_penetration_between = 0.0;                     ///< [m] in the midst of any part
+  double audit_joint_gap = 0.0;                               ///< [m]
 };
 
 /// A number of the certificate and its key in summary.json and in tables.
@@ -73,6 +83,15 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"work_of_forces", &Certificate::work_of_forces},
     {"energy_balance_error", &Certificate::energy_balance_error},
     {"momentum_error", &Certificate::momentum_error},
+    {"audited_steps", &Certificate::audited_steps},
+    {"audit_untold_steps", &Certificate::audit_untold_steps},
+    {"audit_energy_gain", &Certificate::audit_energy_gain},
+    {"audit_energy_error", &Certificate::audit_energy_error},
+    {"audit_momentum_error", &Certificate::audit_momentum_error},
+    {"audit_spin_error", &Certificate::audit_spin_error},
+    {"audit_max_penetration", &Certificate::audit_max_penetration},
+    {"audit_penetration_between", &Certificate::audit_penetration_between},
+    {"audit_joint_gap", &Certificate::audit_joint_gap},
 };
 static_assert(sizeof(Certificate) == sizeof(double) * std::size(kCertificateFields),
               "every number of the certificate has its key");
@@ -90,14 +109,21 @@ struct Misstep {
 
 inline constexpr std::size_t kMostMissteps = 100;
 
+/// Where the audit finds more than the certificate says and a stated share allows.
+struct Disagreement {
+  const char* what;  ///< and its unit
+  double found = 0.0, stated = 0.0, allowed = 0.0;
+};
+
 /// What a method leaves behind: certificate, events in order of time, and why it stopped if it did.
 struct Report {
   Certificate certificate;
   std::vector<Event> events;
-  std::vector<Misstep> missteps;   ///< the first kMostMissteps
-  bool stopped = false;            ///< the physics could not go on
-  std::string reason;              ///< one sentence: what, where, when
-  std::vector<std::string> notes;  ///< approximations that were taken, once each
+  std::vector<Misstep> missteps;            ///< the first kMostMissteps
+  bool stopped = false;                     ///< the physics could not go on
+  std::string reason;                       ///< one sentence: what, where, when
+  std::vector<std::string> notes;           ///< approximations that were taken, once each
+  std::vector<Disagreement> disagreements;  ///< of audit and certificate, at the end of a run
 
   /// Adds a note unless it is there.
   void note(const char* text);

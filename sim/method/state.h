@@ -27,7 +27,7 @@ namespace tumble {
 struct Segment {
   double t0 = 0.0, t1 = 0.0;     ///< [s]
   std::vector<RigidBody> start;  ///< the bodies at t0, after the events of t0
-  std::vector<RigidBody> end;  ///< the bodies at t1, before its events; only if the method needs it
+  std::vector<RigidBody> end;    ///< the bodies at t1, before its events
   std::vector<Contact>
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
   std::vector<Limit> limits = {};       ///< of joints, that hold

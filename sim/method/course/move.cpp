@@ -159,6 +159,7 @@ void Course::commit(double t1) {
     report_.note("some resting forces were left unsolved; max_complementarity has the worst");
   state_.externalImpulse += ledger.impulse;
   state_.trail.back().t1 = t1;
+  state_.trail.back().end = state_.bodies;
   state_.t = t1;
   ++books.steps;
   books.evaluations += system_.evaluations() - counted_;

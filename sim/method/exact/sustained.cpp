@@ -308,8 +308,11 @@ void Sustained::commit(double h) {
   const SustainedSystem::Books done = system_.books(y_);
   const double t1 = h < model_.def.duration - state_.t ? state_.t + h : model_.def.duration;
   if (t1 > state_.t)
-    state_.trail.push_back(
-        {.t0 = state_.t, .t1 = t1, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
+    state_.trail.push_back({.t0 = state_.t,
+                            .t1 = t1,
+                            .start = state_.bodies,
+                            .end = trial_,
+                            .contacts = state_.lasting});
   state_.bodies = trial_;
   state_.lasting = system_.contacts();
   for (const Near& pair : near_)

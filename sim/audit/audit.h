@@ -1,0 +1,127 @@
+// Chapter 10, audit: holds a run to what its recorded states alone tell. It takes x, q, P and L at
+// the ends of every part of a step, nothing that a method derived from them or wrote in its books,
+// and shares with the methods only the definitions of shapes, forces and joints.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sim/audit/joint_gap.h"
+#include "sim/audit/loads.h"
+#include "sim/audit/nearness.h"
+#include "sim/method/report.h"
+#include "sim/method/state.h"
+
+namespace tumble {
+
+/// For every part, of each group of bodies that touch, are joined or pull each other:
+///   energy      what Δ(T + V) exceeds the work of loads and of fixed bodies by: contacts and
+///               joints only take. Summed up for bodies that ever met; its largest rise is told.
+///   momentum    ΔP − ∫F dt, and about the centre of mass ΔL − ∫τ dt, of groups that no fixed body
+///               and no joint to the world touches
+/// and of all bodies overlap and gaps of joints at the end of every part, overlap in its midst too.
+/// ∫ along the ways of `BodyPath` by three Gauss nodes: error h⁴. Work of fixed bodies, while all
+/// that touch a group move as one: what they must have pushed, times how they moved.
+class Audit {
+ public:
+  Audit(const Model& model, std::span<const RigidBody> start);
+
+  /// Goes through what a method has recorded since it was last asked.
+  void follow(const State& state);
+
+  /// Writes the figures into the certificate; at the end of a run, where the two differ.
+  void report(const State& state, Report& report) const;
+
+  /// The next recorded state of all bodies, at t [s]. What lies between may be one part of a step,
+  /// or many: then loads along the way are known only if they are the same all the way.
+  void see(double t, std::span<const RigidBody> bodies, bool many = false);
+
+ private:
+  /// Bodies that may have pushed each other in a part.
+  struct Group {
+    int count = 0, fixed = kNoBody;  ///< bodies; one that touches them and does not move freely
+    bool held = false;               ///< by a fixed body, a joint to one or to the world
+    bool unlike = false;             ///< by several that move unlike
+    bool springy = false;            ///< contacts in it are springs
+    bool lost = false;               ///< loads along the way are unknown
+    double mass = 0.0, gain = 0.0;   ///< [kg], [J] Δ(T + V) − work of loads
+    Vec3 P = Vec3::Zero(), L = Vec3::Zero();  ///< [N s], [N m s] not explained by loads
+    Vec3 X0 = Vec3::Zero(), X1 = Vec3::Zero(), P0 = Vec3::Zero(), P1 = Vec3::Zero();
+  };
+  /// What bodies that ever met have gained.
+  struct Family {
+    double own = 0.0, low = 0.0;  ///< [J] and the least that it ever was
+  };
+
+  // reading.cpp: what methods record.
+  void followSteps(const State& state);
+  void followFlights(const State& state);
+  void bodiesInFlight(const State& state, double t, bool before, std::vector<RigidBody>& out) const;
+
+  void addWays();
+
+  // balance.cpp
+  void group(const std::vector<Nearness::Pair>& touched);
+  void join(int a, int b);
+  void holdBy(int body, int fixed);
+  void addLoads();
+  void addStates();
+  void addTurns();
+  double workOfFixed(int root) const;
+  void settle();
+  void book(int root, double given);
+  int rootOf(int body);
+  int familyOf(int body);
+  void meet(int a, int b);
+
+  void findDisagreements(Report& report) const;
+  bool moves(int body) const { return !bodies_[body].fixed(); }
+  double potentialOf(int body, std::span<const Recorded> states) const;
+  RigidBody fixedAt(int body, double t) const;
+  bool still(int body) const {
+    return bodies_[body].v.isZero(0.0) && bodies_[body].omega.isZero(0.0);
+  }
+  void addMotions();
+  double sameWorkOf(int body) const;
+  double relative(double open, double has, double wouldHave) const;
+
+  const Model& model_;
+  std::vector<RigidBody> bodies_;  ///< what is constant of them, and where fixed ones began
+  Nearness nearness_;
+  std::vector<Bond> bonds_;
+  double t_ = 0.0, h_ = 0.0;  ///< [s] of the last state, and since the one before it
+  bool many_ = false;         ///< more than one part since then
+  bool winds_ = true;         ///< no loads but winds
+  bool stored_ = true;        ///< no loads but ones that give back what they take
+  bool quiet_ = false;        ///< if nothing changes from here on, nothing is wrong
+  std::vector<Recorded> last_, now_;
+  std::vector<double> net_, way_, reach_;  ///< [m] see Nearness
+  double soon_ = 0.0;                      ///< [s] until all bodies are looked at again, about
+  std::vector<int> root_, family_;         ///< forests of groups, and of families
+  std::vector<Group> groups_;              ///< by root
+  std::vector<Family> families_;           ///< by root
+  std::vector<Vec3> driftP_, driftL_;      ///< per body: its share of what loads do not explain
+  std::vector<double> energyLast_, energyNow_;  ///< [J] T + V per body
+  std::vector<Vec3> sumP_, sumL_;               ///< of drifts, by root
+  std::vector<Vec3> impulse_, moment_;          ///< [N s], [N m s] of loads in this part
+  std::vector<double> work_;                    ///< [J] of loads in this part
+  Loads loads_;
+  std::vector<PathPoint> points_;
+  std::vector<RigidBody> scratch_;
+
+  long seen_ = 0, untold_ = 0, parts_ = 0;
+  bool coarse_ = false;  ///< any two bodies may have met between two looks
+  bool broken_ = false;  ///< the motion left the range of numbers
+  double energyStart_ = 0.0, workDone_ = 0.0, gain_ = 0.0;
+  double kineticMax_ = 0.0, momentumMax_ = 0.0, spinMax_ = 0.0, driftMaxP_ = 0.0, driftMaxL_ = 0.0;
+  double load_ = 0.0, loadPower_ = 0.0, size_ = 0.0, jointGap_ = 0.0;
+
+  // Of reading flights.
+  std::vector<long> flightsSeen_;
+  long looks_ = 0;
+  double followed_ = 0.0;  ///< [s] end of the last part
+  bool handedOver_ = false;
+};
+
+}  // namespace tumble

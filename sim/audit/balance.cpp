@@ -1,0 +1,262 @@
+// Energy and momentum of the bodies that may have pushed each other in one part of a step.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/audit/audit.h"
+#include "sim/math/rotation.h"
+
+namespace tumble {
+namespace {
+
+/// What counts as spin at least, of momentum times size: less is rounding.
+constexpr double kLever = 1e-3;
+
+/// Finds the root of a forest, and shortens the way to it.
+int rootIn(std::vector<int>& forest, int i) {
+  while (forest[i] != i) i = forest[i] = forest[forest[i]];
+  return i;
+}
+
+}  // namespace
+
+int Audit::rootOf(int body) {
+  return rootIn(root_, body);
+}
+
+int Audit::familyOf(int body) {
+  return rootIn(family_, body);
+}
+
+void Audit::join(int a, int b) {
+  root_[std::max(rootOf(a), rootOf(b))] = std::min(rootOf(a), rootOf(b));
+  meet(a, b);
+}
+
+/// Two families become one, with the gains of both.
+void Audit::meet(int a, int b) {
+  const int p = std::min(familyOf(a), familyOf(b)), q = std::max(familyOf(a), familyOf(b));
+  if (p == q) return;
+  family_[q] = p;
+  families_[p].own += families_[q].own;
+  families_[p].low += families_[q].low;
+}
+
+void Audit::holdBy(int body, int fixed) {
+  Group& g = groups_[rootOf(body)];
+  const auto stays = [&](int f) { return f == kNoBody || still(f); };
+  if (g.held && g.fixed != fixed && !(stays(g.fixed) && stays(fixed))) g.unlike = true;
+  g.held = true;
+  g.fixed = fixed;
+}
+
+void Audit::group(const std::vector<Nearness::Pair>& touched) {
+  for (std::size_t i = 0; i < root_.size(); ++i) root_[i] = static_cast<int>(i);
+  for (const auto& [b, a] : touched)
+    if (moves(a) && moves(b)) join(a, b);
+  for (int i = 1; coarse_ && i < model_.count(); ++i)
+    if (moves(i - 1) && moves(i)) join(i - 1, i);
+  const auto free = [&](int body) { return body != kNoBody && moves(body); };
+  for (const Bond& bond : bonds_)
+    if (free(bond.a) && free(bond.b)) join(bond.a, bond.b);
+  for (const Force& force : model_.def.forces)
+    if (const Spring* spring = std::get_if<Spring>(&force))
+      if (free(spring->a) && free(spring->b)) join(spring->a, spring->b);
+
+  groups_.assign(root_.size(), Group{});
+  const bool springs = model_.runs == "course" && model_.def.course.contact == "penalty";
+  for (const auto& [b, a] : touched) {
+    if (moves(a) != moves(b)) holdBy(moves(a) ? a : b, moves(a) ? b : a);
+    groups_[rootOf(moves(a) ? a : b)].springy = springs;
+  }
+  for (const int i : model_.solid)
+    if (coarse_ && !moves(i)) {
+      for (std::size_t k = 0; k < bodies_.size(); ++k)
+        if (moves(k)) holdBy(k, i);
+    }
+  for (const Bond& bond : bonds_)
+    if (free(bond.a) != free(bond.b))
+      holdBy(free(bond.a) ? bond.a : bond.b, free(bond.a) ? bond.b : bond.a);
+}
+
+RigidBody Audit::fixedAt(int body, double t) const {
+  RigidBody fixed = bodies_[body];
+  fixed.x += t * fixed.v;
+  if (!fixed.omega.isZero(0.0)) fixed.q = rotated(fixed.q, t * fixed.omega);
+  return fixed;
+}
+
+/// Work [J] of the loads on a body that are the same all the way: winds and point forces.
+double Audit::sameWorkOf(int i) const {
+  double sum = 0.0;
+  for (const Force& force : model_.def.forces) {
+    const auto* wind = std::get_if<UniformWind>(&force);
+    const auto* point = std::get_if<PointForce>(&force);
+    if (wind && (wind->body == kNoBody || wind->body == i))
+      sum += wind->force.dot(now_[i].x - last_[i].x);
+    if (point && point->body == i)
+      sum += point->force.dot(now_[i].x + now_[i].q * point->point_B - last_[i].x -
+                              last_[i].q * point->point_B);
+  }
+  return sum;
+}
+
+/// ∫F dt, ∫τ dt and work of the loads, by three Gauss nodes.
+void Audit::addLoads() {
+  constexpr double kNode = 0.1127016653792583, kEnds = 5.0 / 18.0, kMiddle = 8.0 / 18.0;
+  const std::size_t n = bodies_.size();
+  impulse_.assign(n, Vec3::Zero());
+  moment_.assign(n, Vec3::Zero());
+  work_.assign(n, 0.0);
+  if (model_.def.forces.empty() || h_ == 0.0) return;
+  if (many_ && !winds_) {
+    for (std::size_t i = 0; i < n; ++i)
+      if (moves(i)) work_[i] = sameWorkOf(i);
+    return;
+  }
+  std::vector<BodyPath> paths;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int body = static_cast<int>(i);
+    paths.push_back(moves(body) ? BodyPath(bodies_[i], last_[i], now_[i], h_)
+                                : BodyPath(fixedAt(body, t_ - h_), h_));
+    if (!winds_ && moves(body) && paths.back().lost()) groups_[rootOf(body)].lost = true;
+  }
+  points_.resize(n);
+  for (const auto& [share, weight] :
+       {std::pair(kNode, kEnds), {0.5, kMiddle}, {1.0 - kNode, kEnds}}) {
+    for (std::size_t i = 0; i < n; ++i) points_[i] = paths[i].at(share);
+    loads_.sum(model_.def.forces, bodies_, points_);
+    // Torques count about the centre of mass of a group.
+    std::vector<Vec3> centre(n, Vec3::Zero());
+    for (std::size_t i = 0; i < n; ++i)
+      if (moves(i)) centre[rootOf(i)] += bodies_[i].M / groups_[rootOf(i)].mass * points_[i].x;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!moves(i)) continue;
+      const Vec3 arm = points_[i].x - centre[rootOf(i)];
+      impulse_[i] += h_ * weight * loads_.force[i];
+      if (!bodies_[i].particle) moment_[i] += h_ * weight * loads_.torque[i];
+      if (groups_[rootOf(i)].count > 1)
+        groups_[rootOf(i)].L -= h_ * weight * arm.cross(loads_.force[i]);
+      work_[i] += h_ * weight * loads_.power[i];
+    }
+  }
+}
+
+double Audit::potentialOf(int i, std::span<const Recorded> states) const {
+  double sum = -bodies_[i].M * model_.def.gravity.dot(states[i].x);
+  for (const Force& force : model_.def.forces) sum += storedIn(force, bodies_, states, i);
+  return sum;
+}
+
+/// T + V of each body, and what the scene has at most.
+void Audit::addMotions() {
+  double kinetic = 0.0, momentum = 0.0, spin = 0.0;
+  energyNow_.assign(bodies_.size(), 0.0);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves(i)) continue;
+    const Recorded& r = now_[i];
+    const double T = kineticOf(bodies_[i], r);
+    energyNow_[i] = T + potentialOf(i, now_);
+    const double P = r.P.norm();
+    kinetic += T;
+    momentum += P;
+    spin += r.L.norm() + kLever * nearness_.radius(i) * P;
+  }
+  kineticMax_ = std::max(kineticMax_, kinetic);
+  momentumMax_ = std::max(momentumMax_, momentum);
+  spinMax_ = std::max(spinMax_, spin);
+}
+
+/// What changed between the two ends, less what loads explain.
+void Audit::addStates() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves(i)) continue;
+    Group& g = groups_[rootOf(i)];
+    g.gain += energyNow_[i] - energyLast_[i] - work_[i];
+    g.P += now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
+    g.L += now_[i].L - last_[i].L - moment_[i];
+  }
+}
+
+/// Angular momentum about the centre of mass of a group that the centres of its bodies have.
+void Audit::addTurns() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Group& g = groups_[rootOf(i)];
+    if (!moves(i) || g.count < 2 || g.held) continue;
+    g.X0 += bodies_[i].M / g.mass * last_[i].x;
+    g.X1 += bodies_[i].M / g.mass * now_[i].x;
+    g.P0 += last_[i].P / g.mass;
+    g.P1 += now_[i].P / g.mass;
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Group& g = groups_[rootOf(i)];
+    if (!moves(i) || g.count < 2 || g.held) continue;
+    g.L += (now_[i].x - g.X1).cross(now_[i].P - bodies_[i].M * g.P1) -
+           (last_[i].x - g.X0).cross(last_[i].P - bodies_[i].M * g.P0);
+  }
+}
+
+/// What a fixed body that moves gives the group it touches: the momentum that nothing else gave, in
+/// its frame.
+double Audit::workOfFixed(int root) const {
+  const Group& g = groups_[root];
+  const RigidBody fixed = fixedAt(g.fixed, t_ - 0.5 * h_);
+  double work = g.P.dot(fixed.v);
+  if (fixed.omega.isZero(0.0)) return work;
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    int r = static_cast<int>(i);
+    while (root_[r] != r) r = root_[r];
+    if (!moves(i) || r != root) continue;
+    const RigidBody& body = bodies_[i];
+    const Recorded &p = last_[i], &q = now_[i];
+    const Vec3 mean = 0.5 * (p.x + q.x) + h_ / 12.0 * body.invM * (p.P - q.P);
+    moment += q.L - p.L - moment_[i] + (q.x - fixed.x).cross(q.P) - (p.x - fixed.x).cross(p.P) -
+              (mean - fixed.x).cross(h_ * body.M * model_.def.gravity + impulse_[i]);
+  }
+  return work + moment.dot(fixed.omega);
+}
+
+/// Books what each group gained and what of its momentum is unexplained.
+void Audit::settle() {
+  bool told = true;
+  quiet_ = true;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves(i)) continue;
+    const int root = rootOf(i);
+    const Group& g = groups_[root];
+    const bool led = g.fixed != kNoBody && !still(g.fixed);
+    bool known = !g.lost && !g.unlike && !g.springy;
+    if (many_) known = known && stored_ && (winds_ || !led);
+    quiet_ = quiet_ && g.held && !led && known;
+    if (known) workDone_ += work_[i];
+    if (static_cast<int>(i) == root) {
+      told = told && known;
+      if (known) book(root, led ? workOfFixed(root) : 0.0);
+    }
+    if (g.held || g.lost || (many_ && !winds_)) continue;
+    driftP_[i] += bodies_[i].M / g.mass * g.P;
+    driftL_[i] += bodies_[i].M / g.mass * g.L;
+  }
+  if (!told) ++untold_;
+
+  // Of a group as it is now, with what its bodies brought along.
+  sumP_.assign(bodies_.size(), Vec3::Zero());
+  sumL_.assign(bodies_.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (moves(i)) sumP_[rootOf(i)] += driftP_[i], sumL_[rootOf(i)] += driftL_[i];
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    driftMaxP_ = std::max(driftMaxP_, sumP_[i].norm());
+    driftMaxL_ = std::max(driftMaxL_, sumL_[i].norm());
+  }
+}
+
+/// What a group gained beyond what a fixed body gave it.
+void Audit::book(int root, double given) {
+  Family& family = families_[familyOf(root)];
+  family.own += groups_[root].gain - given;
+  family.low = std::min(family.low, family.own);
+  gain_ = std::max(gain_, family.own - family.low);
+  workDone_ += given;
+}
+
+}  // namespace tumble

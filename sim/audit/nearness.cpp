@@ -1,0 +1,153 @@
+#include "sim/audit/nearness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Nearer than this, of the size of the smaller body, two bodies may push each other.
+constexpr double kTouch = 1e-6;
+/// Pairs that went less far in a part than this, of that size, are not looked at in its midst.
+constexpr double kMidst = 1e-4;
+/// How far a body that rests may go, in its size, before all are looked at again.
+constexpr double kRest = 1e-3;
+/// Boxes are at least this much larger than their bodies, of the smallest, so that they hold long.
+constexpr double kSpare = 0.1;
+/// Rounding of a gap, of that size.
+constexpr double kRounding = 1e-12;
+
+Pose poseOf(const Recorded& r) {
+  return {r.x, r.q};
+}
+
+}  // namespace
+
+Nearness::Nearness(const Model& model, std::span<const RigidBody> bodies)
+    : model_(model), bodies_(bodies) {
+  for (int i = 0; i < model.count(); ++i) {
+    parts_.push_back(convexParts(model.shapes[i]));
+    const double radius = boundingRadius(model.shapes[i]);
+    radius_.push_back(std::isfinite(radius) ? radius : 0.0);
+  }
+  moved_.assign(radius_.size(), 0.0);
+  reach_ = moved_;
+  from_.assign(radius_.size(), Vec3::Zero());
+}
+
+double Nearness::smaller(const Known& pair) const {
+  const double a = radius_[pair.a], b = radius_[pair.b];
+  return a == 0.0 || (b > 0.0 && b < a) ? b : a;
+}
+
+void Nearness::list(const Part& part) {
+  fat_ = kSpare * least();
+  for (const int i : model_.solid) fat_ = std::max(fat_, 2.0 * reach_[i]);
+  listed_ = moved_;
+  boxes_.clear();
+  for (const int i : model_.solid)
+    boxes_.push_back(boundingBox(model_.shapes[i], poseOf(part.end[i]), fat_));
+  broadPhase_.update(boxes_);
+  // What is known of pairs that stay is kept. Both lists are sorted.
+  std::vector<Known> before;
+  before.swap(pairs_);
+  auto old = before.begin();
+  for (const auto& [i, j] : broadPhase_.pairs()) {
+    const int b = model_.solid[i], a = model_.solid[j];
+    if (!model_.mayTouch(a, b)) continue;
+    while (old != before.end() && std::pair(old->b, old->a) < std::pair(b, a)) ++old;
+    if (old != before.end() && old->b == b && old->a == a)
+      pairs_.push_back(*old);
+    else
+      look(pairs_.emplace_back(Known{.b = b, .a = a}), part);
+  }
+}
+
+double Nearness::gapOf(Known& pair, const Pose& a, const Pose& b) {
+  pair.poseA = a;
+  pair.poseB = b;
+  return pair.glanced = provenGap(parts_[pair.a], a, parts_[pair.b], b);
+}
+
+void Nearness::look(Known& pair, const Part& part) {
+  pair.gap = gapOf(pair, poseOf(part.end[pair.a]), poseOf(part.end[pair.b]));
+  pair.moved = moved_[pair.a] + moved_[pair.b];
+  deepest_ = std::max(deepest_, -pair.gap);
+}
+
+double Nearness::least() const {
+  double least = 0.0;
+  for (const double radius : radius_)
+    if (radius > 0.0 && (least == 0.0 || radius < least)) least = radius;
+  return least;
+}
+
+void Nearness::lookInMidst(Known& pair, const Part& part) {
+  const std::optional<Pose> a = midst(pair.a, part), b = midst(pair.b, part);
+  if (a && b) between_ = std::max(between_, -gapOf(pair, *a, *b));
+}
+
+/// Nothing if nobody can tell how the body turned.
+std::optional<Pose> Nearness::midst(int i, const Part& part) const {
+  if (bodies_[i].fixed()) {
+    const Recorded &p = part.start[i], &q = part.end[i];
+    const double sign = p.q.dot(q.q) < 0.0 ? -1.0 : 1.0;
+    return Pose{0.5 * (p.x + q.x), Quat(p.q.coeffs() + sign * q.q.coeffs()).normalized()};
+  }
+  const BodyPath path(bodies_[i], part.start[i], part.end[i], part.h);
+  if (path.lost()) return {};
+  const PathPoint point = path.at(0.5);
+  return Pose{point.x, point.q};
+}
+
+bool Nearness::glance(std::span<const RigidBody> end) {
+  for (const int i : model_.solid)
+    if (radius_[i] > 0.0 && (end[i].x - from_[i]).lpNorm<Eigen::Infinity>() > reach_[i])
+      return false;
+  for (Known& pair : pairs_) {
+    if (!pair.close) continue;
+    const RigidBody &a = end[pair.a], &b = end[pair.b];
+    const double way = wayBetween(pair.poseA.x, pair.poseA.q, a.x, a.q, radius_[pair.a]) +
+                       wayBetween(pair.poseB.x, pair.poseB.q, b.x, b.q, radius_[pair.b]);
+    if (pair.glanced - way >= -deepest_ - kRounding * smaller(pair)) continue;
+    deepest_ = std::max(deepest_, -gapOf(pair, a.pose(), b.pose()));
+  }
+  return true;
+}
+
+const std::vector<Nearness::Pair>& Nearness::see(const Part& part) {
+  touched_.clear();
+  before_ = reach_;
+  bool listed = fat_ >= 0.0;
+  for (const int i : model_.solid) {
+    moved_[i] += part.net[i];
+    from_[i] = part.end[i].x;
+    reach_[i] = radius_[i] > 0.0 ? part.reach[i] + kRest * radius_[i] : 0.0;
+    listed = listed && moved_[i] - listed_[i] + reach_[i] < fat_;
+  }
+  for (Known& pair : pairs_) see(pair, part);
+  if (listed) return touched_;
+  list(part);
+  for (Known& pair : pairs_)
+    if (pair.fresh) see(pair, part);
+  return touched_;
+}
+
+void Nearness::see(Known& pair, const Part& part) {
+  const double now = pair.gap - (moved_[pair.a] + moved_[pair.b] - pair.moved);
+  const double net = part.net[pair.a] + part.net[pair.b], near = kTouch * smaller(pair);
+  double way = part.way[pair.a] + part.way[pair.b];
+  // In many parts bodies may have been anywhere that they were not to leave unseen.
+  if (part.many) way = std::max(way, before_[pair.a] + before_[pair.b]);
+  const double start = pair.fresh ? now - net : now + net;  // or more
+  pair.fresh = false;
+  pair.close = now < reach_[pair.a] + reach_[pair.b];
+  if (start > way + near && now > 0.0) return;  // apart all the way
+  const double known = deepest_ + kRounding * smaller(pair);
+  if (now < -known || pair.gap > near) look(pair, part);
+  if (std::min(start, pair.gap) > way + near) return;
+  touched_.emplace_back(pair.b, pair.a);
+  if (!part.many && way > kMidst * smaller(pair)) lookInMidst(pair, part);
+}
+
+}  // namespace tumble

@@ -1,0 +1,82 @@
+// Chapter 10, audit: which bodies may have touched in a part of a step, and how deep they overlap
+// at its end and in its midst.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sim/audit/depth.h"
+#include "sim/audit/recorded.h"
+#include "sim/collide/broad_phase.h"
+#include "sim/method/model.h"
+
+namespace tumble {
+
+/// Gaps of pairs that were looked at, good for as long as the ways of both bodies since then cannot
+/// have closed them: what rests or flies alone is not looked at again.
+class Nearness {
+ public:
+  using Pair = std::pair<int, int>;
+  /// How bodies went through one part, per body of the model.
+  struct Part {
+    double h = 0.0;     ///< [s]
+    bool many = false;  ///< it was many parts: nobody can tell its midst
+    std::span<const Recorded> start, end;
+    std::span<const double> net, way;  ///< [m] between the ends, and on the way, of any point
+    std::span<const double> reach;     ///< [m] how far they may go before all are looked at again
+  };
+
+  Nearness(const Model& model, std::span<const RigidBody> bodies);
+
+  /// All bodies have moved. @return pairs that may have touched on the way; b < a
+  const std::vector<Pair>& see(const Part& part);
+
+  /// The end of a part that is not looked at otherwise: of pairs that were near, how deep they are.
+  /// @return false if a body went farther than could be expected: then all have to be looked at
+  bool glance(std::span<const RigidBody> end);
+
+  double deepest() const { return deepest_; }  ///< [m] at the end of any part
+  double between() const { return between_; }  ///< [m] in the midst of any part
+  double least() const;                        ///< [m] radius of the smallest body
+  double radius(int body) const { return radius_[body]; }
+
+ private:
+  struct Known {
+    int b = 0, a = 0;
+    double gap = 0.0;             ///< [m] when it was looked at,
+    double moved = 0.0;           ///< [m] and how far both had moved until then
+    bool fresh = true;            ///< not looked at before this part
+    bool close = false;           ///< a few more parts like the last one may bring them together
+    double glanced = 0.0;         ///< [m] gap when it was last measured, at
+    Pose poseA = {}, poseB = {};  ///< these poses
+  };
+  void see(Known& pair, const Part& part);
+  void list(const Part& part);
+  void look(Known& pair, const Part& part);
+  /// Measures the gap of a pair.
+  double gapOf(Known& pair, const Pose& a, const Pose& b);
+  void lookInMidst(Known& pair, const Part& part);
+  double smaller(const Known& pair) const;
+
+  std::optional<Pose> midst(int body, const Part& part) const;
+
+  const Model& model_;
+  std::span<const RigidBody> bodies_;  ///< what is constant of them
+  std::vector<std::vector<PosedPart>> parts_;
+  std::vector<double> radius_;  ///< [m] per body; 0 of a half-space
+  std::vector<double> moved_;   ///< [m] per body, of any of its points, in all
+  std::vector<double> reach_;   ///< [m] per body: how far it may go before all are looked at,
+  std::vector<double> before_;  ///< [m] the same before the part at hand
+  std::vector<Vec3> from_;      ///< [m] from here
+  std::vector<double> listed_;  ///< [m] the same when pairs were listed
+  std::vector<Aabb> boxes_;
+  BroadPhase broadPhase_;
+  double fat_ = -1.0;  ///< [m] what boxes were grown by; < 0: not listed yet
+  std::vector<Known> pairs_;
+  std::vector<Pair> touched_;
+  double deepest_ = 0.0, between_ = 0.0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,75 @@
+// Chapter 10, audit: what the audit takes from a method, and the way of a body between two such
+// states.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/body/rigid_body.h"
+
+namespace tumble {
+
+/// What is recorded of a body at an instant: its state, and nothing that was derived from it. World
+/// frame, SI.
+struct Recorded {
+  Vec3 x = Vec3::Zero();
+  Quat q = Quat::Identity();
+  Vec3 P = Vec3::Zero(), L = Vec3::Zero();
+
+  bool operator==(const Recorded& o) const {
+    return x == o.x && q.coeffs() == o.q.coeffs() && P == o.P && L == o.L;
+  }
+};
+
+inline Recorded recordedOf(const RigidBody& body) {
+  return {body.x, body.q, body.P, body.L};
+}
+
+/// ω [rad/s] = R IbodyInv Rᵀ L.
+Vec3 spinOf(const RigidBody& constants, const Recorded& r);
+
+/// ½ |P|²/M + ½ L·ω [J].
+double kineticOf(const RigidBody& constants, const Recorded& r);
+
+/// How far [m] a point within r [m] of the origin of a body can be from where it was.
+inline double wayBetween(const Vec3& x0, const Quat& q0, const Vec3& x1, const Quat& q1, double r) {
+  const double turn = std::min((q1.coeffs() - q0.coeffs()).squaredNorm(),
+                               (q1.coeffs() + q0.coeffs()).squaredNorm());
+  return (x1 - x0).norm() + 2.0 * r * std::sqrt(turn);
+}
+
+/// One instant of a way.
+struct PathPoint {
+  Vec3 x = Vec3::Zero();
+  Quat q = Quat::Identity();
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
+};
+
+/// The way of a body through a part of a step, from the states at its ends alone: the cubics that
+/// meet places and velocities P/M, turns φ and their rates there, φ the rotation vector since the
+/// start,
+///   φ̇ = ω − ½ φ × ω + (1/12 + …) φ × (φ × ω).
+/// Where the velocity of the start does not agree with the way – an impulse at the start of a step,
+/// after which it goes on with the velocity of the end – the parabolas that meet the end's. Error
+/// h⁴ of a smooth motion. World frame, SI.
+class BodyPath {
+ public:
+  /// @param h  [s] > 0
+  BodyPath(const RigidBody& constants, const Recorded& start, const Recorded& end, double h);
+  /// The way of a fixed body, which moves on steadily from `start`.
+  BodyPath(const RigidBody& fixed, double h);
+
+  PathPoint at(double share) const;
+
+  /// Whether the body turned by more than a radian: then nobody can tell which way.
+  bool lost() const { return lost_; }
+
+ private:
+  Vec3 x0_, way_, u0_, u1_;  ///< [m] place, way, and h times the velocities at both ends
+  Quat q0_;
+  Vec3 turn_, w0_, w1_;  ///< [rad] φ at the end, and h times its rates at both ends
+  double h_;
+  bool lost_ = false;
+};
+
+}  // namespace tumble
