@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -37,8 +38,9 @@ PrincipalAxes principalAxes(const Mat3& inertia) {
   Mat3 A = inertia;
   PrincipalAxes result;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    const bool turned =
-        rotate(A, result.axes, 0, 1) | rotate(A, result.axes, 0, 2) | rotate(A, result.axes, 1, 2);
+    bool turned = false;
+    for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
+      turned = rotate(A, result.axes, p, q) || turned;
     if (!turned) break;
   }
   result.moments = A.diagonal();

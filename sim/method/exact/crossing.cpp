@@ -77,8 +77,8 @@ void Crossing::findPairs(double most) {
 // What is nearer than a body falls in half the step, and no faster than it would get, has bounced
 // its last.
 void Crossing::findPoints(double most) {
-  const auto [touch, rest] = std::pair(ContactTolerance::forSize(model_.size).touch,
-                                       ContactTolerance::forSize(model_.size).rest);
+  const double touch = ContactTolerance::forSize(model_.size).touch;
+  const double rest = ContactTolerance::forSize(model_.size).rest;
   points_.clear();
   std::vector<Contact> found;
   for (Pair& pair : pairs_) {
