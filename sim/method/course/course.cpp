@@ -71,6 +71,7 @@ void Course::settle() {
   // Response to what collides: a discontinuity of the velocities.
   if (contact_.impulses && collides()) {
     respond();
+    if (report_.stopped) return;
     findNear();  // what was hit has a new way before it
   }
   // What rests takes part in the constraint and friction forces of the next update.

@@ -5,6 +5,7 @@
 #include "sim/contact/impact.h"
 #include "sim/joint/joint_bonds.h"
 #include "sim/method/course/course.h"
+#include "sim/method/crush.h"
 #include "sim/method/impacts.h"
 
 namespace tumble {
@@ -54,6 +55,12 @@ double Course::restitutionNow(const Contact& c) const {
 }
 
 void Course::respond() {
+  const std::string crushed = findCrushed(model_, state_.t, state_.bodies, touching_);
+  if (!crushed.empty()) {
+    report_.stopped = true;
+    report_.reason = crushed;
+    return;
+  }
   std::vector<double> restitution, vrel;
   for (const Contact& c : touching_) {
     restitution.push_back(restitutionNow(c));

@@ -7,8 +7,10 @@
 
 #include "sim/contact/rows.h"
 #include "sim/math/rotation.h"
+#include "sim/method/crush.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
+#include "sim/problem/endless.h"
 
 namespace tumble {
 
@@ -24,6 +26,7 @@ void Stepping::solveIslands(double h) {
   foreseeTwists(h);
   work_.after = work_.star;
   work_.bonds.clear();
+  work_.crushed.clear();
   if (!model_.joints.empty()) stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
   addSprings(h);
   work_.touched.assign(n, 0);
@@ -213,6 +216,8 @@ void Stepping::swing(std::span<const Link> links, double h) {
     const SolveReport solved = solver_.solve(
         work_.problem, {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations},
         work_.solution);
+    findCrushed(links, solved);
+    if (!work_.crushed.empty()) return;
     if (solved.status != SolveStatus::Solved)
       report_.note("some steps were left above the tolerance; max_complementarity has the worst");
     memory.residual = solved.residual;
@@ -228,6 +233,27 @@ void Stepping::swing(std::span<const Link> links, double h) {
     work_.after[work_.movers[i]] = memory.movers[i].v;
     work_.touched[work_.movers[i]] = memory.movers[i].v != memory.movers[i].vStar;
   }
+}
+
+/// Asks only where the solver has failed and a fixed body that moves is in the island.
+void Stepping::findCrushed(std::span<const Link> links, const SolveReport& solved) {
+  constexpr double kFailed = 1e-3;
+  if (solved.status == SolveStatus::Solved || !(solved.residual > kFailed)) return;
+  const auto driven = [&](int i) {
+    return i < model_.count() && drives(model_, state_.bodies[i], i);
+  };
+  if (std::none_of(links.begin(), links.end(), [&](Link link) {
+        return driven(ends(link).first) || driven(ends(link).second);
+      }))
+    return;
+  const std::vector<double> push = endlessPush(work_.problem);
+  if (push.empty()) return;
+  std::vector<std::pair<int, int>> pairs;
+  for (const Cone& cone : work_.problem.cones) {
+    const Row& row = work_.problem.rows[cone.row];
+    pairs.emplace_back(work_.bodies[row.a], work_.bodies[row.b]);
+  }
+  work_.crushed = crushWords(model_, state_.t, pairs, push);
 }
 
 /// Number of a body in the problem of its island.

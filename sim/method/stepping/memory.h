@@ -2,6 +2,7 @@
 // spares looking twice at what has not changed.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,7 @@ struct SteppingWork {
   std::vector<char> flown;         ///< per body: its driven group moves it
   std::vector<DragStep> drags;     ///< per drag
   std::vector<SpringRow> springs;  ///< of this step
+  std::string crushed;             ///< words, where no forces can hold what moves on
   double stored = 0.0;             ///< [J] in the springs of stiff groups, at its start
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
   std::vector<LastingPair> lasting;

@@ -46,7 +46,7 @@ bool Stepping::finite() const {
 
 void Stepping::stop(const std::string& what) {
   report_.stopped = true;
-  report_.reason = what + "; try a smaller stepping.step";
+  report_.reason = what;
   state_.bodies = state_.trail.back().start;
   state_.trail.pop_back();
 }
@@ -81,15 +81,16 @@ void Stepping::stepTo(double t1, double h) {
 void Stepping::moveTo(double t1, double h) {
   beginSegment(t1);
   solveIslands(h);
+  if (!work_.crushed.empty()) return stop(work_.crushed);
   applyTwists(h);
   recordEvents(t1);
   moveBodies(h);
   bookSprings(h);
-  if (!finite()) return stop("the motion left the range of numbers");
+  if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
   if (!project()) {
     if (const Joint* open = brokenJoint()) {
       const std::string& name = model_.def.joints[open - model_.joints.data()].name;
-      return stop("joint \"" + name + "\" came apart");
+      return stop("joint \"" + name + "\" came apart; try a smaller stepping.step");
     }
   }
   meetJoints(h);

@@ -112,6 +112,8 @@ class Stepping {
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
   bool slides(const Touch& touch, const Row& row) const;
   int localOf(int body);
+  /// Words on what is crushed in an island, if no velocities obey its contacts, into work_.crushed.
+  void findCrushed(std::span<const Link> links, const SolveReport& solved);
 
   // joined.cpp
   void bookJoints(double h);
