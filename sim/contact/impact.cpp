@@ -108,10 +108,11 @@ ImpulseEnergy applyContactImpulse(const Impact& impact, int contact, const Vec3&
 ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contacts,
                                std::span<const double> j) {
   constexpr int kSweeps = 200;
-  constexpr double kSettled = 1e-13;  // change of a sweep relative to the largest bound
+  constexpr double kSettled = 1e-13;   // change of a sweep relative to the largest bound,
+  constexpr double kRounding = 1e-15;  // and to what stops the fastest point: its rounding
 
   std::vector<Tangential> struck;
-  double largest = 0.0;
+  double largest = 0.0, rounding = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = impact.contacts[contacts[i]];
     const double bound = c.friction * j[i];
@@ -123,6 +124,8 @@ ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contac
         inverseEffectiveMass(a, b, c.point.p, t1) + inverseEffectiveMass(a, b, c.point.p, t2);
     struck.push_back({contacts[i], bound, 1.0 / k});
     largest = std::max(largest, bound);
+    const double fast = pointVelocity(a, c.point.p).norm() + pointVelocity(b, c.point.p).norm();
+    rounding = std::max(rounding, kRounding * struck.back().step * fast);
   }
 
   // Each contact in turn pulls its slip towards zero, held inside its disc of radius mu j. A first
@@ -144,7 +147,7 @@ ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contac
       energy.work += step.work;
       change = std::max(change, J.norm());
     }
-    if (change <= kSettled * largest) break;
+    if (change <= std::max(kSettled * largest, rounding)) break;
   }
   return energy;
 }
