@@ -65,10 +65,11 @@ void Stepping::step() {
 /// than a step, while the pairs of bodies that could be looked at are few.
 void Stepping::stepTo(double t1, double h) {
   constexpr int kFew = 2, kMany = 16, kBodies = 256;
-  constexpr double kPairs = 1e5;
-  const int n = model_.count();
-  const int every = std::clamp(kBodies / n, kFew, kMany);
-  const int most = std::max(every, static_cast<int>(kPairs / n / n));
+  constexpr double kPairs = 2e4;
+  const int n = static_cast<int>(std::count_if(model_.solid.begin(), model_.solid.end(),
+                                               [&](int i) { return !model_.fixed(i); }));
+  const int every = std::clamp(kBodies / model_.count(), kFew, kMany);
+  const int most = std::max(every, static_cast<int>(kPairs / std::max(1, n) / std::max(1, n)));
   for (int k = 0; !report_.stopped; ++k) {
     const double part = meet(h, k < every ? Hits::All : k < most ? Hits::Fast : Hits::None);
     if (part >= h) break;
