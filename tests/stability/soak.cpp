@@ -1,0 +1,166 @@
+// Many random scenes by every method, under the audit: how they end, what they cost, and which of
+// them are wrong. The text of a scene follows from its seed alone.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <map>
+
+#include "app/record/recording.h"
+#include "app/scene/scene.h"
+#include "tests/catch.h"
+#include "tests/stability/random_scene.h"
+
+using namespace tumble;
+
+namespace {
+
+/// CPU time [s] that a second of a scene may cost, and after which a run is left.
+constexpr double kSlow = 20.0;
+
+/// How one scene ended by one method.
+struct Ending {
+  enum Kind { Finished, Refused, Stopped, Slow } kind = Finished;
+  std::string why;
+  double cpu = 0.0;  ///< [s]
+  long evaluations = 0;
+  bool told = false;  ///< the certificate says why it took long
+  std::vector<Disagreement> disagreements;
+  int moving = 0;
+};
+
+/// A reason without its names and numbers, so that like ones are counted together.
+std::string kindOf(const std::string& reason) {
+  std::string kind;
+  bool quoted = false;
+  for (const char c : reason) {
+    if (c == '"') quoted = !quoted;
+    const bool digit = (c >= '0' && c <= '9') || c == '.';
+    if (quoted || digit || c == '"') {
+      if (kind.empty() || kind.back() != '#') kind += '#';
+      continue;
+    }
+    kind += c;
+  }
+  return kind.substr(0, 90);
+}
+
+Ending runBy(const std::string& method, const std::string& text, std::uint64_t seed) {
+  Ending ending;
+  const std::clock_t start = std::clock();
+  const auto spent = [&] { return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; };
+  try {
+    const Scene scene =
+        parseScene(text, "seed " + std::to_string(seed), {"world.method=" + method});
+    for (const BodyDef& body : scene.world.bodies) ending.moving += body.fixed ? 0 : 1;
+    World world = makeWorld(scene);
+    constexpr int kSlices = 60;  // so that what takes too long can be left
+    for (int k = 1; k <= kSlices && !world.report().stopped; ++k) {
+      world.advance(scene.world.duration * k / kSlices);
+      if (spent() > kSlow) {
+        ending.kind = Ending::Slow;
+        break;
+      }
+    }
+    ending.evaluations = world.report().certificate.evaluations;
+    ending.disagreements = world.report().disagreements;
+    if (world.report().stopped) {
+      ending.kind = Ending::Stopped;
+      ending.why = kindOf(world.report().reason);
+    }
+  } catch (const SceneError& error) {
+    ending.kind = Ending::Refused;
+    const std::string what = error.what();
+    ending.why = kindOf(what.substr(0, what.find('\n')));
+  }
+  ending.cpu = spent();
+  return ending;
+}
+
+/// What came of many scenes by one method.
+struct Tally {
+  int finished = 0, refused = 0, stopped = 0, slow = 0, wrong = 0;
+  int few = 0, fewFinished = 0;   ///< scenes of up to three bodies that the method takes
+  double cpu = 0.0, worst = 0.0;  ///< [s]
+  long evaluations = 0;
+  std::map<std::string, std::vector<std::uint64_t>> why;
+
+  void add(const Ending& ending, std::uint64_t seed) {
+    const char* names[] = {"", "refused: ", "stopped: ", "slow"};
+    cpu += ending.cpu;
+    worst = std::max(worst, ending.cpu);
+    evaluations += ending.evaluations;
+    ++(ending.kind == Ending::Finished  ? finished
+       : ending.kind == Ending::Refused ? refused
+       : ending.kind == Ending::Stopped ? stopped
+                                        : slow);
+    if (ending.kind != Ending::Finished) why[names[ending.kind] + ending.why].push_back(seed);
+    if (ending.moving <= 3 && ending.kind != Ending::Refused) {
+      ++few;
+      fewFinished += ending.kind == Ending::Finished;
+    }
+    wrong += !ending.disagreements.empty();
+    for (const Disagreement& d : ending.disagreements)
+      why[std::string("audit: ") + d.what].push_back(seed);
+  }
+
+  void print(const std::string& method, int scenes) const {
+    std::printf("%-9s %5d finished, %d stopped, %d refused, %d slow; audit disagrees in %d\n",
+                method.c_str(), finished, stopped, refused, slow, wrong);
+    std::printf("          %.1f CPU ms and %ld evaluations a scene, worst %.2f s\n",
+                1e3 * cpu / scenes, evaluations / scenes, worst);
+    for (const auto& [reason, seeds] : why) {
+      std::printf("          %5zu  %s  (seeds", seeds.size(), reason.c_str());
+      for (std::size_t k = 0; k < std::min<std::size_t>(seeds.size(), 6); ++k)
+        std::printf(" %llu", static_cast<unsigned long long>(seeds[k]));
+      std::printf(")\n");
+    }
+    std::fflush(stdout);
+  }
+};
+
+/// Where the notes' own method is due: a body or two and no cylinder, whose steps it would cut to
+/// pieces.
+bool courseIsDue(const std::string& text, int moving) {
+  return moving <= 2 && text.find("cylinder") == std::string::npos;
+}
+
+std::map<std::string, Tally> soak(std::uint64_t first, int scenes) {
+  std::map<std::string, Tally> tallies;
+  for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(scenes); ++seed) {
+    const std::string text = test::randomScene(seed);
+    int moving = 0;
+    for (const char* method : {"exact", "stepping", "auto"}) {
+      const Ending ending = runBy(method, text, seed);
+      moving = ending.moving;
+      tallies[method].add(ending, seed);
+    }
+    if (courseIsDue(text, moving)) tallies["course"].add(runBy("course", text, seed), seed);
+  }
+  for (const auto& [method, tally] : tallies)
+    tally.print(method, tally.finished + tally.refused + tally.stopped + tally.slow);
+  return tallies;
+}
+
+/// @param share  of the scenes of up to three bodies that `exact` takes, which it finishes
+void requireSound(const std::map<std::string, Tally>& tallies, double share) {
+  for (const auto& [method, tally] : tallies) {
+    CAPTURE(method);
+    CHECK(tally.slow == 0);
+    CHECK(tally.wrong == 0);
+    if (method != "exact") CHECK(tally.stopped == 0);
+    if (method == "exact") CHECK(tally.fewFinished >= share * tally.few);
+  }
+}
+
+}  // namespace
+
+// Oracle: the audit, and counts. Scenes are drawn by their seeds, from 1 on.
+TEST_CASE("random scenes of one to six bodies end by every method, and the audit agrees",
+          "[.][soak]") {
+  requireSound(soak(1, 200), 0.99);
+}
+
+TEST_CASE("ten thousand random scenes end by every method, and the audit agrees", "[.][long]") {
+  requireSound(soak(1, 10'000), 0.99);
+}
