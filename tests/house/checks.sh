@@ -115,6 +115,11 @@ steps=(
   "soak:random scenes under the audit"
   "egl_goldens:goldens by EGL"
 )
+for asked in "$@"; do
+  [[ " ${steps[*]}" == *" $asked:"* ]] && continue
+  echo "checks: no step is called '$asked'; there are ${steps[*]%%:*}" >&2
+  exit 2
+done
 for entry in "${steps[@]}"; do
   name=${entry%%:*}
   if (($# == 0)) || [[ " $* " == *" $name "* ]]; then step "${entry#*:}" "$name"; fi
