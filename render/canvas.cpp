@@ -29,7 +29,14 @@ double beside(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
 
 void Canvas::blend(int x, int y, const Colour& colour, double alpha) {
   if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
-  std::uint8_t* pixel = image_.rgb.data() + 3 * (static_cast<std::size_t>(y) * image_.width + x);
+  const std::size_t place = static_cast<std::size_t>(y) * image_.width + x;
+  std::uint8_t* pixel = image_.rgb.data() + 3 * place;
+  if (!image_.alpha.empty()) {
+    // Over a pixel that is itself see-through: Porter and Duff, "Compositing Digital Images", 1984.
+    const double below = image_.alpha[place] / 255.0, sum = alpha + below * (1.0 - alpha);
+    image_.alpha[place] = static_cast<std::uint8_t>(255.0 * sum + 0.5);
+    alpha = sum > 0.0 ? alpha / sum : 0.0;
+  }
   for (int c = 0; c < 3; ++c)
     pixel[c] = static_cast<std::uint8_t>(pixel[c] + alpha * (255.0 * colour[c] - pixel[c]) + 0.5);
 }

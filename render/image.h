@@ -12,6 +12,8 @@ namespace tumble {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> alpha = {};  ///< a byte a pixel, not multiplied into the colours;
+                                         ///< empty: all opaque
   bool operator==(const Image&) const = default;
 };
 

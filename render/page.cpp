@@ -1,5 +1,6 @@
 #include "render/page.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace tumble {
@@ -9,7 +10,7 @@ namespace {
 constexpr float kTop[3] = {235.0f, 239.0f, 244.0f}, kBottom[3] = {250.0f, 249.0f, 246.0f};
 
 Image emptyPage(int width, int height) {
-  Image page{width, height, {}};
+  Image page{width, height, {}, {}};
   page.rgb.reserve(3u * static_cast<std::size_t>(width) * height);
   for (int y = 0; y < height; ++y) {
     const Colour colour = pageColour((y + 0.5) / height);
@@ -36,6 +37,9 @@ void cover(Image& page, const Layer& layer) {
       const unsigned through = 255u - from[3];
       for (int c = 0; c < 3; ++c)
         to[c] = static_cast<std::uint8_t>(from[c] + div255(to[c] * through));
+      if (page.alpha.empty()) continue;
+      std::uint8_t& alpha = page.alpha[y * page.width + place.x + x];
+      alpha = static_cast<std::uint8_t>(from[3] + div255(alpha * through));
     }
   }
 }
@@ -56,19 +60,52 @@ Image composePage(int width, int height, const Layer& floor, const Layer& bodies
   return page;
 }
 
-Image halved(const Image& image) {
-  Image half{image.width / 2, image.height / 2, {}};
-  half.rgb.resize(image.rgb.size() / 4);
-  const std::size_t row = 3u * static_cast<std::size_t>(image.width);
-  for (int y = 0; y < half.height; ++y) {
-    const std::uint8_t* from = image.rgb.data() + 2u * y * row;
-    std::uint8_t* to = half.rgb.data() + static_cast<std::size_t>(y) * (row / 2);
-    for (int x = 0; x < half.width; ++x, from += 6, to += 3)
-      for (int c = 0; c < 3; ++c)
+Image composeFigure(int width, int height, const Layer& floor, const Layer& bodies) {
+  Image figure{width, height, {}, {}};
+  figure.alpha.resize(static_cast<std::size_t>(width) * height, 0);
+  figure.rgb.resize(3 * figure.alpha.size(), 0);
+  cover(figure, floor);
+  cover(figure, bodies);
+  return figure;
+}
+
+namespace {
+
+// The means of 2 × 2 pixels of so many channels.
+std::vector<std::uint8_t> halvedChannels(const std::vector<std::uint8_t>& all, int width,
+                                         int height, int channels) {
+  std::vector<std::uint8_t> half(static_cast<std::size_t>(channels) * (width / 2) * (height / 2));
+  const std::size_t row = static_cast<std::size_t>(channels) * width;
+  for (int y = 0; y < height / 2; ++y) {
+    const std::uint8_t* from = all.data() + 2u * y * row;
+    std::uint8_t* to = half.data() + static_cast<std::size_t>(y) * channels * (width / 2);
+    for (int x = 0; x < width / 2; ++x, from += 2 * channels, to += channels)
+      for (int c = 0; c < channels; ++c)
         to[c] = static_cast<std::uint8_t>(
-            (from[c] + from[c + 3] + from[row + c] + from[row + c + 3] + 2) / 4);
+            (from[c] + from[c + channels] + from[row + c] + from[row + c + channels] + 2) / 4);
   }
   return half;
+}
+
+}  // namespace
+
+Image halved(const Image& image) {
+  Image half{image.width / 2,
+             image.height / 2,
+             halvedChannels(image.rgb, image.width, image.height, 3),
+             {}};
+  if (!image.alpha.empty()) half.alpha = halvedChannels(image.alpha, image.width, image.height, 1);
+  return half;
+}
+
+void straighten(Image& image) {
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    const unsigned alpha = image.alpha[i];
+    if (alpha == 0 || alpha == 255) continue;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      image.rgb[c] =
+          static_cast<std::uint8_t>(std::min(255u, (255u * image.rgb[c] + alpha / 2) / alpha));
+  }
 }
 
 }  // namespace tumble

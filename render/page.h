@@ -16,6 +16,12 @@ Colour pageColour(double s);
 /// An empty layer is left out.
 Image composePage(int width, int height, const Layer& floor, const Layer& bodies);
 
+/// Bodies over floor over nothing: colours are multiplied by the alpha that the image then has.
+Image composeFigure(int width, int height, const Layer& floor, const Layer& bodies);
+
+/// Divides the colours of an image that has an alpha channel by it; another stays as it is.
+void straighten(Image& image);
+
 /// The image at half the size, each pixel the mean of four. Width and height are even.
 Image halved(const Image& image);
 

@@ -55,6 +55,12 @@ double reachOf(const Instance& instance);
 /// Half the shortest edge of the box around a body [m].
 double thicknessOf(const Instance& instance);
 
+struct Picture;
+
+/// How high [m] the shadow of contact reaches on a floor: half the mean least half extent of the
+/// bodies, within limits that keep it visible and local.
+double contactReach(const Picture& picture);
+
 enum class Stroke { Solid, Dotted };
 
 /// A line through world points; the hidden part is drawn fainter.

@@ -93,6 +93,18 @@ Bytes readFile(const std::string& path) {
   return bytes;
 }
 
+// Red, green, blue and alpha of each pixel.
+Bytes withAlpha(const Image& image) {
+  Bytes bytes;
+  bytes.reserve(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    bytes.insert(bytes.end(), image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i),
+                 image.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+    bytes.push_back(image.alpha[i]);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(const Image& image,
@@ -111,8 +123,11 @@ std::vector<std::uint8_t> encodePng(const Image& image,
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     static_cast<Bytes*>(to)->insert(static_cast<Bytes*>(to)->end(), bytes, bytes + size);
   };
-  if (!stbi_write_png_to_func(append, &plain, image.width, image.height, 3, image.rgb.data(),
-                              3 * image.width))
+  const bool opaque = image.alpha.empty();
+  const Bytes four = opaque ? Bytes() : withAlpha(image);
+  const int channels = opaque ? 3 : 4;
+  if (!stbi_write_png_to_func(append, &plain, image.width, image.height, channels,
+                              opaque ? image.rgb.data() : four.data(), channels * image.width))
     throw std::bad_alloc();
   Bytes chunks;
   for (const auto& [key, value] : text) appendText(chunks, key, value);

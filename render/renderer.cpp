@@ -178,8 +178,10 @@ Image Renderer::draw(const Picture& picture, const RenderOptions& options) {
   gl::checkErrors("a picture");
 
   // Page and text by hand, so that they are the same on every driver.
-  Image image = composePage(stage.width, stage.height, floor, bodies);
+  Image image = options.transparent ? composeFigure(stage.width, stage.height, floor, bodies)
+                                    : composePage(stage.width, stage.height, floor, bodies);
   if (options.antialias == AntiAlias::Ssaa2x2) image = halved(image);
+  straighten(image);
   Canvas canvas(image, parts.fonts, image.height / options.pageHeight);
   const Projection page(picture.camera, canvas.width(), canvas.height());
   drawOverlay(picture, page, canvas);

@@ -16,6 +16,7 @@ struct RenderOptions {
   int width = 1280, height = 720;
   AntiAlias antialias = AntiAlias::Msaa4;
   int shadowMapSize = 1024;
+  bool transparent = false;   ///< the image has an alpha channel and nothing behind what is drawn
   double lightScale = 1.0;    ///< [1] multiplies the key light
   double pageHeight = 720.0;  ///< [px] that the sizes of a picture are meant for: less draws text,
                               ///< lines and arrows larger

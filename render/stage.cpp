@@ -21,14 +21,17 @@ Eigen::Vector3d keyLight(const Projection& projection) {
          std::sin(elevation) * Eigen::Vector3d::UnitY();
 }
 
-/// Half the mean least half extent, within limits that keep it visible and local.
-double reachOfContact(const Picture& picture) {
+}  // namespace
+
+double contactReach(const Picture& picture) {
   double sum = 0.0;
   for (const Instance& body : picture.instances) sum += thicknessOf(body);
   const double mean =
       picture.instances.empty() ? 0.0 : sum / static_cast<double>(picture.instances.size());
   return std::clamp(mean, 0.02 * picture.radius, 0.08 * picture.radius);
 }
+
+namespace {
 
 /// Orthographic, looking along the light at the ball that holds the scene.
 Eigen::Matrix4d lightProjection(const Stage& stage) {
@@ -71,7 +74,7 @@ Stage::Stage(const Picture& picture, const RenderOptions& options)
       lightStrength(options.lightScale),
       radius(std::max(picture.radius, 1e-6)),
       centre(0.0, picture.centre.y() - picture.floor.height, 0.0),
-      contactReach(reachOfContact(picture)),
+      contactReach(tumble::contactReach(picture)),
       shadowMapSize(options.shadowMapSize) {}
 
 void StageBuffer::load(const Stage& stage) const {

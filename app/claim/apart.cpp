@@ -125,7 +125,7 @@ void addHits(const Scene& scene, const Recording& recording, std::vector<ClaimRo
       rows.push_back({names + ": samples that slivers see otherwise", number(hits.differ), 0.0,
                       number(hits.differ), 0.0});
       rows.push_back({names + ": samples that hulls hit", number(hits.hull), number(hits.parts),
-                      number(hits.missed), 0.0});
+                      number(hits.missed), 0.0, false, Relation::AtLeast});
     }
 }
 
@@ -138,15 +138,20 @@ std::vector<ClaimRow> apartRows(const Scene& scene, const Recording& recording) 
     for (const Parting& parting : coherence.look(sample)) planes.see(parting);
   if (coherence.pairs() == 0) return {emptyClaim("no two bodies come near each other")};
   std::vector<ClaimRow> rows{{"least gap of two parts, not below / m", planes.least, 0.0,
-                              std::max(0.0, -planes.least), kRounding}};
+                              std::max(0.0, -planes.least), kRounding, false, Relation::AtLeast}};
+  const auto bounded = [&](const WorstRow& worst, Relation relation) {
+    rows.push_back(worst.row());
+    rows.back().relation = relation;
+  };
   if (std::isfinite(planes.side.row().error)) {
-    rows.push_back(planes.side.row());
-    rows.push_back(planes.wide.row());
+    bounded(planes.side, Relation::AtLeast);
+    bounded(planes.wide, Relation::AtMost);
   }
   if (coherence.searches() < coherence.pairs()) rows.push_back(planes.kept.row());
   rows.push_back({"planes sought of pairs seen", static_cast<double>(coherence.searches()),
                   static_cast<double>(coherence.pairs()),
-                  coherence.searches() > coherence.pairs() ? 1.0 : 0.0, 0.0});
+                  coherence.searches() > coherence.pairs() ? 1.0 : 0.0, 0.0, false,
+                  Relation::AtMost});
   addHits(scene, recording, rows);
   return rows;
 }

@@ -73,6 +73,10 @@ const Check* findCheck(std::string_view name) {
   return nullptr;
 }
 
+const char* signOf(Relation relation) {
+  return relation == Relation::AtMost ? "≤ " : relation == Relation::AtLeast ? "≥ " : "";
+}
+
 WorstRow::WorstRow(std::string label, double allowed)
     : label_(std::move(label)),
       row_{label_, 0.0, 0.0, std::numeric_limits<double>::infinity(), allowed} {}

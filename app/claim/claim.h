@@ -18,8 +18,12 @@ struct ClaimRow {
   double measured = 0.0, exact = 0.0;
   double error = 0.0, allowed = 0.0;
   bool silent = false;  ///< nothing was compared: the claim says nothing of this scene, and fails
+  Relation relation = Relation::Equal;  ///< of measured to exact, but for what is allowed
   bool holds() const { return error <= allowed; }  ///< never for a NaN
 };
+
+/// "", "≤ " or "≥ ".
+const char* signOf(Relation relation);
 
 /// Keeps the worst of many comparisons as one row. Fails as long as nothing has been compared, and
 /// for good once an error is not a number.

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "app/claim/expect.h"
 #include "app/scene/findings.h"
 
 namespace tumble {
@@ -18,6 +19,8 @@ Verdict judge(const Scene& scene, const Recording& recording) {
   for (const Disagreement& d : recording.report.disagreements)
     verdict.rows.push_back(
         {"audit: " + std::string(d.what), d.found, d.stated, d.found - d.stated, d.allowed});
+  for (Expectation& one : expectationsOf(ran, recording))
+    verdict.rows.push_back(std::move(one.row));
   for (const ClaimRow& row : verdict.rows) {
     if (!row.holds()) ++verdict.failed;
     double share = row.error / row.allowed;
@@ -32,7 +35,7 @@ Verdict judge(const Scene& scene, const Recording& recording) {
 void requireKnownChecks(const Scene& scene) {
   std::vector<std::string> known;
   for (const Check& check : checks()) known.emplace_back(check.name);
-  std::vector<Diagnostic> diagnostics;
+  std::vector<Diagnostic> diagnostics = faultsOfExpectations(scene);
   const auto require = [&](const std::string& name, const std::string& key,
                            const std::string& where) {
     if (findCheck(name)) return;

@@ -15,10 +15,12 @@ struct Verdict {
   double worstShare = 0.0;  ///< its error / allowed
 };
 
-/// All rows of all checks that the scene names, and one for each disagreement of the audit.
+/// All rows of all checks that the scene names, one for each disagreement of the audit, and what
+/// the scene expects by formulas.
 Verdict judge(const Scene& scene, const Recording& recording);
 
-/// @throws SceneError if the scene names a check that the table does not have.
+/// @throws SceneError if the scene names a check that the table does not have, or expects something
+/// of what is no formula.
 void requireKnownChecks(const Scene& scene);
 
 }  // namespace tumble

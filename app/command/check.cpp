@@ -26,8 +26,9 @@ void printTable(const Verdict& verdict) {
       fmt::print("  {}  FAILED\n", row.label);
       continue;
     }
-    fmt::print("  {:<{}}{:>16.10g}{:>16.10g}{:>11.2g}{:>11.2g}  {}\n", row.label, width,
-               row.measured, row.exact, row.error, row.allowed, row.holds() ? "ok" : "FAILED");
+    const std::string exact = fmt::format("{}{:.10g}", signOf(row.relation), row.exact);
+    fmt::print("  {:<{}}{:>16.10g}{:>16}{:>11.2g}{:>11.2g}  {}\n", row.label, width, row.measured,
+               exact, row.error, row.allowed, row.holds() ? "ok" : "FAILED");
   }
 }
 
@@ -65,7 +66,7 @@ int checkScene(const Scene& scene, Json* json) {
   makeWorld(scene);
   const std::string claim = scene.claim.empty() ? scene.title : scene.claim;
   if (!json) fmt::print("{}: {}\n", scene.name, claim);
-  if (scene.checks.empty() && !json) fmt::print("  no checks\n");
+  if (scene.checks.empty() && scene.expects.empty() && !json) fmt::print("  no checks\n");
   const Recording recording = recordWithProgress(scene);
   if (const int stopped = exitOf(recording)) return stopped;
   const Verdict verdict = judge(scene, recording);
@@ -114,7 +115,7 @@ int check(int argc, char** argv) {
   Json scenes = Json::array();
   for (const std::string& name : names) {
     const Scene scene = load({name, overrides});
-    claims += scene.checks.size();
+    claims += scene.checks.size() + scene.expects.size();
     worst = std::max(worst, checkScene(scene, json ? &scenes : nullptr));
     std::fflush(stdout);
   }

@@ -58,12 +58,15 @@ Stamp stampOf(const Scene& scene, const std::string& what) {
   static const std::string program = drawingProgram();
   std::error_code missing;
   const bool file = std::filesystem::is_regular_file(scene.file, missing);
-  return {{"Software", "tumble " TUMBLE_VERSION},
-          {"Program", program},
-          {"Scene", scene.line},
-          {"Source", fmt::format("{:016x}", file ? digest(readFile(scene.file)) : 0)},
-          {"Image", fmt::format("{} {}x{} {} {:.17g} Hz", what, scene.image.width,
-                                scene.image.height, scene.image.antialias, scene.image.rate)}};
+  return {
+      {"Software", "tumble " TUMBLE_VERSION},
+      {"Program", program},
+      {"Scene", scene.line},
+      {"Source", fmt::format("{:016x}", file ? digest(readFile(scene.file)) : 0)},
+      {"Image", fmt::format("{} {}x{} {} {} {} {:.17g} Hz, camera '{}'", what, scene.image.width,
+                            scene.image.height, scene.image.antialias, scene.image.quality,
+                            scene.image.transparent ? "transparent" : "page", scene.image.rate,
+                            scene.camera.name)}};
 }
 
 Stamp readStamp(const std::string& path) {

@@ -6,9 +6,11 @@ namespace tumble {
 
 namespace {
 
-AntiAlias antiAliasOf(const std::string& name) {
-  if (name == "none") return AntiAlias::None;
-  return name == "ssaa2x2" ? AntiAlias::Ssaa2x2 : AntiAlias::Msaa4;
+AntiAlias antiAliasOf(const ImageFormat& format) {
+  const bool byQuality = format.antialias.empty();
+  if (byQuality ? format.quality == "low" : format.antialias == "none") return AntiAlias::None;
+  const bool best = byQuality ? format.quality == "high" : format.antialias == "ssaa2x2";
+  return best ? AntiAlias::Ssaa2x2 : AntiAlias::Msaa4;
 }
 
 }  // namespace
@@ -30,7 +32,10 @@ Image Studio::draw(const Picture& picture, const ImageFormat& format, double pag
   options.width = format.width;
   options.height = format.height;
   options.pageHeight = pageHeight;
-  options.antialias = antiAliasOf(format.antialias);
+  options.antialias = antiAliasOf(format);
+  if (format.quality == "low") options.shadowMapSize /= 2;
+  if (format.quality == "high") options.shadowMapSize *= 2;
+  options.transparent = format.transparent;
   open();
   return renderer_->draw(picture, options);
 }

@@ -56,6 +56,7 @@ Image drawSweep(const Scene& scene, const std::deque<VariantRun>& runs, Studio& 
   ImageFormat format = scene.image;
   format.width = kSheetPanel;
   format.height = panelHeight(scene, kSheetPanel);
+  format.transparent = false;
   const std::vector<Panel> panels =
       drawPanels(runs, [&](const Picture& picture) { return studio.draw(picture, format); });
   return drawSheet(panels, columnsOf(panels.size()), scene.title,

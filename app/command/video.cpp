@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -27,6 +28,17 @@ std::string partOf(const std::string& path) {
   const std::string name =
       fmt::format(".{}.part{}", file.stem().string(), file.extension().string());
   return (file.parent_path() / name).string();
+}
+
+// A GIF has a palette of its own, one for the film, and hundredths of a second between images.
+// Players of films want even sizes and colour at half resolution.
+std::vector<std::string> formatOf(const std::string& path, double rate) {
+  if (!path.ends_with(".gif"))
+    return {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"};
+  return {"-filter_complex",
+          fmt::format("fps={:.17g},split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse="
+                      "dither=bayer:bayer_scale=5:diff_mode=rectangle",
+                      std::min(rate, 25.0))};
 }
 
 pid_t spawnFfmpeg(std::vector<std::string> words, int input, int other) {
@@ -56,13 +68,17 @@ Video::Video(std::string path, int width, int height, double rate)
   std::signal(SIGPIPE, SIG_IGN);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw FileError("cannot open a pipe to ffmpeg");
-  // Players want even sizes and colour at half resolution.
   try {
-    process_ = spawnFfmpeg(
-        {"ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
-         fmt::format("{}x{}", width, height), "-r", fmt::format("{:.17g}", rate), "-i", "-", "-vf",
-         "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", part_},
-        ends[0], ends[1]);
+    std::vector<std::string> words = {"ffmpeg",    "-y",
+                                      "-loglevel", "error",
+                                      "-f",        "rawvideo",
+                                      "-pix_fmt",  "rgb24",
+                                      "-s",        fmt::format("{}x{}", width, height),
+                                      "-r",        fmt::format("{:.17g}", rate),
+                                      "-i",        "-"};
+    for (const std::string& word : formatOf(path_, rate)) words.push_back(word);
+    words.push_back(part_);
+    process_ = spawnFfmpeg(std::move(words), ends[0], ends[1]);
   } catch (...) {
     ::close(ends[0]);
     ::close(ends[1]);

@@ -127,4 +127,14 @@ std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& r
   return points;
 }
 
+std::vector<Eigen::Vector3d> pointsAround(const BodyDef& body, const BodySample& start) {
+  constexpr double kRoom = 3.0;  // in radii of the body
+  const double reach =
+      std::holds_alternative<Particle>(body.shape) ? 1.0 : boundingRadius(body.shape);
+  std::vector<Eigen::Vector3d> points;
+  const Vec3 room = Vec3::Constant(kRoom * reach);
+  addCorners({start.x - room, start.x + room}, points);
+  return points;
+}
+
 }  // namespace tumble

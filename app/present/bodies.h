@@ -31,4 +31,8 @@ double typicalHeight(const Scene& scene);
 /// than the motion. World frame [m].
 std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording);
 
+/// Corners of a box around one body at the start, with room about it for what it does and meets,
+/// however it turns. World frame [m].
+std::vector<Eigen::Vector3d> pointsAround(const BodyDef& body, const BodySample& start);
+
 }  // namespace tumble

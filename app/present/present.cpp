@@ -104,6 +104,8 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
       framing_(framing) {
   facets_ = facetsOfBodies(scene.world.bodies);
   if (scene.show.speed) fastest_ = fastestOf(scene, recording);
+  expectations_ = expectationsOf(scene, recording);
+  follow();
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
     const Check* check = findCheck(name);
@@ -112,13 +114,34 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
   }
 }
 
+// The camera that follows a body keeps the distance that shows the room about it.
+void Presenter::follow() {
+  const std::vector<BodyDef>& bodies = scene_.world.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name != scene_.camera.follow) continue;
+    followed_ = static_cast<int>(i);
+    following_ = framingOf(scene_, pointsAround(bodies[i], recording_.samples.front().bodies[i]));
+  }
+}
+
+Framing Presenter::framingAt(const Sample& sample) const {
+  if (!followed_) return framing_;
+  const std::size_t body = static_cast<std::size_t>(*followed_);
+  const Vec3 way = sample.bodies[body].x - recording_.samples.front().bodies[body].x;
+  Framing framing = following_;
+  framing.camera.eye += way;
+  framing.camera.target += way;
+  framing.centre += way;
+  return framing;
+}
+
 int Presenter::count() const {
   return static_cast<int>(recording_.samples.size());
 }
 
 Picture Presenter::image(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
-  Picture picture = blank();
+  Picture picture = blank(framingAt(sample));
   addBodies(sample, false, picture);
   addJoints(scene_, sample, framing_.radius, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
@@ -130,6 +153,7 @@ Picture Presenter::image(int k) const {
       fmt::format("{}t = {:.2f} s", picture.subtitle.empty() ? "" : "   ", sample.t);
   if (scene_.show.energy)
     picture.subtitle += fmt::format("   energy {:.4g} J", sample.kinetic + sample.potential);
+  finish(picture);
   return picture;
 }
 
@@ -140,7 +164,7 @@ Picture Presenter::still(double t) const {
 
 Picture Presenter::strobe() const {
   const Sample& last = recording_.samples.back();
-  Picture picture = blank();
+  Picture picture = blank(framing_);
   const bool byTime = movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed;
   addGhosts(byTime, picture);
   addBodies(last, byTime, picture);
@@ -152,25 +176,27 @@ Picture Presenter::strobe() const {
   addAnnotations(last, picture);
   picture.subtitle += fmt::format("{}Strobe every {:g} s over {:g} s.",
                                   picture.subtitle.empty() ? "" : "  ", scene_.show.strobe, last.t);
+  finish(picture);
   return picture;
 }
 
 // Page, floor and camera, without anything on them.
-Picture Presenter::blank() const {
+Picture Presenter::blank(const Framing& framing) const {
   Picture picture;
-  picture.camera = framing_.camera;
-  picture.centre = framing_.centre;
-  picture.radius = framing_.radius;
+  picture.camera = framing.camera;
+  picture.centre = framing.centre;
+  picture.radius = framing.radius;
   picture.title = scene_.title;
   picture.subtitle = scene_.subtitle;
   picture.floor.visible = false;
+  picture.floor.rule = scene_.show.ruler;
   for (const BodyDef& body : scene_.world.bodies) {
-    if (!isFloor(body) || picture.floor.visible) continue;
+    if (!scene_.show.floor || !isFloor(body) || picture.floor.visible) continue;
     picture.floor.visible = true;
     picture.floor.height = std::get<HalfSpace>(body.shape).d;
   }
   if (scene_.show.speed) picture.bar = speedBar(fastest_);
-  picture.floor.grid = framing_.radius < 0.8 ? 0.1 : framing_.radius < 15.0 ? 1.0 : 10.0;
+  picture.floor.grid = framing.radius < 0.8 ? 0.1 : framing.radius < 15.0 ? 1.0 : 10.0;
   picture.floor.fineGrid = 0.2 * picture.floor.grid;
   return picture;
 }
@@ -231,6 +257,47 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
 Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {
   if (!scene_.show.speed || !moves(scene_.world.bodies[i])) return colours_[i];
   return ramp(cividisStops(), sample.bodies[i].v.norm() / fastest_);
+}
+
+// What is the same on every picture of the run.
+void Presenter::finish(Picture& picture) const {
+  addExpectations(picture);
+  if (scene_.show.title) return;
+  picture.title.clear();
+  picture.subtitle.clear();
+}
+
+// Below the title a line for each: what was measured, and what it should be. A formula that is one
+// coordinate gets a dotted line there, across or along the picture.
+void Presenter::addExpectations(Picture& picture) const {
+  double baseline = 100.0;
+  for (const Expectation& one : expectations_) {
+    Label label;
+    label.offset = {32.0, baseline};
+    label.text = fmt::format("{}: {:.6g}, expected {}{:.6g}{}", one.row.label, one.row.measured,
+                             signOf(one.row.relation), one.row.exact,
+                             one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : "");
+    label.size = 13.0f;
+    label.colour = one.row.holds() ? colour::kQuiet : colour::kForce;
+    picture.labels.push_back(label);
+    baseline += 19.0;
+    if (one.body && one.sample >= 0) picture.lines.push_back(expectedLine(one));
+  }
+}
+
+Polyline Presenter::expectedLine(const Expectation& one) const {
+  const Sample& sample = recording_.samples[static_cast<std::size_t>(one.sample)];
+  Vec3 place = sample.bodies[static_cast<std::size_t>(*one.body)].x;
+  place[one.axis] = one.row.exact;
+  const Vec3 sight = framing_.camera.target - framing_.camera.eye;
+  const Vec3 along =
+      one.axis == 1 ? Vec3(sight.cross(Vec3::UnitY()).normalized()) : Vec3(Vec3::UnitY());
+  const Vec3 half = 0.15 * framing_.radius * along;
+  Polyline line;
+  line.points = {place - half, place + half};
+  line.colour = colour::kForce;
+  line.stroke = Stroke::Dotted;
+  return line;
 }
 
 void Presenter::addTheory(Picture& picture) const {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "app/claim/claim.h"
+#include "app/claim/expect.h"
 #include "app/record/recording.h"
 #include "render/camera.h"
 #include "render/picture.h"
@@ -42,7 +44,12 @@ class Presenter {
   Picture strobe() const;
 
  private:
-  Picture blank() const;
+  Picture blank(const Framing& framing) const;
+  void follow();
+  Framing framingAt(const Sample& sample) const;
+  void addExpectations(Picture& picture) const;
+  Polyline expectedLine(const Expectation& one) const;
+  void finish(Picture& picture) const;
   std::shared_ptr<const Facets> surfaceOf(std::size_t i, const BodySample& body) const;
   void addBodies(const Sample& sample, bool byTime, Picture& picture) const;
   void addGhosts(bool byTime, Picture& picture) const;
@@ -57,7 +64,10 @@ class Presenter {
   std::vector<bool> turns_;                            ///< per body: in the run, at all
   std::vector<std::shared_ptr<const Facets>> facets_;  // per body; null for simple shapes
   std::vector<Curve> theory_;
+  std::vector<Expectation> expectations_;
   Framing framing_;
+  std::optional<int> followed_;  ///< the body that stays where it is on the image
+  Framing following_;            ///< of it at the start
   double fastest_ = 1.0;  ///< [m/s] speed of the last colour, if bodies are coloured by speed
 };
 

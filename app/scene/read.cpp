@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/scene/array.h"
+#include "app/scene/expect.h"
 #include "app/scene/force.h"
 #include "app/scene/joint.h"
 #include "app/scene/node.h"
@@ -48,9 +49,10 @@ Scene readTree(const Node& tree, Findings& findings) {
     root.complain("body", "missing; a scene needs at least one [[body]] or [[array]]");
   readForces(root, bodies, scene.world.forces);
   readJoints(root, bodies, scene.world.joints);
-  readCamera(root, scene.camera);
+  readCamera(root, scene);
   readImage(root, scene.image);
   readShow(root, scene.show);
+  readExpects(root, scene);
   const std::vector<std::string> parts = partNames(tree);
   readSweep(root, scene.sweep);
   readPanels(root, parts, scene);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -41,6 +42,8 @@ class SceneError : public std::runtime_error {
 };
 
 struct CameraView {
+  std::string name = "";            ///< of one of several
+  std::string follow = "";          ///< a body that stays where it is on the image, or ""
   std::optional<Vec3> eye, target;  ///< [m]; without them the camera frames the whole motion
   double fov = 24.0;                ///< [deg] vertical
   double azimuth = 20.0;            ///< [deg] of the eye about the vertical; 0 looks along −Z
@@ -49,14 +52,22 @@ struct CameraView {
 
 struct ImageFormat {
   int width = 1280, height = 720;
-  double rate = 60.0;               ///< [1/s] samples and images
-  std::string antialias = "msaa4";  ///< none | msaa4 | ssaa2x2
-  std::optional<double> still;      ///< [s] the instant worth a picture of its own
+  double rate = 60.0;              ///< [1/s] samples and images
+  std::string antialias = "";      ///< none | msaa4 | ssaa2x2, or "" as the quality has it
+  std::string quality = "normal";  ///< low | normal | high
+  bool transparent = false;        ///< nothing behind what is drawn
+  std::optional<double> still;     ///< [s] the instant worth a picture of its own
 };
+
+/// Whether a recording at that rate [1/s] has a sample at the instant [s].
+inline bool isSample(double t, double rate) {
+  return std::abs(t * rate - std::round(t * rate)) <= 1e-6;
+}
 
 /// What is drawn besides the bodies.
 struct ShowFlags {
-  bool path = false;   ///< path of each centre of mass
+  bool floor = true, ruler = true, title = true;  ///< what frames the bodies
+  bool path = false;                              ///< path of each centre of mass
   bool theory = true;  ///< the curves that the scene's checks expect, dotted
   bool contact_forces = false;
   bool ladder = true;         ///< beside contact forces, bars of what each level carries
@@ -83,6 +94,17 @@ struct ShowFlags {
   double strobe = 0.1;     ///< [s] between ghosts of a strobe image
 };
 
+enum class Relation { Equal, AtMost, AtLeast };
+
+/// An [[expect]]: what a formula over quantities of the run comes to.
+struct ExpectDef {
+  std::string label, value;  ///< text for people, or ""; the formula
+  std::optional<double> at;  ///< [s] measured then; else over what `over` says
+  std::string over = "end";  ///< start | end | max | min
+  Relation relation = Relation::Equal;
+  double target = 0.0, within = 0.0;  ///< what it comes to, and what it may be off
+};
+
 struct Scene {
   std::string name;  ///< file name without folder and ending
   std::string file;  ///< path it was read from
@@ -95,7 +117,9 @@ struct Scene {
   std::vector<std::optional<Rgb>> colours;  ///< per body; empty = by palette
   std::vector<std::optional<Rgb>> backs;    ///< per body; of the half with z < 0 in its frame
   std::vector<std::string> labels;          ///< per body; text drawn beside it, or ""
-  CameraView camera;
+  CameraView camera;                        ///< the first of `cameras`, unless another is chosen
+  std::vector<CameraView> cameras;          ///< as the scene names them; none: the default one
+  std::vector<ExpectDef> expects;
   ImageFormat image;
   ShowFlags show;
   std::optional<Sweep> sweep;

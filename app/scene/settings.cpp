@@ -115,10 +115,14 @@ void readStepping(Section& root, SteppingSettings& stepping) {
   section.finish();
 }
 
-void readCamera(Section& root, CameraView& camera) {
-  const Node* node = root.find("camera");
-  if (!node) return;
-  Section section(*node, "camera", root.findings());
+namespace {
+
+CameraView readOneCamera(const Node& node, const std::string& key, Section& root,
+                         const std::vector<BodyDef>& bodies) {
+  CameraView camera;
+  Section section(node, key, root.findings());
+  section.read("name", camera.name);
+  section.read("follow", camera.follow);
   section.read("eye", camera.eye, any("m"));
   section.read("target", camera.target, any("m"));
   section.read("azimuth", camera.azimuth, any("deg"));
@@ -131,7 +135,39 @@ void readCamera(Section& root, CameraView& camera) {
     section.complain("fov", "expected an angle [deg] between 1 and 170");
   if (camera.eye && camera.target && (*camera.eye - *camera.target).norm() < 1e-9)
     section.complain("eye", "stands where the target is; move one of them");
+  std::vector<std::string> names;
+  for (const BodyDef& body : bodies) names.push_back(body.name);
+  if (!camera.follow.empty() && std::find(names.begin(), names.end(), camera.follow) == names.end())
+    section.complain("follow",
+                     "unknown body " + inQuotes(camera.follow) + hint(camera.follow, names));
   section.finish();
+  return camera;
+}
+
+}  // namespace
+
+// One table, or several of which each has a name.
+void readCamera(Section& root, Scene& scene) {
+  const Node* node = root.find("camera");
+  if (!node) return;
+  const Array* several = node->as<Array>();
+  if (!several) {
+    scene.cameras.push_back(readOneCamera(*node, "camera", root, scene.world.bodies));
+  } else {
+    for (const Node& one : *several) {
+      const std::string key = "camera." + std::to_string(scene.cameras.size());
+      scene.cameras.push_back(readOneCamera(one, key, root, scene.world.bodies));
+      const std::string& name = scene.cameras.back().name;
+      const auto same = [&](const CameraView& camera) { return camera.name == name; };
+      if (!isName(name))
+        root.findings().complain(one.spot, key + ".name",
+                                 "each of several cameras needs a name of A-Z a-z 0-9 _ and .");
+      else if (std::count_if(scene.cameras.begin(), scene.cameras.end(), same) > 1)
+        root.findings().complain(one.spot, key + ".name",
+                                 "there is a camera " + inQuotes(name) + " already");
+    }
+  }
+  if (!scene.cameras.empty()) scene.camera = scene.cameras.front();
 }
 
 void readImage(Section& root, ImageFormat& image) {
@@ -147,6 +183,10 @@ void readImage(Section& root, ImageFormat& image) {
   section.read("rate", image.rate, {0.0, 1e5, true, "1/s"});
   section.read("still", image.still, notNegative("s"));
   section.read("antialias", image.antialias, {"none", "msaa4", "ssaa2x2"});
+  section.read("quality", image.quality, {"low", "normal", "high"});
+  std::string background = "page";
+  section.read("background", background, {"page", "transparent"});
+  image.transparent = background == "transparent";
   section.finish();
 }
 
@@ -154,6 +194,9 @@ void readShow(Section& root, ShowFlags& show) {
   const Node* node = root.find("show");
   if (!node) return;
   Section section(*node, "show", root.findings());
+  section.read("floor", show.floor);
+  section.read("ruler", show.ruler);
+  section.read("title", show.title);
   section.read("path", show.path);
   section.read("theory", show.theory);
   section.read("contact_forces", show.contact_forces);

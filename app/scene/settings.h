@@ -10,7 +10,7 @@ void readTexts(Section& root, Scene& scene);
 void readWorld(Section& root, Scene& scene);
 void readCourse(Section& root, CourseSettings& course);
 void readStepping(Section& root, SteppingSettings& stepping);
-void readCamera(Section& root, CameraView& camera);
+void readCamera(Section& root, Scene& scene);
 void readImage(Section& root, ImageFormat& image);
 void readShow(Section& root, ShowFlags& show);
 

@@ -1,0 +1,26 @@
+// [[expect]]: what a scene's author claims of it by a formula.
+#pragma once
+
+#include <vector>
+
+#include "app/claim/claim.h"
+
+namespace tumble {
+
+/// What came of one of them.
+struct Expectation {
+  ClaimRow row;
+  int sample = -1;               ///< where it was measured; −1: nowhere, and it fails
+  std::optional<int> body = {};  ///< of a formula that is one coordinate of a body's centre
+  int axis = 0;                  ///< of that coordinate
+};
+
+/// In the order of the scene. One at an instant between samples, as a recording at another rate has
+/// them, is left out; one at an instant that the run did not reach fails.
+std::vector<Expectation> expectationsOf(const Scene& scene, const Recording& recording);
+
+/// What is wrong with the formulas of a scene: no formula, or a name that nothing has; each with
+/// its place in the text.
+std::vector<Diagnostic> faultsOfExpectations(const Scene& scene);
+
+}  // namespace tumble

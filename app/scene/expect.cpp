@@ -1,0 +1,56 @@
+#include "app/scene/expect.h"
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+namespace {
+
+constexpr std::size_t kMostExpects = 100;
+
+// One of equals, at_most and at_least.
+void readAim(Section& section, ExpectDef& expect) {
+  std::optional<double> equals, most, least;
+  section.read("equals", equals, any({}));
+  section.read("at_most", most, any({}));
+  section.read("at_least", least, any({}));
+  int given = 0;
+  for (const char* key : {"equals", "at_most", "at_least"}) given += section.find(key) != nullptr;
+  if (given != 1)
+    section.complain("equals", "expected one of `equals`, `at_most` and `at_least`, a number");
+  expect.relation = most ? Relation::AtMost : least ? Relation::AtLeast : Relation::Equal;
+  expect.target = most ? *most : least ? *least : equals.value_or(0.0);
+}
+
+void readWhen(Section& section, const Scene& scene, ExpectDef& expect) {
+  section.read("over", expect.over, {"start", "end", "max", "min"});
+  section.read("at", expect.at, {0.0, scene.world.duration, false, "s"});
+  if (!expect.at) return;
+  if (section.find("over")) section.complain("at", "`over` is given too; keep one");
+  if (isSample(*expect.at, scene.image.rate)) return;
+  const double k = std::round(*expect.at * scene.image.rate);
+  section.complain("at", fmt::format("between two samples; the nearest one is at {:.17g} s, and "
+                                     "image.rate is {:g} a second",
+                                     k / scene.image.rate, scene.image.rate));
+}
+
+}  // namespace
+
+void readExpects(Section& root, Scene& scene) {
+  for (const Node& node : root.tables("expect")) {
+    const std::string index = std::to_string(scene.expects.size());
+    if (scene.expects.size() == kMostExpects) return root.complain("expect", "at most 100");
+    ExpectDef& expect = scene.expects.emplace_back();
+    Section section(node, "expect." + index, root.findings(), "expect[" + index + "]");
+    section.read("label", expect.label);
+    section.read("value", expect.value);
+    if (expect.value.empty())
+      section.complain("value", "expected a formula, for example \"ball.y\" or \"energy\"");
+    readWhen(section, scene, expect);
+    readAim(section, expect);
+    section.read("within", expect.within, notNegative({}));
+    section.finish();
+  }
+}
+
+}  // namespace tumble

@@ -1,0 +1,121 @@
+// What a scene claims by formulas.
+#include "app/claim/expect.h"
+
+#include <cmath>
+
+#include "app/claim/formula.h"
+#include "app/claim/quantity.h"
+#include "app/claim/verdict.h"
+#include "app/present/present.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+// Thrown upward at 3 m/s from 1 m: the apex is 9/(2 g) above that, at 3/g.
+const std::string kThrow = R"([world]
+gravity = [0, -10, 0]
+duration = 0.5
+[[body]]
+name = "ball.3"
+shape = { sphere = 0.1 }
+mass = 2.0
+position = [0, 1, 0]
+velocity = [1, 3, 0]
+[image]
+rate = 20
+)";
+
+ClaimRow rowOf(const std::string& expect) {
+  const Scene scene = parseScene(kThrow + "[[expect]]\n" + expect, "throw");
+  requireKnownChecks(scene);
+  const Verdict verdict = judge(scene, record(scene, scene.image.rate));
+  REQUIRE(verdict.rows.size() == 1);
+  return verdict.rows.front();
+}
+
+std::string refusalOf(const std::string& expect) {
+  try {
+    requireKnownChecks(parseScene(kThrow + "[[expect]]\n" + expect, "throw"));
+  } catch (const SceneError& error) {
+    std::string all;
+    for (const Diagnostic& diagnostic : error.diagnostics()) all += format(diagnostic) + "\n";
+    return all;
+  }
+  return "";
+}
+
+}  // namespace
+
+// Oracle: closed form. Measured 4e-16, allowed 1e-12.
+TEST_CASE("a formula is measured at an instant, at the ends and where it is largest or least") {
+  CHECK(rowOf("value = \"ball.3.y\"\nat = 0.3\nequals = 1.45\nwithin = 1e-12").holds());
+  CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nequals = 1.45\nwithin = 1e-12").holds());
+  CHECK(
+      rowOf("value = \"ball.3.vy + 10 * t\"\nover = \"min\"\nequals = 3\nwithin = 1e-12").holds());
+  CHECK(rowOf("value = \"energy\"\nequals = 30\nwithin = 1e-11").holds());
+  CHECK(rowOf("value = \"energy\"\nover = \"start\"\nequals = 30\nwithin = 1e-12").holds());
+  CHECK(rowOf("value = \"sqrt(ball.3.px^2) / 2\"\nequals = 1\nwithin = 1e-12").holds());
+  const ClaimRow off = rowOf("value = \"ball.3.y\"\nat = 0.3\nequals = 1.5\nwithin = 0.04");
+  CHECK_FALSE(off.holds());
+  CHECK(off.error == Approx(0.05).epsilon(1e-9));
+}
+
+TEST_CASE("at most and at least forgive what is on their side") {
+  CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.46").holds());
+  CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.4").holds());
+  CHECK_FALSE(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.4").holds());
+  CHECK_FALSE(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.5").holds());
+  CHECK_FALSE(rowOf("value = \"0 / 0\"\nequals = 0\nwithin = 1").holds());
+}
+
+TEST_CASE("a formula that is none is refused where it goes wrong") {
+  struct Slip {
+    std::string expect;
+    std::vector<std::string> says;
+  };
+  const Slip slip =
+      GENERATE(Slip{"value = \"ball.3.w\"\nequals = 0", {"throw:13:10:", "ball.3.w"}},
+               Slip{"value = \"2 * bal.3.x\"\nequals = 0", {"throw:13:14:", "ball.3"}},
+               Slip{"value = \"enrgy\"\nequals = 0", {"throw:13:10:", "'energy'"}},
+               Slip{"value = \"1 + * 2\"\nequals = 0", {"throw:13:14:"}},
+               Slip{"value = \"t = 2\"\nequals = 0", {"throw:13:12:", "equals"}},
+               Slip{"value = \"t\"", {"equals", "at_most"}},
+               Slip{"value = \"t\"\nequals = 0\nat_most = 1", {"equals"}},
+               Slip{"equals = 0", {"value", "formula"}},
+               Slip{"value = \"t\"\nequals = 0\nat = 0.12", {"throw:15:", "0.1"}},
+               Slip{"value = \"t\"\nequals = 0\nat = 9", {"throw:15:", "at"}},
+               Slip{"value = \"t\"\nequals = 0\nat = 0.1\nover = \"max\"", {"over"}},
+               Slip{"value = \"t\"\nequals = 0\nover = \"mox\"", {"'max'"}},
+               Slip{"valu = \"t\"\nequals = 0", {"throw:13:1:", "'value'"}});
+  CAPTURE(slip.expect);
+  const std::string refusal = refusalOf(slip.expect);
+  CAPTURE(refusal);
+  for (const std::string& text : slip.says) CHECK(refusal.find(text) != std::string::npos);
+}
+
+TEST_CASE("every quantity of both tables has a value in a scene that has bodies and contacts") {
+  const Scene scene = parseScene(kThrow, "throw");
+  const Recording recording = record(scene, 20.0);
+  for (const Quantity& quantity : bodyQuantities()) {
+    CAPTURE(quantity.name);
+    const auto gauge = Gauge::named(scene, std::string("ball.3.") + quantity.name);
+    REQUIRE(gauge.has_value());
+    CHECK(std::isfinite((*gauge)(recording.samples.back())));
+  }
+  for (const Quantity& quantity : runQuantities()) REQUIRE(Gauge::named(scene, quantity.name));
+  CHECK_FALSE(Gauge::named(scene, "ball.y").has_value());
+}
+
+TEST_CASE("an expectation is written below the title, and drawn where it is one coordinate") {
+  const std::string expect = "[[expect]]\nvalue = \"ball.3.y\"\nover = \"max\"\nequals = 1.45\n";
+  const Scene scene = parseScene(kThrow + expect, "throw");
+  const Recording recording = record(scene, 20.0);
+  const Picture picture = Presenter(scene, recording).image(0);
+  REQUIRE(picture.labels.size() == 1);
+  CHECK(picture.labels[0].text == "ball.3.y, max: 1.45, expected 1.45");
+  REQUIRE(picture.lines.size() == 1);
+  CHECK(picture.lines[0].stroke == Stroke::Dotted);
+  CHECK(picture.lines[0].points[0].y() == 1.45);
+}
