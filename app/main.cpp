@@ -7,6 +7,7 @@ int completion(int argc, char** argv);
 int converge(int argc, char** argv);
 int describe(int argc, char** argv);
 int doctor(int argc, char** argv);
+int exportRun(int argc, char** argv);
 int gallery(int argc, char** argv);
 int golden(int argc, char** argv);
 int list(int argc, char** argv);
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
        command::describe},
       {"simulate", "numbers only: trajectory, events, contacts, summary", command::simulate},
       {"render", "numbered images; or a still, a strobe, a sheet, a film", command::render},
+      {"export", "a run for other programs: glTF 2.0", command::exportRun},
       {"sweep", "one run for each value of the scene's [sweep]: images, a sheet, a table",
        command::sweep},
       {"gallery", "the key pictures of every demo and a page to leaf through", command::gallery},

@@ -20,7 +20,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/tumbleConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/tumbleConfigVersion.cmake DESTINATION ${package_dir})
 if(TUMBLE_APP)
   install(TARGETS tumble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY assets/demos assets/report assets/meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/tumble)
+  install(DIRECTORY assets/demos assets/report assets/meshes assets/page DESTINATION ${CMAKE_INSTALL_DATADIR}/tumble)
   install(DIRECTORY golden DESTINATION ${CMAKE_INSTALL_DATADIR}/tumble)
   set(shell ${PROJECT_BINARY_DIR}/shell)
   install(FILES ${shell}/tumble.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -45,7 +45,12 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
   shoot.sheet();
   shown.plates = {{name + "/strobe.png", "the whole motion"},
                   {name + "/still.png", "one instant"},
-                  {name + "/sheet.png", "twelve instants"}};
+                  {name + "/sheet.png", "where it has moved on"}};
+  shoot.page(folder + "/page.html");
+  writeFile(folder + "/" + name + ".toml", readFile(scene.file));
+  shown.links = {{name + "/page.html", "play it"}, {name + "/" + name + ".toml", "scene"}};
+  for (const auto& [plot, title] : plotNames(scene))
+    shown.links.push_back({name + "/" + plot + ".csv", "numbers: " + title});
   const std::vector<std::string> panels = shoot.panels();
   for (std::size_t i = 0; i < panels.size(); ++i)
     shown.plates.push_back(

@@ -2,11 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "app/file/html.h"
 
 namespace tumble {
 
 namespace {
+
+// Chapters in the order of the lectures; others follow in the order of the alphabet.
+std::pair<int, std::string> lectureOf(const Scene& scene) {
+  constexpr std::array kLectures = {"particles and rigid bodies",
+                                    "rigid bodies",
+                                    "collision",
+                                    "contact",
+                                    "resting contact",
+                                    "friction"};
+  const auto known = std::find(kLectures.begin(), kLectures.end(), scene.chapter);
+  return {static_cast<int>(known - kLectures.begin()),
+          known == kLectures.end() ? scene.chapter : std::string()};
+}
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>tumble</title>
@@ -16,19 +33,26 @@ body { margin: 2rem auto; max-width: 1280px; padding: 0 1rem; background: #f8f8f
        font: 16px/1.5 Lato, "DejaVu Sans", sans-serif; }
 h1, h2 { font-weight: 700; } h2 { margin: 3rem 0 0; } p { margin: .3rem 0 1rem; color: #5c636e; }
 figure { margin: 0 0 1rem; } figcaption { color: #5c636e; font-size: 14px; }
-img, video { width: 100%; border: 1px solid #c9ced6; background: #fff; cursor: zoom-in; }
-.plates { display: grid; grid-template-columns: repeat(auto-fit, minmax(420px, 1fr)); gap: 1rem; }
+img, video { width: 100%; border: 1px solid #c9ced6; background: #fff; cursor: zoom-in; display: block; }
+figure button { all: unset; display: block; width: 100%; } a { color: #0a63b0; }
+:focus-visible { outline: 3px solid #0a63b0 !important; }
+nav ul { columns: 18rem; padding-left: 1.2rem; margin: 0; } nav h2 { font-size: 1rem; margin: 1rem 0 0; }
+.plates { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr)); gap: 1rem; }
+details { overflow-x: auto; } code { background: #ebeff4; padding: 1px 4px; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
-td:first-child, th:first-child { text-align: left; } .failed { color: #d5401a; font-weight: 700; }
+td:first-child, th:first-child { text-align: left; } .failed { color: #b03010; font-weight: 700; }
+@media print { .plates { grid-template-columns: repeat(4, 1fr); gap: .3rem; } h2 { margin: 1rem 0 0; break-after: avoid; }
+  figure { break-inside: avoid; margin: 0; } body { margin: 0; max-width: none; font-size: 10px; } details, video, dialog { display: none; } }
 dialog { width: 96vw; max-width: 96vw; border: 0; padding: 0; background: #f8f8f6; text-align: center; }
 dialog img { max-height: 92vh; width: auto; max-width: 100%; border: 0; cursor: zoom-out; }
 </style></head><body>
 <h1>tumble</h1>
-<p>Click a picture to enlarge it; the arrow keys leaf through all of them.</p>
+<p>Click a picture, or press Enter on it, to enlarge it; the arrow keys leaf through all of them.</p>
 )";
 
-constexpr const char* kTail = R"(<dialog><img alt=""><p></p></dialog>
+constexpr const char* kTail =
+    R"(<dialog aria-label="a picture, enlarged"><img alt=""><p></p></dialog>
 <script>
 const plates = [...document.querySelectorAll('figure img')], dialog = document.querySelector('dialog');
 let now = 0;
@@ -38,11 +62,11 @@ function show(index) {
   dialog.querySelector('p').textContent = plates[now].alt;
   if (!dialog.open) dialog.showModal();
 }
-plates.forEach((plate, index) => plate.onclick = () => show(index));
+plates.forEach((plate, index) => plate.parentElement.onclick = () => show(index));
 dialog.onclick = () => dialog.close();
 document.onkeydown = event => {
   const step = {ArrowRight: 1, ArrowLeft: -1}[event.key];
-  if (step) show(dialog.open ? now + step : now);
+  if (step && dialog.open) show(now + step);
 };
 </script></body></html>
 )";
@@ -54,21 +78,29 @@ std::string claimTable(const Verdict& verdict) {
   out += "<tr><th>claim</th><th>measured</th><th>exact</th><th>error</th><th>allowed</th></tr>\n";
   for (const ClaimRow& row : verdict.rows)
     out += fmt::format(
-        "<tr{}><td>{}</td><td>{:.10g}</td><td>{:.10g}</td><td>{:.2g}</td><td>{:.2g}</td></tr>\n",
-        row.holds() ? "" : " class=\"failed\"", htmlText(row.label), row.measured, row.exact,
-        row.error, row.allowed);
+        "<tr{}><td>{}</td><td>{:.10g}</td><td>{}{:.10g}</td><td>{:.2g}</td><td>{:.2g}</td></tr>\n",
+        row.holds() ? "" : " class=\"failed\"", htmlText(row.label), row.measured,
+        signOf(row.relation), row.exact, row.error, row.allowed);
   return out + "</table></details>\n";
+}
+
+// "play it · scene · numbers: graph · tumble render drop"
+std::string linksOf(const Exhibit& exhibit) {
+  std::string out = "<p>";
+  for (const Plate& link : exhibit.links)
+    out += fmt::format("<a href=\"{}\">{}</a> · ", htmlText(link.file), htmlText(link.caption));
+  return out + fmt::format("<code>tumble render {}</code></p>\n", htmlText(exhibit.scene.name));
 }
 
 std::string section(const Exhibit& exhibit) {
   const Scene& scene = exhibit.scene;
-  std::string out =
-      fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p>{0}: {2}</p>\n<div class=\"plates\">\n",
-                  htmlText(scene.name), htmlText(scene.title), htmlText(scene.claim));
+  std::string out = fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p>{0}: {2}</p>\n", htmlText(scene.name),
+                                htmlText(scene.title), htmlText(scene.claim));
+  out += linksOf(exhibit) + "<div class=\"plates\">\n";
   for (const Plate& plate : exhibit.plates)
     out += fmt::format(
-        "<figure><img loading=\"lazy\" src=\"{}\" "
-        "alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+        "<figure><button><img loading=\"lazy\" src=\"{}\" "
+        "alt=\"{}\"></button><figcaption>{}</figcaption></figure>\n",
         htmlText(plate.file), htmlText(scene.title + ": " + plate.caption),
         htmlText(plate.caption));
   if (!exhibit.film.empty())
@@ -82,9 +114,25 @@ std::string section(const Exhibit& exhibit) {
 }  // namespace
 
 std::string galleryPage(const std::vector<Exhibit>& exhibits) {
-  std::string out = kHead;
-  for (const Exhibit& exhibit : exhibits) out += section(exhibit);
-  return out + kTail;
+  // In the order of the lectures, within a chapter as given.
+  std::vector<const Exhibit*> order;
+  for (const Exhibit& exhibit : exhibits) order.push_back(&exhibit);
+  std::stable_sort(order.begin(), order.end(), [](const Exhibit* a, const Exhibit* b) {
+    return lectureOf(a->scene) < lectureOf(b->scene);
+  });
+  std::string out = std::string(kHead) + "<nav aria-label=\"contents\">";
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Scene& scene = order[i]->scene;
+    const bool first = i == 0 || order[i - 1]->scene.chapter != scene.chapter;
+    if (first)
+      out += fmt::format("{}<h2>{}</h2>\n<ul>\n", i == 0 ? "" : "</ul>\n",
+                         htmlText(scene.chapter.empty() ? "other" : scene.chapter));
+    out += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", htmlText(scene.name),
+                       htmlText(scene.title));
+  }
+  out += order.empty() ? "</nav>\n<main>\n" : "</ul></nav>\n<main>\n";
+  for (const Exhibit* exhibit : order) out += section(*exhibit);
+  return out + "</main>\n" + kTail;
 }
 
 }  // namespace tumble

@@ -17,12 +17,14 @@ struct Plate {
 struct Exhibit {
   Scene scene;
   std::vector<Plate> plates;
-  std::string film;  ///< or ""
+  std::string film;               ///< or ""
+  std::vector<Plate> links = {};  ///< the page that plays it, its scene, numbers
   Verdict verdict;
 };
 
-/// One HTML file without anything from elsewhere; the pictures lie beside it. A click opens a
-/// picture, the arrow keys leaf through all of them.
+/// One HTML file without anything from elsewhere; the pictures lie beside it, and what is linked.
+/// In the order of the lectures, with contents. A click or Enter opens a picture, the arrow keys
+/// then leaf through all of them.
 std::string galleryPage(const std::vector<Exhibit>& exhibits);
 
 }  // namespace tumble

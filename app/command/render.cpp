@@ -10,6 +10,7 @@
 #include "app/command/run.h"
 #include "app/command/shoot.h"
 #include "app/file/file.h"
+#include "app/scene/findings.h"
 
 namespace tumble::command {
 
@@ -17,7 +18,7 @@ namespace {
 
 struct Options {
   SceneOptions scene;
-  std::string folder, frames, size, video, shard;
+  std::string folder, frames, size, video, shard, camera, html;
   double rate = 0.0;
   int jobs = 1;
   std::optional<double> still;
@@ -34,6 +35,7 @@ bool readOptions(int argc, char** argv, Options& options) {
        "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
        "path-of-brick --jobs 4         # by four processes; --shard 0/4 … 3/4 on four machines",
        "path-of-brick --video brick.mp4",
+       "pile --html pile.html          # a page that plays it, to turn and to scrub",
        "stacked-boxes --still 0 --set world.gravity=[0,-1.62,0] -o out/moon"});
   addSceneOptions(line, options.scene);
   line.option("-o,--output", options.folder, "folder for the images [out/<scene>]");
@@ -43,13 +45,26 @@ bool readOptions(int argc, char** argv, Options& options) {
   line.option("--jobs", options.jobs, "processes that draw the sequence at once [1]",
               {.type = "N", .range = {{1.0, 256.0}}});
   line.option("--size", options.size, "pixels [the scene's own]", {.type = "WxH"});
+  line.option("--camera", options.camera, "one of the scene's [[camera]]s [the first]",
+              {.type = "NAME"});
   addRate(line, options.rate);
   line.option("--still", options.still, "one image, at this time", {.type = "SECONDS"});
   line.flag("--strobe", options.strobe, "one image of the whole motion");
-  line.flag("--sheet", options.sheet, "twelve stills on one page");
+  line.flag("--sheet", options.sheet, "up to twelve stills on one page");
   line.flag("--panels", options.panels, "the scene's panels, graphs and charts");
   line.option("--video", options.video, "a film, by ffmpeg", {.type = "FILE"});
+  line.option("--html", options.html, "one page that plays the run in a browser", {.type = "FILE"});
   return line.read(argc, argv);
+}
+
+CameraView cameraNamed(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const CameraView& camera : scene.cameras) {
+    if (camera.name == name) return camera;
+    if (!camera.name.empty()) names.push_back(camera.name);
+  }
+  throw UsageError(fmt::format("--camera {}: {} has no [[camera]] of that name{}", name, scene.file,
+                               hint(name, names)));
 }
 
 // The range of --frames, or everything.
@@ -82,6 +97,7 @@ int render(int argc, char** argv) {
   if (!options.size.empty())
     std::tie(scene.image.width, scene.image.height) = parseSize(options.size);
   if (options.rate > 0.0) scene.image.rate = options.rate;
+  if (!options.camera.empty()) scene.camera = cameraNamed(scene, options.camera);
   if (options.folder.empty()) options.folder = "out/" + scene.name;
 
   if (options.still && !(*options.still >= 0.0 && *options.still <= scene.world.duration))
@@ -92,14 +108,16 @@ int render(int argc, char** argv) {
     throw UsageError(
         fmt::format("{} has neither [[panel]] nor [[graph]] nor [[chart]]", scene.file));
 
-  const bool single =
-      options.still || options.strobe || options.sheet || options.panels || !options.video.empty();
+  const bool single = options.still || options.strobe || options.sheet || options.panels ||
+                      !options.video.empty() || !options.html.empty();
   if (single && (options.jobs > 1 || !options.shard.empty()))
     throw UsageError("--jobs and --shard divide a sequence; leave them out or the single pictures");
   const std::vector<int> images = imagesOf(options, sampleCount(scene, scene.image.rate));
   Studio studio;
   // Processes that draw open OpenGL themselves: its threads would not live on in them.
-  if (options.jobs == 1) studio.open();
+  const bool pageAlone = !options.html.empty() && !options.still && !options.strobe &&
+                         !options.sheet && !options.panels && options.video.empty();
+  if (options.jobs == 1 && !pageAlone) studio.open();
   Shoot shoot(scene, options.folder, studio);
   std::vector<std::string> written;
   if (options.still) written.push_back(shoot.still(*options.still));
@@ -112,6 +130,12 @@ int render(int argc, char** argv) {
     if (!parent.empty()) makeFolder(parent.string());
     shoot.video(options.video, {images.front(), images.back() + 1});
     written.push_back(options.video);
+  }
+  if (!options.html.empty()) {
+    const std::filesystem::path parent = std::filesystem::path(options.html).parent_path();
+    if (!parent.empty()) makeFolder(parent.string());
+    shoot.page(options.html);
+    written.push_back(options.html);
   }
   if (!single) written.push_back(shoot.sequence(images, options.jobs));
   for (const std::string& path : written) say(path);

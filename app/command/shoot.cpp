@@ -13,8 +13,10 @@
 #include "app/command/run.h"
 #include "app/command/stamp.h"
 #include "app/command/video.h"
+#include "app/export/page.h"
 #include "app/file/file.h"
 #include "app/panel/page.h"
+#include "app/present/instants.h"
 #include "render/png_writer.h"
 #include "render/sheet.h"
 
@@ -60,19 +62,19 @@ std::string Shoot::strobe() {
 }
 
 std::string Shoot::sheet() {
-  constexpr int kPanels = 12, kColumns = 4;
+  constexpr int kColumns = 4;
   const std::string path = folder_ + "/sheet.png", what = "sheet";
   if (finished(path, what)) return path;
   ImageFormat format = scene_.image;
   format.width = 480;
   format.height = std::max(16, format.width * scene_.image.height / scene_.image.width);
-  const double end = (presenter().count() - 1) / scene_.image.rate;
+  format.transparent = false;
   std::vector<Panel> panels;
-  for (int n = 0; n < kPanels; ++n) {
-    const double t = end * n / (kPanels - 1);
-    Picture picture = presenter().still(t);
+  for (const int k : tellingSamples(scene_, recording(), 12)) {
+    Picture picture = presenter().image(k);
     stripForPanel(picture);
-    panels.push_back({studio_.draw(picture, format), fmt::format("t = {:.2f} s", t), ""});
+    panels.push_back(
+        {studio_.draw(picture, format), fmt::format("t = {:.2f} s", recording().samples[k].t), ""});
   }
   writePng(path, drawSheet(panels, kColumns, scene_.title, scene_.subtitle, studio_.fonts()),
            stampOf(scene_, what));
@@ -97,6 +99,7 @@ std::vector<std::string> Shoot::panels() {
   ImageFormat format = scene_.image;
   format.width = kSheetPanel;
   format.height = panelHeight(scene_, kSheetPanel);
+  format.transparent = false;
   const auto draw = [&](const Picture& picture) {
     return studio_.draw(picture, format, panelPage(scene_).y());
   };
@@ -192,12 +195,19 @@ void Shoot::tellStrangers(const std::vector<int>& images) const {
       strangers.size(), folder_, *std::min_element(strangers.begin(), strangers.end())));
 }
 
+void Shoot::page(const std::string& path) {
+  presenter();
+  writeFile(path, pageHtml(scene_, recording()));
+}
+
 void Shoot::video(const std::string& path, std::pair<int, int> range) {
   Video video(path, scene_.image.width, scene_.image.height, scene_.image.rate);
+  ImageFormat format = scene_.image;
+  format.transparent = false;
   const int last = std::min(range.second, presenter().count());
   Progress progress("filming");
   for (int k = range.first; k < last; ++k) {
-    video.add(studio_.draw(presenter().image(k), scene_.image));
+    video.add(studio_.draw(presenter().image(k), format));
     progress.show(static_cast<double>(k - range.first) / (last - range.first));
   }
   video.finish();

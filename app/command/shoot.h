@@ -26,7 +26,7 @@ class Shoot {
   /// Each writes its file or files and returns the path.
   std::string still(double t);  ///< still.png, the sample nearest to t [s]
   std::string strobe();         ///< strobe.png
-  std::string sheet();          ///< sheet.png: the motion in twelve stills
+  std::string sheet();          ///< sheet.png: up to twelve stills, where the bodies have moved on
   /// panels.png with all panels, graphs and charts of the scene, and graph.png, graph.csv,
   /// chart.png, chart.csv, chart-2.png … of each plot alone. Nothing for a scene without them.
   std::vector<std::string> panels();
@@ -36,6 +36,9 @@ class Shoot {
   std::string sequence(const std::vector<int>& images, int jobs = 1);
   /// The images of the range as a film.
   void video(const std::string& path, std::pair<int, int> range);
+
+  /// The whole run as a page for a browser; needs no OpenGL.
+  void page(const std::string& path);
 
   /// Images of the whole sequence, one per sample.
   int count() const;

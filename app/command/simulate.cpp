@@ -7,6 +7,8 @@
 #include "app/command/options.h"
 #include "app/command/progress.h"
 #include "app/command/run.h"
+#include "app/export/scene_json.h"
+#include "app/file/file.h"
 #include "app/record/output.h"
 
 namespace tumble::command {
@@ -17,7 +19,7 @@ int simulate(int argc, char** argv) {
   double rate = 0.0;
   CommandLine line("simulate", "Runs a scene and writes its numbers.",
                    {"path-of-brick                       # trajectory.csv, events.csv, "
-                    "contacts.csv, summary.json",
+                    "contacts.csv, summary.json, scene.json",
                     "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
                     "path-of-brick --set materials.brick.restitution=0.4"});
   addSceneOptions(line, options);
@@ -36,8 +38,9 @@ int simulate(int argc, char** argv) {
   const Recording recording = runWithProgress(scene, rate, write);
   if (!files) files.emplace(folder, scene);
   files->finish(recording);
+  writeFile(folder + "/scene.json", sceneJson(scene));
   printCertificate(recording);
-  say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json");
+  say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json");
   return exitOf(recording);
 }
 

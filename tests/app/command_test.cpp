@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "app/command/command.h"
 #include "app/command/gallery_page.h"
@@ -85,7 +86,9 @@ TEST_CASE("a finished image is kept, one of another scene, size or half-written 
     Scene scene = readScene(file, overrides);
     scene.image.width = width;
     Shoot shoot(scene, folder / "out", studio);
-    shoot.sequence({0, shoot.count()});
+    std::vector<int> all(static_cast<std::size_t>(shoot.count()));
+    std::iota(all.begin(), all.end(), 0);
+    shoot.sequence(all);
     return shoot.recorded();
   };
   CHECK(draw({}, 64));
@@ -209,6 +212,21 @@ TEST_CASE("the gallery's page is one file that names every picture and escapes e
   CHECK(page.find("<tr class=\"failed\"><td>bad</td>") != std::string::npos);
   CHECK(page.find("<tr><td>good</td>") != std::string::npos);
   CHECK(page.find("http") == std::string::npos);
+}
+
+TEST_CASE("the gallery's page follows the lectures, links what it says and shows what is bounded") {
+  Exhibit late, early;
+  late.scene.name = "late";
+  late.scene.chapter = "friction";
+  early.scene.name = "early";
+  early.scene.chapter = "collision";
+  early.links = {{"early/page.html", "play it"}};
+  early.verdict.rows = {{"gap", 28.0, 5.0, 0.0, 0.0, false, Relation::AtLeast}};
+  const std::string page = galleryPage({late, early});
+  CHECK(page.find("<h2>collision</h2>") < page.find("<h2>friction</h2>"));
+  CHECK(page.find("id=\"early\"") < page.find("id=\"late\""));
+  CHECK(page.find("<a href=\"early/page.html\">play it</a>") != std::string::npos);
+  CHECK(page.find("<td>≥ 5</td>") != std::string::npos);
 }
 
 TEST_CASE("a scene that asks for a check that is none is refused") {

@@ -39,7 +39,7 @@ TEST_CASE("the scene that the mistakes are made in is itself accepted") {
   const Outcome outcome = tumbleRun(scratch, "simulate scene.toml -o out");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
-  CHECK(filesBelow(scratch / "out") == 4);
+  CHECK(filesBelow(scratch / "out") == 5);
 }
 
 TEST_CASE("a scene that cannot be is refused with its place, what is wrong and what is expected") {

@@ -1,0 +1,44 @@
+#include "app/export/pack.h"
+
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+
+#include "app/golden/report.h"
+
+namespace tumble {
+
+std::uint16_t sixteenBits(double value, double low, double span) {
+  const double share = span > 0.0 ? (value - low) / span : 0.0;
+  return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)));
+}
+
+std::string differences(const std::vector<std::vector<std::uint16_t>>& series) {
+  std::string low, high;
+  for (const std::vector<std::uint16_t>& one : series) {
+    std::uint16_t before = 0;
+    for (const std::uint16_t value : one) {
+      const std::uint16_t step = static_cast<std::uint16_t>(value - before);
+      low += static_cast<char>(step & 255);
+      high += static_cast<char>(step >> 8);
+      before = value;
+    }
+  }
+  return low + high;
+}
+
+std::string packed(const std::string& bytes) {
+  constexpr int kLevel = 9;
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> zlib(
+      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+  if (!zlib) throw std::bad_alloc();
+  std::vector<std::uint8_t> out(libdeflate_zlib_compress_bound(zlib.get(), bytes.size()));
+  out.resize(
+      libdeflate_zlib_compress(zlib.get(), bytes.data(), bytes.size(), out.data(), out.size()));
+  return base64(out);
+}
+
+}  // namespace tumble

@@ -1,0 +1,179 @@
+// What other programs are told: glTF, the resolved scene, the page.
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "app/export/drawn.h"
+#include "app/export/gltf.h"
+#include "app/export/pack.h"
+#include "app/export/page.h"
+#include "app/export/scene_json.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+const std::string kScene = R"(
+title = "Three </script> & forms"
+[world]
+duration = 0.2
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "box"
+shape = { box = [0.2, 0.4, 0.6] }
+mass = 2.0
+friction = 0.25
+position = [0, 1, 0]
+angular_velocity = [0, 0, 2]
+[[array]]
+name = "ball"
+kind = "row"
+count = 2
+step = [1, 0, 0]
+body = { shape = { sphere = 0.1 }, mass = 1.0, position = [1, 1, 0] }
+[[body]]
+name = "rod"
+shape = { capsule = [0.1, 0.5] }
+mass = 1.0
+position = [-1, 1, 0]
+[[expect]]
+value = "box.y"
+over = "max"
+equals = 1.0
+)";
+
+struct Glb {
+  nlohmann::json json;
+  std::string bytes;
+  float number(int accessor, std::size_t i) const {
+    const auto& view = json["bufferViews"][json["accessors"][accessor]["bufferView"].get<int>()];
+    float value = 0.0f;
+    std::memcpy(&value, bytes.data() + view["byteOffset"].get<std::size_t>() + 4 * i, 4);
+    return value;
+  }
+};
+
+std::uint32_t wordAt(const std::string& file, std::size_t at) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, file.data() + at, 4);
+  return word;
+}
+
+// Header and chunks as §4.4 of the specification lays them out.
+Glb read(const std::string& file) {
+  REQUIRE(file.substr(0, 4) == "glTF");
+  CHECK(wordAt(file, 4) == 2);
+  REQUIRE(wordAt(file, 8) == file.size());
+  const std::uint32_t text = wordAt(file, 12);
+  REQUIRE(file.substr(16, 4) == "JSON");
+  CHECK(text % 4 == 0);
+  REQUIRE(file.substr(20 + text + 4, 3) == "BIN");
+  REQUIRE(wordAt(file, 20 + text) == file.size() - 28 - text);
+  return {nlohmann::json::parse(file.substr(20, text)), file.substr(28 + text)};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a glTF file moves each body as the recording does, and bodies of one form share a mesh") {
+  const Scene scene = parseScene(kScene, "forms");
+  const Recording recording = record(scene, 60.0);
+  const Glb glb = read(gltfBinary(scene, recording));
+  const auto& nodes = glb.json["nodes"];
+  // Four bodies, each with a node for its mesh; the floor is none.
+  REQUIRE(nodes.size() == 8);
+  CHECK(glb.json["meshes"].size() == 3);
+  REQUIRE(glb.json["animations"][0]["channels"].size() == 8);
+  for (const auto& channel : glb.json["animations"][0]["channels"]) {
+    const auto& node = nodes[channel["target"]["node"].get<int>()];
+    const auto& sampler = glb.json["animations"][0]["samplers"][channel["sampler"].get<int>()];
+    const std::string name = node["name"];
+    const std::size_t body = name == "box" ? 1 : name == "rod" ? 2 : name == "ball.0" ? 3 : 4;
+    const bool turns = channel["target"]["path"] == "rotation";
+    for (const std::size_t k : {std::size_t{0}, recording.samples.size() - 1}) {
+      const BodySample& sample = recording.samples[k].bodies[body];
+      CHECK(glb.number(sampler["input"], k) == static_cast<float>(recording.samples[k].t));
+      for (std::size_t i = 0; i < (turns ? 4u : 3u); ++i)
+        CHECK(glb.number(sampler["output"], (turns ? 4 : 3) * k + i) ==
+              static_cast<float>(turns ? sample.q.coeffs()[i] : sample.x[i]));
+    }
+  }
+  for (const auto& view : glb.json["bufferViews"]) {
+    CHECK(view["byteOffset"].get<std::size_t>() % 4 == 0);
+    CHECK(view["byteOffset"].get<std::size_t>() + view["byteLength"].get<std::size_t>() <=
+          glb.bytes.size());
+  }
+}
+
+TEST_CASE("the physics extensions tell mass, inertia, form and surface of each body") {
+  const Scene scene = parseScene(kScene, "forms");
+  const Glb glb = read(gltfBinary(scene, record(scene, 60.0)));
+  const auto& node = glb.json["nodes"][1];
+  REQUIRE(node["name"] == "box");
+  const auto& body = node["extensions"]["KHR_physics_rigid_bodies"];
+  CHECK(body["motion"]["mass"] == 2.0);
+  // m (b² + c²)/12 about each axis of the box.
+  CHECK(body["motion"]["inertiaDiagonal"][0].get<double>() == Approx(2.0 * 0.52 / 12.0));
+  CHECK(body["motion"]["angularVelocity"][2] == 2.0);
+  const auto& shapes = glb.json["extensions"]["KHR_implicit_shapes"]["shapes"];
+  REQUIRE(shapes.size() == 3);
+  const auto& shape = shapes[body["collider"]["geometry"]["shape"].get<int>()];
+  CHECK(shape["box"]["size"][2].get<double>() == Approx(0.6));
+  const auto& surfaces = glb.json["extensions"]["KHR_physics_rigid_bodies"]["physicsMaterials"];
+  const auto& surface = surfaces[body["collider"]["physicsMaterial"].get<int>()];
+  CHECK(surface["dynamicFriction"].get<double>() == Approx(0.5));  // √0.25
+}
+
+TEST_CASE("a mesh that many bodies share is closed, faces outward and has the size of its form") {
+  for (const Form form : {Form::Box, Form::Sphere, Form::Cylinder}) {
+    Instance instance;
+    instance.form = form;
+    const IndexedMesh mesh = meshOf(instance);
+    double volume = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      const Eigen::Vector3f &a = mesh.positions[mesh.indices[i]],
+                            &b = mesh.positions[mesh.indices[i + 1]],
+                            &c = mesh.positions[mesh.indices[i + 2]];
+      volume += a.dot(b.cross(c)) / 6.0;
+    }
+    // 8, 4π/3, 2π; facets of a 48-gon lack 0.3 % and 0.9 %.
+    const double exact = form == Form::Box ? 8.0 : form == Form::Sphere ? 4.18879 : 6.28319;
+    CHECK(volume == Approx(exact).epsilon(0.012));
+    CHECK(mesh.positions.size() < mesh.indices.size());
+  }
+}
+
+TEST_CASE("scene.json has arrays expanded, colours, mass and inertia") {
+  const auto json = nlohmann::json::parse(sceneJson(parseScene(kScene, "forms")));
+  REQUIRE(json["bodies"].size() == 5);
+  CHECK(json["bodies"][0]["shape"]["type"] == "half-space");
+  CHECK(json["bodies"][0]["moves"] == false);
+  CHECK(json["bodies"][1]["shape"]["edges"][2] == 0.6);
+  CHECK(json["bodies"][1]["mass"] == 2.0);
+  CHECK(json["bodies"][1]["inertia"][0][0].get<double>() == Approx(2.0 * 0.52 / 12.0));
+  CHECK(json["bodies"][2]["shape"]["radius"] == 0.1);
+  CHECK(json["bodies"][3]["name"] == "ball.0");
+  CHECK(json["bodies"][4]["position"][0] == 2.0);
+}
+
+TEST_CASE("series are packed as differences, and values to one part in 65535") {
+  CHECK(sixteenBits(1.0, 1.0, 2.0) == 0);
+  CHECK(sixteenBits(3.0, 1.0, 2.0) == 65535);
+  CHECK(sixteenBits(7.0, 7.0, 0.0) == 0);
+  CHECK(differences({{1, 258, 0}}) == std::string("\1\1\xfe\0\1\xfe", 6));
+}
+
+TEST_CASE(
+    "the page holds its run and asks for nothing outside itself, whatever the scene's texts") {
+  const Scene scene = parseScene(kScene, "forms");
+  const std::string page = pageHtml(scene, record(scene, 60.0));
+  CHECK(page.find("Three </script>") == std::string::npos);
+  CHECK(page.find("\\u003c/script> & forms") != std::string::npos);
+  CHECK(page.find("http") == std::string::npos);
+  CHECK(page.find("src=") == std::string::npos);
+  CHECK(page.find("/*DATA*/") == std::string::npos);
+  CHECK(page.find("box.y, max") != std::string::npos);
+}
