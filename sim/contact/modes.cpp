@@ -92,6 +92,21 @@ std::vector<int> ModeForces::heaps(std::span<const RigidBody> bodies) const {
   return heaps;
 }
 
+bool ModeForces::anySlides(std::span<const std::size_t> own) const {
+  return std::any_of(own.begin(), own.end(),
+                     [&](std::size_t i) { return rows_[i].linear != forces_[i].linear; });
+}
+
+MatX ModeForces::mobility(std::span<const RigidBody> bodies,
+                          std::span<const std::size_t> own) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(own.size());
+  MatX result(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      result(i, j) = product(bodies, rows_[own[i]], rows_[own[j]]);
+  return result;
+}
+
 void ModeForces::solve(std::span<const RigidBody> bodies) {
   const std::vector<int> heap = heaps(bodies);
   lambda_.resize(rhs_.size());
@@ -111,7 +126,8 @@ void ModeForces::solve(std::span<const RigidBody> bodies) {
       for (Eigen::Index j = 0; j < n; ++j)
         matrix_(i, j) = product(bodies, rows_[own[i]], forces_[own[j]]);
     }
-    const VecX lambda = leastSquares(matrix_, rhs);
+    const VecX lambda = anySlides(own) ? leastSquaresWithin(mobility(bodies, own), matrix_, rhs)
+                                       : leastSquares(matrix_, rhs);
     for (Eigen::Index i = 0; i < n; ++i) lambda_[static_cast<Eigen::Index>(own[i])] = lambda[i];
   }
 }

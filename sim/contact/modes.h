@@ -24,7 +24,8 @@ Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& cont
 /// (f = 0), u being relative accelerations:
 ///   J (M⁻¹ F λ + v̇*) + bias = 0,   f = F λ   with a column n − mu t of F for each that slides.
 /// Equations and no inequalities: what the mode allows is for the caller to see. Where contacts
-/// are more than needed, of all answers the smallest is taken. World frame, SI.
+/// are more than needed, λ is that of springs (problem/solvers.h, solveNewton): −J δ with one small
+/// motion δ of the bodies, which is the smallest where none slides. World frame, SI.
 class ModeForces {
  public:
   /// Reads pose, velocity, force and torque of the bodies; sets `force` of every contact and adds
@@ -48,12 +49,15 @@ class ModeForces {
   void findGrowth(std::span<const RigidBody> bodies, std::span<Contact> contacts, std::size_t k);
   /// Rows of contact k, and the forces of their multipliers.
   void addRows(std::span<const RigidBody> bodies, const Contact& contact, bool tangential);
-  /// λ of the least norm with  J M⁻¹ F λ = rhs_, for each heap of bodies on its own.
+  /// λ in the range of J with  J M⁻¹ F λ = rhs_, for each heap of bodies on its own.
   void solve(std::span<const RigidBody> bodies);
   /// Per row: the lowest body that it is connected to through rows, fixed bodies apart.
   std::vector<int> heaps(std::span<const RigidBody> bodies) const;
   /// Gives the bodies λ: as a way, or as impulses.
   void push(std::span<RigidBody> bodies, bool velocities);
+  bool anySlides(std::span<const std::size_t> own) const;
+  /// J M⁻¹ Jᵀ of those rows.
+  MatX mobility(std::span<const RigidBody> bodies, std::span<const std::size_t> own) const;
   double product(std::span<const RigidBody> bodies, const Row& row, const Row& force) const;
 
   std::vector<Row> rows_, forces_;  ///< J, and the columns of F

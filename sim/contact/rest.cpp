@@ -55,15 +55,19 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
 }
 
 SolveReport RestForces::solve(std::span<const Contact> contacts) {
-  // Pivoting is exact where there is no friction. What a solver leaves is in the certificate.
+  // What a solver leaves is in the certificate. Where forces have no end, pivoting says so; and it
+  // bears joints alone under any load.
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
-  const Solver& solver = *findSolver(friction ? "newton" : "pivoting");
   solution_ = {};             // the same answer whatever was solved before
   constexpr int kMost = 200;  // factorizations, pivots or sweeps
-  SolveReport report = solveByIslands(solver, problem_, {.maxIterations = kMost}, solution_);
+  const SolveSettings settings{.maxIterations = kMost};
+  const Solver& first = *findSolver(contacts.empty() ? "pivoting" : "newton");
+  SolveReport report = solveByIslands(first, problem_, settings, solution_);
   if (polished_ && friction) report = polish(problem_, {}, solution_);
-  return report;
+  if (friction || report.status == SolveStatus::Solved) return report;
+  solution_ = {};
+  return solveByIslands(*findSolver("pivoting"), problem_, settings, solution_);
 }
 
 Vec3 RestForces::force(std::size_t contact) const {

@@ -46,4 +46,13 @@ VecX leastSquares(const MatX& A, const VecX& b) {
   return system.solve(b);
 }
 
+VecX leastSquaresWithin(const MatX& R, const MatX& A, const VecX& b) {
+  Eigen::ColPivHouseholderQR<MatX> basis;
+  basis.setThreshold(kDependent);
+  basis.compute(R);
+  if (basis.rank() == R.rows()) return leastSquares(A, b);
+  const MatX Q = basis.householderQ() * MatX::Identity(R.rows(), basis.rank());
+  return Q * leastSquares(Q.transpose() * A * Q, Q.transpose() * b);
+}
+
 }  // namespace tumble

@@ -24,4 +24,8 @@ class LeastSquares {
 /// The same for one b.
 VecX leastSquares(const MatX& A, const VecX& b);
 
+/// x in the range of the symmetric R with  Rᵀ (A x − b) = 0, the shortest of them. leastSquares(A,
+/// b) where R is regular.
+VecX leastSquaresWithin(const MatX& R, const MatX& A, const VecX& b);
+
 }  // namespace tumble
