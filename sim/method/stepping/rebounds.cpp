@@ -6,6 +6,7 @@
 
 #include "sim/body/force.h"
 #include "sim/joint/joint_bonds.h"
+#include "sim/method/crush.h"
 #include "sim/method/impacts.h"
 #include "sim/method/stepping/stepping.h"
 
@@ -24,6 +25,7 @@ double Stepping::meet(double h, Hits divide) {
   findTouching(h);
   double first = untilHit(soon, h, least);
   if (strike(divides ? soon : h)) {
+    if (report_.stopped) return h;
     sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
     findTouching(h);
     first = untilHit(kNext * step, h, least);
@@ -164,6 +166,12 @@ bool Stepping::strike(double within) {
       const bool leans = vrel.back() < 0.0 && -c.restitution * vrel.back() <= tolerance_.keep;
       restitution.push_back(leans ? 0.0 : c.restitution);
     }
+  }
+  if (const std::string crushed = tumble::findCrushed(model_, state_.t, state_.bodies, contacts);
+      !crushed.empty()) {
+    report_.stopped = true;
+    report_.reason = crushed;
+    return true;
   }
   std::vector<Vec3> impulse(contacts.size(), Vec3::Zero());
   Bonds bonds;
