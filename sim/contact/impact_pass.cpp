@@ -10,6 +10,8 @@
 namespace tumble {
 namespace {
 
+/// Residual of a pass that has no impulses: bodies with nowhere to go.
+constexpr double kHopeless = 1e-2;
 constexpr int kSweeps = 500;
 constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is for
 
@@ -184,8 +186,10 @@ bool anyApproaching(const Impact& impact) {
 
 ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes) {
   ImpactReport report;
-  for (int pass = 0; pass < passes && anyApproaching(impact); ++pass)
+  for (int pass = 0; pass < passes && anyApproaching(impact); ++pass) {
     strikeOnce(impact, kind, report);
+    if (report.residual > kHopeless) break;  // no impulses take them apart
+  }
   if (anyApproaching(impact)) {
     strikeOnce(impact, PassKind::Inelastic, report);
     report.finishedInelastic = true;

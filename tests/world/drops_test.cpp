@@ -101,3 +101,24 @@ TEST_CASE("random drops of one to three bodies come to an end") {
 TEST_CASE("hundreds of random drops come to an end", "[long]") {
   checkDrops(20261, 300);
 }
+
+// Oracle: there is no room. A fixed box that moves on pushes another against a wall, which it
+// reaches at t = 0.7 s.
+TEST_CASE("a box that is pushed against a wall by a fixed one is crushed, and the run says so") {
+  WorldDef def = worldOf("exact", 1.0, {ground(0.0, 0.5), ground(0.0, 0.5)});
+  def.bodies[1].name = "wall";
+  def.bodies[1].shape = HalfSpace{-Vec3::UnitX(), -1.0};
+  def.bodies.push_back(box("pusher", {0.2, 0.2, 0.2}, {0.0, 0.15, 0.0}));
+  def.bodies.back().fixed = true;
+  def.bodies.back().velocity = {1.0, 0.0, 0.0};
+  def.bodies.push_back(box("victim", {0.2, 0.2, 0.2}, {0.5, 0.1, 0.0}, 0.0, 0.5));
+  World world(def);
+  world.advance(1.0);
+  const Report& report = world.report();
+  CAPTURE(report.reason, report.certificate.max_penetration, report.certificate.steps);
+  REQUIRE(report.stopped);
+  CHECK(report.reason.find("\"victim\" is crushed by") != std::string::npos);
+  CHECK(report.reason.find("t = 0.7 s") != std::string::npos);
+  CHECK(report.certificate.max_penetration < 1e-9);
+  CHECK(report.certificate.steps < 10000);
+}

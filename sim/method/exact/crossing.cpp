@@ -23,6 +23,8 @@ constexpr int kMends = 8;
 constexpr double kOff = 1e-13;
 /// Overlap [m] per size of the world that a shorter step is taken for, and by what part.
 constexpr double kDeep = 1e-7, kShorter = 0.5;
+/// A step that is shorter must leave less than this part of the overlap, or it is no use.
+constexpr double kEases = 0.8;
 /// [m] per size of the world: points that near may come to overlap where others are taken apart.
 constexpr double kNear = 1e-6;
 
@@ -268,6 +270,7 @@ void Crossing::take(double most) {
     h = 0.0;
     return;
   }
+  double before = std::numeric_limits<double>::infinity();
   for (int cut = 0;; ++cut) {
     late_.assign(points_.size(), 0);
     solve();
@@ -283,7 +286,9 @@ void Crossing::take(double most) {
     if (first < h) {
       touches = true;
       h = std::max(first, 1e-3 * h);
-    } else if (overlap() > kDeep * std::max(1.0, model_.size)) {
+    } else if (const double deep = overlap();
+               deep > kDeep * std::max(1.0, model_.size) && deep < kEases * before) {
+      before = deep;
       touches = false;
       h *= kShorter;
     } else {
@@ -334,6 +339,11 @@ void Crossing::mend() {
     }
   }
   mended = energy() - before;
+  left = overlap();
+  if (!found_.empty())
+    worst = *std::min_element(found_.begin(), found_.end(), [](const Contact& c, const Contact& d) {
+      return c.point.separation < d.point.separation;
+    });
 }
 
 void Crossing::keepBooks() {

@@ -52,6 +52,14 @@ std::string crowdedAt(double t) {
          " s; try method \"stepping\", or a little less restitution or friction";
 }
 
+std::string crushedAt(const Model& model, const Contact& c, double t) {
+  const int victim = model.fixed(c.a) ? c.b : c.a, other = victim == c.a ? c.b : c.a;
+  return "\"" + model.def.bodies[victim].name + "\" is crushed by \"" +
+         model.def.bodies[other].name + "\" at t = " + shortNumber(t) +
+         " s: it has nowhere to go, and nothing that could push them apart is strong enough; give "
+         "it room, or stop what moves";
+}
+
 namespace {
 
 /// Stops where the scene may go on by another method and that would be the better one.
@@ -201,6 +209,7 @@ void Exact::settle() {
     noteOverlaps(cluster);
     if (cluster.contacts.empty() && !held(i)) continue;
     if (collides(cluster)) respond(state_.t, cluster);
+    if (report_.stopped) break;
     hold(state_.t, cluster);
   }
   tolerance_.touch = touch;

@@ -69,6 +69,7 @@ class Exact {
   void noteOverlaps(const Cluster& cluster);
   bool collides(const Cluster& cluster) const;
   void respond(double t, const Cluster& cluster);
+  void stopIfCrushed(double t, const Cluster& cluster, std::span<const double> vrel);
   struct Bounces {
     double height, end;
   };
@@ -133,5 +134,7 @@ class Exact {
 std::string digits(double value);
 /// Why a run ends where there are too many events, and what to try.
 std::string crowdedAt(double t);
+/// Who cannot get out of whose way.
+std::string crushedAt(const Model& model, const Contact& contact, double t);
 
 }  // namespace tumble

@@ -20,6 +20,8 @@ constexpr double kLowest = 1e-12;
 constexpr double kOff = 1e-11;
 /// Planes wider than this part of the size of the world do not touch.
 constexpr double kWidest = 1e-6;
+/// Residual of an impact that has no impulses, and the part of the approach that it leaves.
+constexpr double kHopeless = 1e-2;
 /// Events that leave time where it is, in a row, before some are seen late.
 constexpr int kStalled = 1000;
 
@@ -247,6 +249,19 @@ void Exact::respond(double t, const Cluster& cluster) {
   state_.kineticMax = std::max(state_.kineticMax, kinetic);
   bookImpact(impact, report_);
   recordImpacts(t, cluster, vrel, impulse);
+  if (impact.residual > kHopeless) stopIfCrushed(t, cluster, vrel);
+}
+
+// Impulses that leave bodies running into each other are none: there is no way out.
+void Exact::stopIfCrushed(double t, const Cluster& cluster, std::span<const double> vrel) {
+  const auto speed = [&](const Contact& c) {
+    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
+  };
+  const auto worst =
+      std::min_element(cluster.contacts.begin(), cluster.contacts.end(),
+                       [&](const Contact& c, const Contact& d) { return speed(c) < speed(d); });
+  const double fastest = *std::min_element(vrel.begin(), vrel.end());
+  if (speed(*worst) < kHopeless * fastest) stop(crushedAt(model_, *worst, t));
 }
 
 void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,

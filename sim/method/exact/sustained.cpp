@@ -22,6 +22,8 @@ constexpr double kAstray = 1e-9;
 constexpr double kGiven = 1e-6;
 /// Residual of a contact problem that took all that solvers have.
 constexpr double kUnsolved = 1e-9;
+/// [m] per size of the world: overlap that nothing mends is no touch any more.
+constexpr double kCrushed = 1e-6;
 constexpr char kCrowdedNote[] =
     "more events than time can hold were crossed in short steps, which are right to first order";
 constexpr char kLawlessNote[] =
@@ -208,6 +210,10 @@ void Sustained::cross(double most) {
   before_ = system_.evaluations();
   keepPace(step.touches || state_.lawless);
   state_.lawless = false;
+  if (step.left > kCrushed * std::max(1.0, model_.size)) {
+    report_.stopped = true;
+    report_.reason = crushedAt(model_, step.worst, state_.t);
+  }
   leave();
 }
 
