@@ -56,7 +56,7 @@ void addConstraintForces(const Model& model, std::span<RigidBody> bodies,
   }
   // Each round of a problem with friction goes on from the last one.
   constexpr int kRounds = 200;
-  RestForces forces(kNoPull);
+  RestForces forces;
   const std::vector<RigidBody> outer(bodies.begin(), bodies.end());
   Bonds bonds;
   restBonds(

@@ -91,31 +91,6 @@ constexpr std::array<std::array<Entry, kKinds>, kKinds> kLookup = [] {
   return lookup;
 }();
 
-NormalTie mirrored(NormalTie tie) {
-  switch (tie) {
-    case NormalTie::FaceOfA:
-      return NormalTie::FaceOfB;
-    case NormalTie::FaceOfB:
-      return NormalTie::FaceOfA;
-    case NormalTie::EdgeOfA:
-      return NormalTie::EdgeOfB;
-    case NormalTie::EdgeOfB:
-      return NormalTie::EdgeOfA;
-    default:
-      return tie;
-  }
-}
-
-// The same contact seen with a and b exchanged.
-void mirror(ContactPoint& c) {
-  c.n = -c.n;
-  c.tie = mirrored(c.tie);
-  c.feature = swappedFeature(c.feature);
-  std::swap(c.pa, c.pb);
-  std::swap(c.ra, c.rb);
-  std::swap(c.ea, c.eb);
-}
-
 // One row of the table, read in the order of a and b.
 double separationOf(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
   const Entry entry = kLookup[a.index()][b.index()];

@@ -30,11 +30,18 @@ struct ContactPoint {
        pb = Vec3::Zero();     ///< [m] the material points (ball centre, vertex, foot) of a and b
   double ra = 0.0, rb = 0.0;  ///< [m] radius about pa and pb: of a ball, else 0
   Vec3 ea = Vec3::Zero(),
-       eb = Vec3::Zero();  ///< [1] unit edge directions where the tie names edges
-  /// [m] Radius of curvature of a followed rim at its outermost point, along the edge direction of
-  /// the body whose point meets the face; 0 if that point is a corner, or a ball.
-  double bend = 0.0;
+       eb = Vec3::Zero();  ///< [1] unit edge directions where the tie names edges; see rims
+  /// [m] Radius of the rim, a circle, whose outermost point pa or pb is, 0 if it is none; then ea
+  /// or eb is the axis of the circle, and the point wanders along it as the solid rolls.
+  double rimA = 0.0, rimB = 0.0;
+  /// Of a contact of a face: pa and pb are where an edge of a crosses one of b, along ea and eb,
+  /// and wander along both. Of a rim, ea or eb is then the unit vector from its centre to the
+  /// point.
+  bool crosses = false;
 };
+
+/// The same contact seen with a and b exchanged.
+void mirror(ContactPoint& c);
 
 /// The points of one pair, with one normal.
 using Manifold = std::vector<ContactPoint>;

@@ -14,7 +14,9 @@ struct Plane {
   Vec3 n = Vec3::UnitY();                                 ///< [1] unit, out of b towards a
   Vec3 pa = Vec3::Zero(), pb = Vec3::Zero();              ///< [m] nearest points of the cores
   Vec3 ea = Vec3::Zero(), eb = Vec3::Zero();  ///< [1] unit edges, where the tie names any
-  double ra = 0.0, rb = 0.0;  ///< [m] round about pa and pb, beside the cores' own radii
+  double ra = 0.0, rb = 0.0;      ///< [m] round about pa and pb, beside the cores' own radii
+  double rimA = 0.0, rimB = 0.0;  ///< [m] of the rims that pa and pb are on; ea and eb their axes
+  bool alongside = false;         ///< ea and eb are parallel lines
 };
 
 /// The widest of the planes along the faces of either core and across a pair of edges. The widest
@@ -32,6 +34,10 @@ Plane nearestPlane(const Core& a, const Core& b);
 /// The widest plane where a or b is a cylinder.
 Plane widestPlaneRound(const Core& a, const Core& b);
 
+/// Of the planes between features that a and b show along n, or nearly, the widest; where several
+/// are, that of faces first, then of edges. gap = −∞ if none is right.
+Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n);
+
 /// The widest of all: between cores apart, that of their distance.
 Plane widestPlane(const Core& a, const Core& b, double bias);
 
@@ -39,6 +45,10 @@ Plane widestPlane(const Core& a, const Core& b, double bias);
 /// @param tolerance  [m] lying on a side counts as inside
 void clipFacets(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
                 Manifold& out);
+
+/// The same where a or b is a cylinder.
+void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
+                 Manifold& out);
 
 /// A contact point of the plane itself.
 ContactPoint pointOf(const Plane& plane, const Core& a, const Core& b);

@@ -122,12 +122,11 @@ void sortAndMerge(PlacedList& points, double tolerance) {
 
 void clipFacets(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
                 Manifold& out) {
+  if (a.isCylinder() || b.isCylinder()) return roundPoints(a, b, plane, tolerance, margin, out);
   const double radii = a.radius + b.radius;
   PlacedList points;
-  double roundA = 0.0, roundB = 0.0;
   if (plane.tie != NormalTie::Points) {
     const Facet facetA = outermostFacet(a, -plane.n), facetB = outermostFacet(b, plane.n);
-    roundA = facetA.round, roundB = facetB.round;
     if (facetB.isPolygon()) {
       clipOnFace(facetA, facetB, plane.n, tolerance, points);
     } else if (facetA.isPolygon()) {
@@ -140,11 +139,9 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
       shareOfSegments(facetA, facetB, plane.n, tolerance, points);
     }
   }
-  const double round = roundA + roundB;
-  points.erase(
-      std::remove_if(points.begin(), points.end(),
-                     [&](const Placed& p) { return !(p.separation - round - radii <= margin); }),
-      points.end());
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const Placed& p) { return !(p.separation - radii <= margin); }),
+               points.end());
   if (points.empty()) {
     const ContactPoint c = pointOf(plane, a, b);
     if (c.separation <= margin) out.push_back(c);
@@ -153,9 +150,9 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
   sortAndMerge(points, tolerance);
   for (const Placed& p : points) {
     ContactPoint c = pointOf(plane, a, b);
-    c.ra = a.radius + roundA;
-    c.rb = b.radius + roundB;
-    c.separation = p.separation - round - radii;
+    c.ra = a.radius;
+    c.rb = b.radius;
+    c.separation = p.separation - radii;
     c.feature = p.feature;
     c.pa = p.pa;
     c.pb = p.pa - p.separation * plane.n;
@@ -170,6 +167,8 @@ ContactPoint pointOf(const Plane& plane, const Core& a, const Core& b) {
   c.tie = plane.tie;
   c.ea = plane.ea;
   c.eb = plane.eb;
+  c.rimA = plane.rimA;
+  c.rimB = plane.rimB;
   c.ra = a.radius + plane.ra;
   c.rb = b.radius + plane.rb;
   c.separation = plane.gap - a.radius - b.radius;

@@ -1,6 +1,6 @@
 // Chapter 5, collide: planes between a cylinder and another solid. No list of axes holds the widest
 // here, because the normals of a rim fill a surface: candidates are tried, the best is turned until
-// it is the widest near it, and then fixed to the features it meets.
+// it is nearly the widest near it, and the features that it meets tell it to the last digits.
 #include <cmath>
 
 #include "sim/collide/convex.h"
@@ -9,75 +9,14 @@ namespace tumble::convex {
 namespace {
 
 constexpr double kRounding = 1e-15;
-// Corners within this part of the size of the outermost belong to the feature that is met.
-constexpr double kLevel = 1e-6;
 // [part of the size] Nearest points this far apart tell their direction to all digits.
 constexpr double kClear = 1e-3;
 // Overlaps deeper than this part of the size are worth a longer search.
 constexpr double kDeep = 1e-2;
-// Features must carry a plane at least as wide as the one they straighten, but for this rounding.
-constexpr double kStraight = 1e-13;
-
-// What a core shows outermost along n.
-struct Shown {
-  enum class Kind { Point, Line, Face, Rim } kind = Kind::Point;
-  Vec3 p = Vec3::Zero();  // [m] on it; of a cylinder's side on the axis
-  Vec3 e = Vec3::Zero();  // [1] along the line, or the rim
-  Vec3 normal = Vec3::Zero();
-  double round = 0.0;  // [m] about a line
-  int number = -1;     // of the vertex, edge or face
-};
-
-Shown shownByCylinder(const Core& core, const Vec3& n) {
-  const Vec3 u = core.axis(), lean = n - n.dot(u) * u;
-  const int cap = n.dot(u) > 0.0 ? 1 : 0;
-  Shown shown;
-  shown.p = core.points[cap];
-  if (lean.norm() < kLevel) {
-    shown.kind = Shown::Kind::Face;
-    shown.normal = cap == 1 ? u : Vec3(-u);
-    shown.number = cap;
-  } else if (std::abs(n.dot(u)) < kLevel) {
-    shown.kind = Shown::Kind::Line;
-    shown.p = core.middle;
-    shown.e = u;
-    shown.round = core.disc;
-    shown.number = 2;
-  } else {
-    shown.kind = Shown::Kind::Rim;
-    shown.p += core.disc * lean.normalized();
-    shown.e = u.cross(lean).normalized();
-    shown.number = cap;
-  }
-  return shown;
-}
-
-Shown shownBy(const Core& core, const Vec3& n) {
-  if (core.isCylinder()) return shownByCylinder(core, n);
-  Shown shown;
-  shown.number = outermostVertex(core, n);
-  shown.p = core.points[shown.number];
-  const double level = n.dot(shown.p) - kLevel * core.size;
-  int count = 0;
-  for (const Vec3& p : core.points) count += n.dot(p) >= level ? 1 : 0;
-  if (count < 2) return shown;
-  if (count > 2) {
-    shown.kind = Shown::Kind::Face;
-    shown.number = 0;
-    for (int f = 1; f < static_cast<int>(core.normals.size()); ++f)
-      if (core.normals[f].dot(n) > core.normals[shown.number].dot(n)) shown.number = f;
-    shown.normal = core.normals[shown.number];
-    return shown;
-  }
-  for (int e = 0; e < static_cast<int>(core.edges.size()); ++e) {
-    const Polyhedron::Edge& edge = core.edges[e];
-    if (n.dot(core.points[edge.from]) < level || n.dot(core.points[edge.to]) < level) continue;
-    shown.kind = Shown::Kind::Line;
-    shown.number = e;
-    shown.e = core.along(edge).normalized();
-  }
-  return shown;
-}
+// [part of the size] Features carry planes at least as wide as the one that showed them, less this.
+constexpr double kLost = 1e-9;
+// [1] A plane that turns by less shows the same features.
+constexpr double kSame = 1e-6;
 
 gjk::Nearest search(const Core& a, const Core& b, const Vec3& shift) {
   const auto support = [&](const Vec3& n) {
@@ -158,104 +97,6 @@ void startAround(const Core& a, const Core& b, Plane& best) {
   }
 }
 
-// Takes a straightened direction if it is as wide.
-bool straighten(const Core& a, const Core& b, const Vec3& direction, NormalTie tie, Plane& plane) {
-  const double length = direction.norm();
-  if (!(length > kLevel)) return false;
-  Vec3 n = direction / length;
-  if (n.dot(plane.n) < 0.0) n = -n;
-  const double gap = coreGap(a, b, n);
-  if (!(gap >= plane.gap - kStraight * (a.size + b.size))) return false;
-  plane.gap = gap;
-  plane.n = n;
-  plane.tie = tie;
-  return true;
-}
-
-// A point of one solid against a line or a rim of the other.
-bool straightenPoint(const Core& a, const Core& b, const Shown& fa, const Shown& fb, Plane& plane) {
-  const bool pointOfB = fb.kind == Shown::Kind::Point;
-  const Shown &point = pointOfB ? fb : fa, &line = pointOfB ? fa : fb;
-  const Core& solid = pointOfB ? a : b;
-  if (point.kind != Shown::Kind::Point || line.kind == Shown::Kind::Face) return false;
-  Vec3 v = point.p - line.p, e = line.e;
-  if (line.kind == Shown::Kind::Rim) {
-    const Vec3 u = solid.axis(), cap = solid.points[line.number];
-    const Vec3 out = across(point.p - cap, u).normalized();
-    v = point.p - (cap + solid.disc * out);
-    e = u.cross(out);
-  }
-  const NormalTie tie = pointOfB ? NormalTie::EdgeOfA : NormalTie::EdgeOfB;
-  // Nearer than this, the direction of the point from a rim is rounding.
-  const bool far = across(v, e).norm() > kLevel * (a.size + b.size);
-  if (!straighten(a, b, far ? Vec3(across(v, e)) : plane.n, tie, plane)) return false;
-  (pointOfB ? plane.ea : plane.eb) = e;
-  (pointOfB ? plane.ra : plane.rb) = line.round;
-  const double reach = plane.gap + line.round;
-  plane.pa = pointOfB ? Vec3(point.p + reach * plane.n) : point.p;
-  plane.pb = plane.pa - reach * plane.n;
-  return true;
-}
-
-// Two lines, or rims, that stand in for them by their tangents.
-bool straightenLines(const Core& a, const Core& b, const Shown& fa, const Shown& fb, Plane& plane) {
-  const bool bothLines = fa.kind == Shown::Kind::Line && fb.kind == Shown::Kind::Line;
-  const Vec3 product = fa.e.cross(fb.e);
-  const bool parallel = product.norm() < kLevel;
-  plane.ra = fa.round;
-  plane.rb = fb.round;
-  plane.ea = fa.e;
-  plane.eb = fb.e;
-  plane.pa = fa.p;
-  plane.pb = fb.p;
-  const double reach = plane.gap + fa.round + fb.round;
-  if (parallel) {
-    // The middle of what both share.
-    const Vec3 along = fb.e;
-    if (!straighten(a, b, bothLines ? across(fa.p - fb.p, along) : plane.n, NormalTie::EdgeOfB,
-                    plane))
-      return false;
-    if (bothLines && !a.isCylinder()) plane.pa = a.points[a.edges[fa.number].from];
-    plane.pb = plane.pa - reach * plane.n;
-    return true;
-  }
-  if (!straighten(a, b, bothLines ? product : plane.n, NormalTie::Edges, plane)) return false;
-  if (bothLines) {
-    const double k = fa.e.dot(fb.e), det = 1.0 - k * k;
-    const Vec3 d = fa.p - fb.p;
-    plane.pa = fa.p + ((k * d.dot(fb.e) - d.dot(fa.e)) / det) * fa.e;
-  } else if (fa.kind == Shown::Kind::Line) {  // the rim's point is where they meet
-    plane.pa = fb.p + (plane.gap + fa.round + fb.round) * plane.n;
-  }
-  plane.pb = plane.pa - (plane.gap + fa.round + fb.round) * plane.n;
-  return true;
-}
-
-// Fixes the plane to the features that it meets.
-void fix(const Core& a, const Core& b, Plane& plane) {
-  const Shown fa = shownBy(a, -plane.n), fb = shownBy(b, plane.n);
-  plane.i = fa.number;
-  plane.j = fb.number;
-  if (fb.kind == Shown::Kind::Face && straighten(a, b, fb.normal, NormalTie::FaceOfB, plane)) {
-    plane.pa = fa.p - fa.round * plane.n;
-    plane.pb = plane.pa - plane.gap * plane.n;
-    return;
-  }
-  if (fa.kind == Shown::Kind::Face && straighten(a, b, -fa.normal, NormalTie::FaceOfA, plane)) {
-    plane.pb = fb.p + fb.round * plane.n;
-    plane.pa = plane.pb + plane.gap * plane.n;
-    return;
-  }
-  if (straightenPoint(a, b, fa, fb, plane)) return;
-  const bool pointOrFace = fa.kind == Shown::Kind::Point || fb.kind == Shown::Kind::Point ||
-                           fa.kind == Shown::Kind::Face || fb.kind == Shown::Kind::Face;
-  if (!pointOrFace && straightenLines(a, b, fa, fb, plane)) return;
-  plane.ra = plane.rb = 0.0;
-  plane.tie = NormalTie::FaceOfB;
-  plane.pa = fa.p - fa.round * plane.n;
-  plane.pb = plane.pa - plane.gap * plane.n;
-}
-
 }  // namespace
 
 Plane widestPlaneRound(const Core& a, const Core& b) {
@@ -268,7 +109,20 @@ Plane widestPlaneRound(const Core& a, const Core& b) {
     turnToWidest(a, b, best);
     if (best.gap < -kDeep * (a.size + b.size)) startAround(a, b, best);
   }
-  fix(a, b, best);
+  // What the search leaves n off by may hide a feature from it.
+  constexpr int kRounds = 3;
+  bool told = false, still = false;
+  for (int round = 0; round < kRounds && !still; ++round) {
+    const Plane plane = planeOfFeatures(a, b, best.n);
+    if (!(plane.gap >= best.gap - kLost * (a.size + b.size))) break;
+    told = true;
+    still = (plane.n - best.n).squaredNorm() < kSame * kSame;
+    best = plane;
+  }
+  if (told) return best;
+  best.tie = NormalTie::FaceOfB;
+  best.pa = outermost(a, -best.n, best.i);
+  best.pb = best.pa - best.gap * best.n;
   return best;
 }
 

@@ -5,6 +5,9 @@
 namespace tumble::convex {
 namespace {
 
+// An axis that leans by less is along n but for rounding, and shows no point of the rim.
+constexpr double kAlong = 4e-15;
+
 Polyhedron makeUnitCube() {
   Polyhedron cube;
   for (int v = 0; v < 8; ++v)
@@ -70,6 +73,7 @@ void build(const Cylinder& c, const Frame& at, Core& core) {
   core.points.push_back(at.x - half);
   core.points.push_back(at.x + half);
   core.disc = c.r;
+  core.up = at.R.col(1);
   core.side = at.R.col(0);
   core.size = std::sqrt(c.r * c.r + 0.25 * c.h * c.h);
 }
@@ -142,12 +146,12 @@ Vec3 outermost(const Core& core, const Vec3& n, int& vertex) {
     return core.points[vertex];
   }
   vertex = -1;
-  const Vec3 u = core.axis();
+  const Vec3& u = core.axis();
   Vec3 across = n - n.dot(u) * u;
   across -= across.dot(u) * u;  // what is left of n along u may be all rounding
   const double length = across.norm();
   const Vec3& cap = core.points[n.dot(u) < 0.0 ? 0 : 1];
-  return length > 0.0 ? Vec3(cap + (core.disc / length) * across) : cap;
+  return length > kAlong ? Vec3(cap + (core.disc / length) * across) : cap;
 }
 
 double coreGap(const Core& a, const Core& b, const Vec3& n) {

@@ -21,15 +21,15 @@ struct Core {
   Few<Vec3> normals;  ///< [1] of the faces, outward unit
   std::span<const Polyhedron::Edge> edges;
   std::span<const std::vector<int>> faces, sides;
-  double radius = 0.0;       ///< [m] about the core
-  Vec3 side = Vec3::Zero();  ///< [1] unit, across the axis of a cylinder; rides on it
-  double disc = 0.0;         ///< [m] radius of a cylinder's caps, 0 for other solids
-  double size = 0.0;         ///< [m] of the core, from its middle
+  double radius = 0.0;                          ///< [m] about the core
+  Vec3 up = Vec3::Zero(), side = Vec3::Zero();  ///< [1] unit, along and across a cylinder's axis
+  double disc = 0.0;  ///< [m] radius of a cylinder's caps, 0 for other solids
+  double size = 0.0;  ///< [m] of the core, from its middle
   Vec3 middle = Vec3::Zero();
 
   bool isCylinder() const { return disc > 0.0; }
   /// Unit axis of a cylinder.
-  Vec3 axis() const { return (points[1] - points[0]).normalized(); }
+  const Vec3& axis() const { return up; }
   Vec3 along(const Polyhedron::Edge& e) const { return points[e.to] - points[e.from]; }
 };
 

@@ -12,17 +12,12 @@ struct Facet {
   Few<std::uint32_t> sideCodes;    ///< of the side that leaves each corner
   std::uint32_t code = 0;          ///< of the whole
   Vec3 normal = Vec3::Zero();      ///< [1] of a polygon, outward unit
-  double round = 0.0;              ///< [m] beside the core's radius, of a cylinder's side line
 
   bool isPolygon() const { return corners.size() > 2; }
 };
 
-/// The facet of a core whose normal is nearest to the unit vector n.
+/// The facet of a core, not of a cylinder, whose normal is nearest to the unit vector n.
 Facet outermostFacet(const Core& core, const Vec3& n);
-
-/// The cap of a cylinder on the side of the unit vector `cap`: eight points of its rim, and the one
-/// that is outermost along n, if any is.
-Facet capOf(const Core& core, const Vec3& n, const Vec3& cap);
 
 /// Codes of features of a core.
 constexpr std::uint32_t vertexCode(int k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/collide/align.h"
 #include "sim/math/frames.h"
 
 namespace tumble {
@@ -39,28 +40,84 @@ void nearestOnEdges(ContactPoint& c) {
   c.pb += ((db - k * da) / det) * c.eb;
 }
 
-/// Moves `p` to the point of a rim that is outermost along −n: the direction across the axis that
-/// leans most, and there the radius of curvature of the solid along the rim's tangent.
-///   d = −(n − (n·u) u)/s,   s = |n − (n·u) u|,   p = centre + r d,   ρ = r/s
-void outermostOnRim(const RigidBody& body, const Anchor::Rim& rim, const Vec3& n, Vec3& p, Vec3& e,
-                    double& bend) {
-  const Vec3 u = body.q * rim.axis_B, lean = across(n, u);
-  const double s = lean.norm();
-  p = toWorld(body.pose(), rim.centre_B) - (rim.r / s) * lean;
-  e = u.cross(lean) / s;
-  bend = rim.r / s;
+/// Moves the point of a contact of a face to where edges cross, or a rim is outermost.
+void placeOnFace(ContactPoint& c) {
+  if (c.crosses && (c.rimA > 0.0 || c.rimB > 0.0)) return alignCrossing(c, Vec3(c.pa), Vec3(c.pb));
+  if (c.crosses) return nearestOnEdges(c);
+  if (c.rimA > 0.0) c.pa += c.rimA * rimOfA(c).out;
+  if (c.rimB > 0.0) c.pb += c.rimB * rimOfB(c).out;
 }
 
-/// How fast the outermost point of a rim wanders over its solid [m/s].
-Vec3 wandering(const RigidBody& round, const RigidBody& flat, const ContactPoint& c, const Vec3& e,
-               const Vec3& n) {
-  return c.bend * e.dot((round.omega - flat.omega).cross(n)) * e;
+bool hasRim(const ContactPoint& c) {
+  return c.rimA > 0.0 || c.rimB > 0.0;
 }
 
-/// Whether the point of a face's contact is where two edges cross, and wanders along both: marked
-/// by a bend below 0.
-bool crosses(const ContactPoint& c) {
-  return c.bend < 0.0;
+/// Centre of the rim that a point is on; the point itself if there is none.
+Vec3 centreOf(const Vec3& p, double r, const Vec3& e, const Vec3& outward, bool crosses) {
+  if (r == 0.0) return p;
+  return p - r * (crosses ? e : outermostOnRim(e, r, outward).out);
+}
+
+/// How a contact goes on where a rim touches.
+struct Rolling {
+  Vec3 rate;              ///< [1/s] ṅ
+  Vec3 wanderA, wanderB;  ///< [m/s] of pa over a, and of pb over b
+};
+
+/// ṅ where only the part of the motion across an edge turns n, or nothing holds it:
+///   t·(n·(pa − pb) ṅ + Σ bend (along·ṅ) along) = t·w  along free tangents t,  ṅ·e = −n·ė
+/// @param w  [m/s] ṗa − ṗb of material points and of rims that turn under a steady n
+Vec3 freeRate(const ContactPoint& c, const RimPoint& a, const RimPoint& b, const Vec3& w,
+              const Vec3* edge, const Vec3& edgeRate) {
+  const auto bent = [&](const Vec3& t, const Vec3& u) {
+    return a.bend * a.along.dot(t) * a.along.dot(u) + b.bend * b.along.dot(t) * b.along.dot(u);
+  };
+  const double d = reach(c);
+  if (edge) {
+    const Vec3 t = edge->cross(c.n);
+    const double beside = -c.n.dot(edgeRate);
+    return ((t.dot(w) - bent(t, *edge) * beside) / (d + bent(t, t))) * t + beside * *edge;
+  }
+  const Vec3 t = c.n.unitOrthogonal(), u = c.n.cross(t);
+  const double tt = d + bent(t, t), uu = d + bent(u, u), tu = bent(t, u);
+  const double det = tt * uu - tu * tu, wt = t.dot(w), wu = u.dot(w);
+  return ((uu * wt - tu * wu) / det) * t + ((tt * wu - tu * wt) / det) * u;
+}
+
+Rolling rollingOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  const RimPoint rimA = rimOfA(c), rimB = rimOfB(c);
+  const auto rolls = [](const RimPoint& rim, const Vec3& turn) {
+    return Vec3(rim.bend * rim.along.dot(turn) * rim.along);
+  };
+  const Vec3 turnA = a.omega.cross(c.n), turnB = b.omega.cross(c.n);
+  const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
+  const Vec3 w = relative + rolls(rimA, turnA) + rolls(rimB, turnB);
+  Rolling roll;
+  switch (c.tie) {
+    case NormalTie::FaceOfB:
+      roll.rate = turnB;
+      break;
+    case NormalTie::FaceOfA:
+      roll.rate = turnA;
+      break;
+    case NormalTie::EdgeOfB:
+      roll.rate = freeRate(c, rimA, rimB, w, &c.eb, b.omega.cross(c.eb));
+      break;
+    case NormalTie::EdgeOfA:
+      roll.rate = freeRate(c, rimA, rimB, w, &c.ea, a.omega.cross(c.ea));
+      break;
+    default:
+      roll.rate = freeRate(c, rimA, rimB, w, nullptr, Vec3::Zero());
+  }
+  roll.wanderA = -rolls(rimA, roll.rate - turnA);
+  roll.wanderB = rolls(rimB, roll.rate - turnB);
+  // Feet follow what they are the feet of.
+  const Vec3 apart = reach(c) * roll.rate;
+  if (c.tie == NormalTie::FaceOfB || c.tie == NormalTie::EdgeOfB)
+    roll.wanderB = across(relative + roll.wanderA - apart, c.n);
+  if (c.tie == NormalTie::FaceOfA || c.tie == NormalTie::EdgeOfA)
+    roll.wanderA = across(apart + roll.wanderB - relative, c.n);
+  return roll;
 }
 
 }  // namespace
@@ -93,8 +150,8 @@ ContactClass classify(double vrel, double tolerance) {
 
 [[gnu::flatten]] Anchor anchorOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
   Anchor anchor;
-  anchor.pa_B = toBody(a.pose(), c.pa);
-  anchor.pb_B = toBody(b.pose(), c.pb);
+  anchor.pa_B = toBody(a.pose(), centreOf(c.pa, c.rimA, c.ea, -c.n, c.crosses));
+  anchor.pb_B = toBody(b.pose(), centreOf(c.pb, c.rimB, c.eb, c.n, c.crosses));
   const Quat& tied = c.tie == NormalTie::FaceOfA ? a.q : b.q;
   anchor.n_B = tied.conjugate() * c.n;
   if (!c.ea.isZero(0.0)) anchor.ea_B = a.q.conjugate() * c.ea;
@@ -109,18 +166,22 @@ ContactClass classify(double vrel, double tolerance) {
   c.pb = toWorld(b.pose(), anchor.pb_B);
   c.ea = a.q * anchor.ea_B;
   c.eb = b.q * anchor.eb_B;
+  const bool rim = hasRim(c);
+  if (rim && c.tie != NormalTie::FaceOfA && c.tie != NormalTie::FaceOfB) {
+    c.n = b.q * anchor.n_B;
+    alignNormal(c, Vec3(c.pa), Vec3(c.pb));
+    return placeBetween(c);
+  }
   switch (c.tie) {
     case NormalTie::FaceOfB:  // the foot of pa moves over the face of b
       c.n = b.q * anchor.n_B;
-      if (crosses(c)) nearestOnEdges(c);
-      if (anchor.rim.r > 0.0) outermostOnRim(a, anchor.rim, c.n, c.pa, c.ea, c.bend);
+      placeOnFace(c);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pb = c.pa - reach(c) * c.n;
       break;
     case NormalTie::FaceOfA:
       c.n = a.q * anchor.n_B;
-      if (crosses(c)) nearestOnEdges(c);
-      if (anchor.rim.r > 0.0) outermostOnRim(b, anchor.rim, -c.n, c.pb, c.eb, c.bend);
+      placeOnFace(c);
       c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
       c.pa = c.pb + reach(c) * c.n;
       break;
@@ -151,6 +212,7 @@ ContactClass classify(double vrel, double tolerance) {
 Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
   if (c.tie == NormalTie::FaceOfB) return b.omega.cross(c.n);
   if (c.tie == NormalTie::FaceOfA) return a.omega.cross(c.n);
+  if (hasRim(c)) return rollingOf(a, b, c).rate;
   const Vec3 offsetRate = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
   const double d = reach(c);
   switch (c.tie) {
@@ -176,11 +238,11 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
 }
 
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  if (c.bend > 0.0)
-    return c.tie == NormalTie::FaceOfB
-               ? Vec3(pointVelocity(a, c.pa) + wandering(a, b, c, c.ea, c.n))
-               : Vec3(pointVelocity(b, c.pb) + wandering(b, a, c, c.eb, -c.n));
-  switch (crosses(c) ? NormalTie::Edges : c.tie) {
+  if (hasRim(c) && !c.crosses) {
+    const Rolling roll = rollingOf(a, b, c);
+    return pointVelocity(a, c.pa) + roll.wanderA - c.ra * roll.rate;
+  }
+  switch (c.crosses ? NormalTie::Edges : c.tie) {
     case NormalTie::FaceOfB:
     case NormalTie::Points:
     case NormalTie::EdgeOfB:
@@ -190,24 +252,27 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
       return pointVelocity(b, c.pb) + c.rb * normalRate(a, b, c);
     default: {  // the nearest points of two edges slide along both: their offset stays along n
       const Vec3 va = pointVelocity(a, c.pa), vb = pointVelocity(b, c.pb);
-      const Vec3 side = c.eb.cross(c.n), rate = normalRate(a, b, c);
+      const Vec3 ea = c.crosses ? crossingAlongA(c) : c.ea,
+                 eb = c.crosses ? crossingAlongB(c) : c.eb;
+      const Vec3 side = eb.cross(c.n), rate = normalRate(a, b, c);
       const Vec3 apart = va - vb - reach(c) * rate;
-      return va - (apart.dot(side) / c.ea.dot(side)) * c.ea - c.ra * rate;
+      return va - (apart.dot(side) / ea.dot(side)) * ea - c.ra * rate;
     }
   }
 }
 
 double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  const Vec3 rate = normalRate(a, b, c);
   const Vec3 centripetal =
       a.omega.cross(a.omega.cross(c.pa - a.x)) - b.omega.cross(b.omega.cross(c.pb - b.x));
   const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
+  if (hasRim(c) && !c.crosses) {
+    const Rolling roll = rollingOf(a, b, c);
+    const Vec3 wanders = a.omega.cross(roll.wanderA) - b.omega.cross(roll.wanderB);
+    return c.n.dot(centripetal + wanders) + roll.rate.dot(relative);
+  }
+  const Vec3 rate = normalRate(a, b, c);
   double bias = c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
-  if (c.bend > 0.0) {
-    const Vec3& e = c.tie == NormalTie::FaceOfB ? c.ea : c.eb;
-    const double rolls = e.dot((a.omega - b.omega).cross(c.n));
-    bias -= c.bend * rolls * rolls;
-  } else if (crosses(c)) {
+  if (c.crosses) {
     const Vec3 material =
         c.tie == NormalTie::FaceOfB ? pointVelocity(a, c.pa) : pointVelocity(b, c.pb);
     bias += 2.0 * c.n.dot((a.omega - b.omega).cross(placeVelocity(a, b, c) - material));

@@ -28,15 +28,9 @@ struct ContactTolerance {
 
 /// A contact point that rides along with its two bodies: the features that touch, in body frames.
 struct Anchor {
-  Vec3 pa_B = Vec3::Zero(), pb_B = Vec3::Zero();  ///< [m] material points of a and b
+  Vec3 pa_B = Vec3::Zero(), pb_B = Vec3::Zero();  ///< [m] material points; of rims their centres
   Vec3 n_B = Vec3::Zero();                        ///< normal in the frame of the body it is tied to
-  Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< edge directions
-  /// The rim of a cylinder, r > 0, that meets the face: its outermost point is the one that
-  /// touches. In the frame of its body.
-  struct Rim {
-    Vec3 centre_B = Vec3::Zero(), axis_B = Vec3::UnitY();
-    double r = 0.0;  ///< [m]
-  } rim = {};
+  Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< edge directions, axes of rims
 };
 
 /// One contact between two bodies of a world.
@@ -45,13 +39,15 @@ struct Contact {
   ContactPoint point;  ///< as found, or as last followed
   Anchor anchor;
   double restitution = 0.0, friction = 0.0;
-  double granted = 0.0;   ///< [m] overlap that the pull of a lasting contact leaves alone
-  double energy = 0.0;    ///< [J] stored, if the contact is a spring
-  bool lasting = false;   ///< rests: takes part in the contact forces
-  bool sliding = false;   ///< its friction is kinetic
-  bool creeping = false;  ///< slides so slowly that a step could turn its slip round
-  bool mayStick = false;  ///< its slip can come to an end along slipDirection
-  bool idle = false;      ///< touches and lasts, but carries nothing
+  double granted = 0.0;          ///< [m] overlap that the pull of a lasting contact leaves alone
+  double pull = 0.0;             ///< [m/s²] along −n, towards no approach and that overlap
+  Vec3 slipPull = Vec3::Zero();  ///< [m/s²] against the slip, while it sticks
+  double energy = 0.0;           ///< [J] stored, if the contact is a spring
+  bool lasting = false;          ///< rests: takes part in the contact forces
+  bool sliding = false;          ///< its friction is kinetic
+  bool creeping = false;         ///< slides so slowly that a step could turn its slip round
+  bool mayStick = false;         ///< its slip can come to an end along slipDirection
+  bool idle = false;             ///< touches and lasts, but carries nothing
   Vec3 slipDirection = Vec3::Zero();  ///< of the slip at the start of this stretch of motion
   double onset = 0.0;          ///< [m/s] below this, a slip that has just begun follows `growth`:
   Vec3 growth = Vec3::Zero();  ///< [1] the direction in which it grows
@@ -82,9 +78,10 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
 /// The part of d²(separation)/dt² [m/s²] that does not come from accelerations:
-///   n·(ωa×(ωa×ra) − ωb×(ωb×rb)) + 2 ṅ·(ṗa − ṗb) − |pa − pb| |ṅ|² − ρ (e·((ωa − ωb)×n))²
-/// Baraff II, §9.3, with the last two terms added for round bodies: balls, and rims of curvature
-/// 1/ρ along e, which roll from point to point. ra, rb reach to pa, pb.
+///   n·(ωa×(ωa×ra) − ωb×(ωb×rb)) + ṅ·(ṗa − ṗb) + n·(ωa×wa − ωb×wb)
+/// with wa and wb the velocities at which pa and pb wander over their bodies: feet on faces and
+/// edges, and outermost points of rims. Without rims it is  … + 2 ṅ·(ṗa − ṗb) − |pa − pb| |ṅ|².
+/// Baraff II, §9.3. Departure: round bodies. ra, rb reach to pa, pb.
 double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
 /// Acceleration [m/s²] of the material point at p [m] under the body's force and torque; 0 of a

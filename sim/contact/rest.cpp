@@ -20,16 +20,21 @@ Vec3 slidingDirection(std::span<const RigidBody> bodies, const Contact& contact)
   return along > 0.0 ? Vec3(slip / size) : Vec3(-slip / size);
 }
 
+void setPull(const RigidBody& a, const RigidBody& b, double tau, Contact& c) {
+  c.pull =
+      2.0 / tau * approachVelocity(a, b, c.point) + (c.point.separation + c.granted) / (tau * tau);
+  c.slipPull = slipVelocity(a, b, c.point) / tau;
+}
+
 void RestForces::addRows(std::span<const RigidBody> bodies, const Contact& contact) {
   const RigidBody &a = bodies[contact.a], &b = bodies[contact.b];
   const ContactPoint& c = contact.point;
-  const double bias = normalAccelerationBias(a, b, c) + 2.0 / tau_ * approachVelocity(a, b, c) +
-                      (c.separation + contact.granted) / (tau_ * tau_);
+  const double bias = normalAccelerationBias(a, b, c) + contact.pull;
   problem_.cones.push_back(
       {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size()), .mu = 0.0});
   problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, c.n, bias));
   if (contact.friction <= 0.0) return;
-  if (!contact.sliding) return addFrictionRows(bodies, contact, tau_);
+  if (!contact.sliding) return addFrictionRows(bodies, contact, contact.slipPull);
 
   const Vec3 t = slidingDirection(bodies, contact);
   problem_.cones.back().kind = ConeKind::Slide;
@@ -39,15 +44,14 @@ void RestForces::addRows(std::span<const RigidBody> bodies, const Contact& conta
 }
 
 void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact,
-                                 double slipTime) {
+                                 const Vec3& pull) {
   const RigidBody &a = bodies[contact.a], &b = bodies[contact.b];
   const ContactPoint& c = contact.point;
-  const Vec3 slip = slipVelocity(a, b, c);
-  const Vec3 pull = problem_.vStar[contact.a].head<3>() - problem_.vStar[contact.b].head<3>();
+  const Vec3 way = problem_.vStar[contact.a].head<3>() - problem_.vStar[contact.b].head<3>();
   Vec3 t1, t2;
-  tangents(c.n, pull, t1, t2);
+  tangents(c.n, way, t1, t2);
   for (const Vec3& t : {t1, t2}) {
-    const double bias = slipAccelerationBias(a, b, c, t) + slip.dot(t) / slipTime;
+    const double bias = slipAccelerationBias(a, b, c, t) + pull.dot(t);
     problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, t, bias));
   }
   problem_.cones.back().kind = ConeKind::Friction;
@@ -111,7 +115,8 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
     addRows(bodies, contact);
     if (slides || contact.friction <= 0.0) continue;
     problem_.rows.pop_back();
-    addFrictionRows(bodies, contact, h);
+    const Vec3 slip = slipVelocity(bodies[contact.a], bodies[contact.b], contact.point);
+    addFrictionRows(bodies, contact, slip / h);
   }
   const bool bound = bonds && !bonds->empty();
   if (bound) appendBonds(*bonds, problem_);

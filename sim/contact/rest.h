@@ -16,15 +16,12 @@ namespace tumble {
 ///
 /// with A and b assembled from Jacobian rows as in Baraff, Rigid Body Simulation II, §9; friction
 /// adds two rows a contact (sticking: Coulomb cone at acceleration level; sliding: −mu f_n against
-/// the slip). Departure: b carries vrel (2/τ) + separation/τ², which draws rounding errors of
-/// lasting contacts back to zero, or to the overlap that they are granted, with the time constant
-/// τ; they stay at the size of rounding.
+/// the slip). Departure: b carries the pull of the contact, see `setPull`.
 class RestForces {
  public:
-  /// @param tau  time constant τ [s] > 0 of the pull towards zero; a few steps
   /// @param polished  to the last digits where there is friction, at any cost: for the instants at
   ///   which it is decided what sticks; else sweeps that start from the forces of a moment ago do
-  explicit RestForces(double tau, bool polished = false) : tau_(tau), polished_(polished) {}
+  explicit RestForces(bool polished = false) : polished_(polished) {}
 
   /// Reads pose, velocity, force and torque of the bodies, sets `force` of every lasting contact
   /// and adds the contact forces to force and torque. Contacts must have been followed to this
@@ -41,15 +38,22 @@ class RestForces {
 
  private:
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
-  void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact, double slipTime);
+  /// @param pull  [m/s²] against the slip
+  void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact, const Vec3& pull);
   SolveReport solve(std::span<const Contact> contacts);
   Vec3 force(std::size_t contact) const;
 
-  double tau_;
   bool polished_;
   Problem problem_;
   Solution solution_;
 };
+
+/// Sets what draws the errors of a lasting contact back to zero, or to the overlap that it is
+/// granted, with the time constant τ [s]:
+///   pull = vrel (2/τ) + separation/τ²,   slipPull = slip/τ
+/// as they are now. They hold for a stretch of motion: at the stages of an integrator bodies are
+/// off the contact by what is no error, and a pull there would cost it its order.
+void setPull(const RigidBody& a, const RigidBody& b, double tau, Contact& contact);
 
 /// Direction of the slip of a sliding contact: along its slip now, but never turned against the
 /// direction in which its sliding began, so that forces stay smooth through the instant of

@@ -114,7 +114,7 @@ TEST_CASE("corners of a box push or part, never both, whatever pulls it") {
     const Vec3 at(draw(-0.25, 0.25), draw(0.0, 0.5), draw(-0.2, 0.2));
     const double up = draw(-20.0, 40.0), x = draw(-2.0, 2.0), z = draw(-2.0, 2.0);
     applyForce(scene.bodies[1], at, {x, up, z});
-    REQUIRE(RestForces(0.01).apply(scene.bodies, scene.contacts).status == SolveStatus::Solved);
+    REQUIRE(RestForces().apply(scene.bodies, scene.contacts).status == SolveStatus::Solved);
     int pushing = 0;
     for (const Contact& c : scene.contacts) {
       const double f = c.force.y(), a = scene.acceleration(c);
@@ -179,7 +179,7 @@ TEST_CASE("a_ij and b_i of a rod on two feet are as solved by hand") {
       CHECK(system.A(i, 1 - i) == Approx((ends ? -2.0 : 0.25) / m).epsilon(1e-14));
       CHECK(system.b[i] == -kWeight);
     }
-    RestForces(0.01).apply(scene.bodies, scene.contacts);
+    RestForces().apply(scene.bodies, scene.contacts);
     for (const Contact& c : scene.contacts)
       CHECK(c.force.y() == Approx(0.5 * m * kWeight).epsilon(1e-14));
   }
@@ -202,7 +202,7 @@ TEST_CASE("f of at least 0 and a f + b of at least 0 leave the force open, f a =
     CHECK(system.A(0, 0) * f + system.b[0] == Approx(a).epsilon(1e-14).margin(1e-14));
     CHECK(f * a == Approx(m * kWeight * kWeight * s * (1.0 + s)).epsilon(1e-13).margin(1e-12));
   }
-  RestForces(0.01).apply(scene.bodies, scene.contacts);
+  RestForces().apply(scene.bodies, scene.contacts);
   CHECK(scene.contacts[0].force.y() == Approx(m * kWeight).epsilon(1e-14));
 }
 
@@ -259,7 +259,7 @@ TEST_CASE("between two planes a particle, a ball and a box are carried alike") {
       for (const Vec3& n : {na, nb})
         for (const double z : box ? std::vector{-0.2, 0.2} : std::vector{0.0})
           scene.contacts.push_back(touch(1, 0, -reach * n + z * Vec3::UnitZ(), n));
-      RestForces(0.01).apply(scene.bodies, scene.contacts);
+      RestForces().apply(scene.bodies, scene.contacts);
       double wall[2] = {0.0, 0.0};
       for (const Contact& c : scene.contacts) wall[c.point.n.x() < 0.0] += c.force.norm();
       CHECK(wall[0] ==

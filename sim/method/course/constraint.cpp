@@ -10,17 +10,20 @@ constexpr double kPullSteps = 4.0;
 
 class ConstraintForces : public ContactForces {
  public:
-  explicit ConstraintForces(const Model& model)
-      : joints_(model.joints), tau_(pullTime(model)), rest_(tau_) {}
+  explicit ConstraintForces(const Model& model) : joints_(model.joints), tau_(pullTime(model)) {}
 
   void begin(std::span<const Contact> lasting, std::span<const Limit> limits) override {
     contacts_.assign(lasting.begin(), lasting.end());
     limits_.assign(limits.begin(), limits.end());
-    rest_ = RestForces(tau_);
+    rest_ = RestForces();
   }
 
   SolveReport apply(std::span<RigidBody> bodies) override {
-    for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
+    for (Contact& c : contacts_) {
+      // Between its stages an integrator leaves the sphere of attitudes; points and normals do not.
+      for (const int i : {c.a, c.b}) bodies[i].q.normalize();
+      follow(bodies[c.a], bodies[c.b], c);
+    }
     restBonds(bodies, joints_, limits_, tau_, bonds_);
     return rest_.apply(bodies, contacts_, &bonds_);
   }

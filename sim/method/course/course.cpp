@@ -56,7 +56,6 @@ Course::Course(const Model& model, State& state, Report& report)
       steppers_(model, system_),
       plan_(*findPlan(model.def.course.plan)),
       contact_(*findContactModel(model.def.course.contact)),
-      rest_(pullTime(model)),
       trial_(state.bodies) {}
 
 void Course::settle() {
@@ -122,6 +121,13 @@ double Course::accelerationScale() const {
   double a = model_.def.gravity.norm();
   for (const RigidBody& body : state_.bodies) a = std::max(a, body.invM * body.force.norm());
   return a;
+}
+
+bool Course::wasSticking(const Contact& contact) const {
+  return std::any_of(state_.lasting.begin(), state_.lasting.end(), [&](const Contact& c) {
+    return c.a == contact.a && c.b == contact.b && c.point.feature == contact.point.feature &&
+           !c.sliding;
+  });
 }
 
 bool Course::wasLasting(int a, int b) const {

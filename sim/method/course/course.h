@@ -87,6 +87,8 @@ class Course {
   /// Separation [m] of a pair a time h after now; trial_ is then there.
   double gapAfter(double h, int a, int b);
   bool wasLasting(int a, int b) const;
+  /// Whether the same features stuck to each other in the stretch before.
+  bool wasSticking(const Contact& contact) const;
   /// Upper estimate [m/s²] of what outer forces do to any body.
   double accelerationScale() const;
 

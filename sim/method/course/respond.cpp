@@ -106,8 +106,11 @@ void Course::chooseLasting() {
     c.lasting = true;
     if (c.point.separation < -tolerance_.touch) c.granted = -c.point.separation;
     c.anchor = anchorOf(a, b, c.point);
+    setPull(a, b, pullTime(model_), c);
     const Vec3 slip = slipVelocity(a, b, c.point);
-    c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
+    // What an integrator leaves of the slip of a contact that stuck is pulled back.
+    const double stick = wasSticking(c) ? tolerance_.keep : tolerance_.stick;
+    c.sliding = c.friction > 0.0 && slip.norm() > stick;
     if (c.sliding) c.slipDirection = slip.normalized();
     c.creeping = c.sliding && slip.norm() < kCreep * c.friction * scale * model_.def.course.step;
     // After many ends of slips in one step a creeping contact is taken as sticking: its slip then

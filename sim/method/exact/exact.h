@@ -65,7 +65,6 @@ class Exact {
   // strike.cpp: what happens then.
   void strike(double t, int a, int b);
   Cluster gather(double t, std::span<const int> seeds);
-  void addRim(Pair pair, Cluster& cluster) const;
   void noteOverlaps(const Cluster& cluster);
   bool collides(const Cluster& cluster) const;
   void respond(double t, const Cluster& cluster);

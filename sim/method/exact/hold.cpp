@@ -24,8 +24,6 @@ constexpr double kLawless = 1e-6;
 constexpr int kJams = 100;
 /// Stretches before closed forms are tried again: the first time, and at most.
 constexpr int kFirst = 1, kMost = 64;
-/// No pull towards zero: flights in contact have no error that grows. [s]
-constexpr double kNoPull = 1e15;
 
 }  // namespace
 
@@ -43,7 +41,7 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
     const bool rests = vrel <= tolerance_.rest && vrel >= -kLeft * tolerance_.rest;
     if (!rests && !endsBounces(c, vrel)) continue;
     c.lasting = true;
-    if (c.anchor.rim.r == 0.0) c.anchor = anchorOf(a, b, c.point);
+    c.anchor = anchorOf(a, b, c.point);
     const Vec3 slip = slipVelocity(a, b, c.point);
     c.sliding = c.friction > 0.0 && slip.norm() > tolerance_.stick;
     if (c.sliding) c.slipDirection = slip.normalized();
@@ -107,7 +105,7 @@ double Exact::solveForces(std::vector<Contact>& resting) {
     held.bodies[k].force = state_.outer[held.global[k]];
     held.bodies[k].torque.setZero();
   }
-  const SolveReport solved = RestForces(kNoPull, true).apply(held.bodies, held.contacts);
+  const SolveReport solved = RestForces(true).apply(held.bodies, held.contacts);
   ++report_.certificate.evaluations;
   for (std::size_t k = 0; k < held.bodies.size(); ++k) {
     state_.bodies[held.global[k]].force = held.bodies[k].force;

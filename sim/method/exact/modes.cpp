@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sim/contact/carry.h"
-#include "sim/method/exact/rims.h"
+#include "sim/method/exact/corners.h"
 #include "sim/method/exact/sustained.h"
 
 namespace tumble {
@@ -19,8 +19,6 @@ constexpr double kRounding = 2e-10;
 constexpr double kOnset = 1e-4;
 /// What friction must leave of a push; see `pushLeft`.
 constexpr double kPushLeft = 1e-12;
-/// No pull towards zero: velocities and gaps are projected. [s]
-constexpr double kNoPull = 1e15;
 
 Vec3 tangential(const Contact& c) {
   return c.force - c.force.dot(c.point.n) * c.point.n;
@@ -41,7 +39,7 @@ double Sustained::forceScale(const Contact& c) const {
 SolveReport Sustained::solveCones(std::vector<RigidBody>& bodies,
                                   std::vector<Contact>& contacts) const {
   system_.outerForces(bodies);
-  const SolveReport solved = RestForces(kNoPull, true).apply(bodies, contacts);
+  const SolveReport solved = RestForces(true).apply(bodies, contacts);
   system_.effort.done += Effort::kPolished * countMoving(bodies);
   if (solved.status != SolveStatus::Solved) system_.effort.done += Effort::kUnsolved;
   return solved;
@@ -67,7 +65,7 @@ void Sustained::chooseModes() {
   }
   if (!state_.modesKnown) {
     const std::vector<Contact> before = lasting;
-    tieRims(state_, tolerance_.touch, lasting);
+    tieCrossings(state_, lasting);
     // What touches to rounding is not moved: that would be work.
     for (Contact& c : lasting) c.granted = -c.point.separation;
     std::vector<RigidBody> bodies = state_.bodies;

@@ -6,8 +6,8 @@
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
 #include "sim/math/frames.h"
+#include "sim/method/exact/corners.h"
 #include "sim/method/exact/exact.h"
-#include "sim/method/exact/rims.h"
 #include "sim/method/impacts.h"
 
 namespace tumble {
@@ -16,10 +16,6 @@ namespace {
 /// [m] per size of the world: a bounce that would rise less than this is the last of its row. The
 /// bounces left out would take  2 v/(a (1 − e)), after which the contact counts as at rest.
 constexpr double kLowest = 1e-12;
-/// [m] per size of the world: overlap that a contact point may show where bodies just touch.
-constexpr double kOff = 1e-11;
-/// Planes wider than this part of the size of the world do not touch.
-constexpr double kWidest = 1e-6;
 /// Residual of an impact that has no impulses, and the part of the approach that it leaves.
 constexpr double kHopeless = 1e-2;
 /// Events that leave time where it is, in a row, before some are seen late.
@@ -49,7 +45,6 @@ void Exact::strike(double t, int a, int b) {
   ends_.clear();
   const int seeds[] = {a, b};
   Cluster cluster = gather(t, seeds);
-  addRim({b, a}, cluster);
   noteOverlaps(cluster);
   if (collides(cluster)) respond(t, cluster);
   if (!report_.stopped) hold(t, cluster);
@@ -92,55 +87,12 @@ Cluster Exact::gather(double t, std::span<const int> seeds) {
       if (j != i && w.swept[i].overlaps(w.swept[j])) meet(j);
   }
   tieLeaning(state_, cluster.contacts);
-  const auto hasRim = [&](int i) {
-    const std::vector<Convex>& parts = state_.parts[i];
-    return std::any_of(parts.begin(), parts.end(),
-                       [](const Convex& part) { return !part.outline.rims.empty(); });
-  };
-  if (std::any_of(cluster.bodies.begin(), cluster.bodies.end(), hasRim))
-    tieRims(state_, ContactTolerance::forSize(model_.size).touch, cluster.contacts);
   return cluster;
 }
 
 void Exact::noteOverlaps(const Cluster& cluster) {
   double& deepest = report_.certificate.max_penetration;
   for (const Contact& c : cluster.contacts) deepest = std::max(deepest, -c.point.separation);
-}
-
-// Where the rim of a cylinder touches, contact points may be less exact than the plane that told of
-// the touch: then they are not there, or an impulse at them leaves the touch approaching. The
-// outermost point of the round body along the plane stands in.
-void Exact::addRim(Pair pair, Cluster& cluster) const {
-  const auto [b, a] = pair;
-  const auto between = [&, b = b, a = a](const Contact& c) { return c.a == a && c.b == b; };
-  const auto found = std::find_if(cluster.contacts.begin(), cluster.contacts.end(), between);
-  const double off = found == cluster.contacts.end() ? kWidest : -found->point.separation;
-  if (off <= kOff * std::max(1.0, model_.size) && state_.stalled == 0) return;
-  const RigidBody &bodyA = state_.bodies[a], &bodyB = state_.bodies[b];
-  Contact contact;
-  contact.point.separation = std::numeric_limits<double>::infinity();
-  for (const Convex& partA : state_.parts[a]) {
-    for (const Convex& partB : state_.parts[b]) {
-      const ContactPoint plane = separatingPlane(partA.shape, toWorld(bodyA.pose(), partA.pose),
-                                                 partB.shape, toWorld(bodyB.pose(), partB.pose));
-      const bool rimA = !partA.outline.rims.empty(), rimB = !partB.outline.rims.empty();
-      if (plane.separation >= contact.point.separation || !(rimA || rimB)) continue;
-      const RigidBody& body = rimA ? bodyA : bodyB;
-      const Vec3 along = body.q.conjugate() * (rimA ? Vec3(-plane.n) : plane.n);
-      ContactPoint& c = contact.point;
-      c = plane;
-      c.p = c.pa = c.pb = toWorld(body.pose(), outermost((rimA ? partA : partB).outline, along));
-      c.ra = c.rb = 0.0;
-    }
-  }
-  if (contact.point.separation > kWidest * model_.size) return;
-  std::erase_if(cluster.contacts, between);
-  const Surface surface = model_.surface(a, b);
-  contact.a = a;
-  contact.b = b;
-  contact.restitution = surface.restitution;
-  contact.friction = surface.friction;
-  cluster.contacts.push_back(contact);
 }
 
 bool Exact::collides(const Cluster& cluster) const {

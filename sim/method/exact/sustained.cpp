@@ -262,7 +262,7 @@ double Sustained::ambiguity(const Contact& c) const {
   return least < kInfinity ? least : 0.0;
 }
 
-// Rims are followed. How deep a new point is tells how far back it was not there.
+// How deep a new point is tells how far back it was not there.
 double Sustained::featureAllowance() const {
   double least = kInfinity;
   std::vector<Contact> found;
@@ -271,9 +271,6 @@ double Sustained::featureAllowance() const {
     if (!pair.lasts) continue;
     const auto ofPair = [&](const Contact& c) { return c.a == pair.a && c.b == pair.b; };
     const std::vector<Contact>& held = system_.contacts();
-    if (std::any_of(held.begin(), held.end(),
-                    [&](const Contact& c) { return ofPair(c) && c.anchor.rim.r > 0.0; }))
-      continue;
     found.clear();
     findContacts(model_, trial_, {pair.b, pair.a}, tolerance_.touch, found);
     const auto lists = [&](const std::vector<Contact>& list, const Contact& c) {

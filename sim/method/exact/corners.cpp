@@ -1,4 +1,4 @@
-#include "sim/method/exact/rims.h"
+#include "sim/method/exact/corners.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 namespace tumble {
 namespace {
 
-/// [1] A cap that leans by less lies flat.
-constexpr double kFlat = 1e-6;
 /// [1] Edges that lean by less against the face of a contact lie on it.
 constexpr double kLevel = 1e-6;
 /// [1] Edges that cross at less than this angle have no point to follow.
@@ -45,7 +43,7 @@ void tieCrossing(const State& state, Contact& c) {
   if (ea.cross(eb).norm() < kCrossing) return;
   c.point.ea = ea;
   c.point.eb = eb;
-  c.point.bend = -1.0;
+  c.point.crosses = true;
 }
 
 /// Ties a contact of a face to its edges, if these lean. @return whether the solids touch there
@@ -68,11 +66,6 @@ bool tieEdges(const State& state, Contact& c) {
   return shows;
 }
 
-bool sameRim(const Contact& c, const Contact& d) {
-  return c.anchor.rim.r > 0.0 && c.a == d.a && c.b == d.b && c.anchor.rim.r == d.anchor.rim.r &&
-         c.anchor.rim.centre_B == d.anchor.rim.centre_B;
-}
-
 }  // namespace
 
 void tieLeaning(const State& state, std::vector<Contact>& contacts) {
@@ -93,29 +86,12 @@ void tieLeaning(const State& state, std::vector<Contact>& contacts) {
   contacts = all;
 }
 
-void tieRims(const State& state, double close, std::vector<Contact>& contacts) {
+void tieCrossings(const State& state, std::vector<Contact>& contacts) {
   for (Contact& c : contacts) {
-    const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
     if (c.point.tie == NormalTie::FaceOfB || c.point.tie == NormalTie::FaceOfA)
       tieCrossing(state, c);
-    c.anchor = anchorOf(a, b, c.point);
-    const bool onA = c.point.tie == NormalTie::FaceOfB, onB = c.point.tie == NormalTie::FaceOfA;
-    if ((!onA && !onB) || (onA ? c.point.ra : c.point.rb) > 0.0) continue;
-    const Vec3 p = onA ? c.anchor.pa_B : c.anchor.pb_B;
-    const Vec3 n = (onA ? a : b).q.conjugate() * c.point.n;
-    for (const Convex& part : state.parts[onA ? c.a : c.b])
-      for (const Outline::Rim& rim : part.outline.rims) {
-        const Vec3 axis = rim.u.cross(rim.v), arm = p - rim.centre;
-        const bool on = std::abs(arm.dot(axis)) <= close && std::abs(arm.norm() - rim.r) <= close;
-        if (on && n.cross(axis).norm() > kFlat) c.anchor.rim = {rim.centre, axis, rim.r};
-      }
-    if (c.anchor.rim.r > 0.0) follow(a, b, c);
+    c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], c.point);
   }
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    contacts.erase(
-        std::remove_if(contacts.begin() + static_cast<std::ptrdiff_t>(k) + 1, contacts.end(),
-                       [&](const Contact& d) { return sameRim(contacts[k], d); }),
-        contacts.end());
 }
 
 }  // namespace tumble
