@@ -69,10 +69,7 @@ TEST_CASE("a sliding block stops near where Coulomb says, along its own line") {
 TEST_CASE("a motion that leaves the range of numbers stops with a reason") {
   WorldDef def = steppingWorld(5.0);
   def.bodies = {ball("ball", 0.1, {0.0, 1.0, 0.0})};
-  Spring spring;
-  spring.a = 0;
-  spring.stiffness = 1e9;
-  def.forces = {spring};
+  def.bodies[0].velocity = {1e308, 0.0, 0.0};
   World world(def);
   world.advance(5.0);
   CHECK(world.report().stopped);
