@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "render/targets.h"
+
 namespace tumble {
 namespace {
 

@@ -3,9 +3,10 @@
 
 #include "render/image.h"
 #include "render/picture.h"
-#include "render/targets.h"
 
 namespace tumble {
+
+struct Layer;  // of targets.h
 
 /// Colour of the page at a height, s = 0 at the top of the image and 1 at the bottom.
 Colour pageColour(double s);
