@@ -107,7 +107,9 @@ class Audit {
   std::vector<Vec3> impulse_, moment_;          ///< [N s], [N m s] of loads in this part
   std::vector<double> work_;                    ///< [J] of loads in this part
   Loads loads_;
+  std::vector<BodyPath> paths_;
   std::vector<PathPoint> points_;
+  std::vector<Vec3> centre_;  ///< [m] of groups, by root
   std::vector<RigidBody> scratch_;
 
   long seen_ = 0, untold_ = 0, parts_ = 0;

@@ -113,7 +113,8 @@ void Audit::addLoads() {
       if (moves(i)) work_[i] = sameWorkOf(i);
     return;
   }
-  std::vector<BodyPath> paths;
+  std::vector<BodyPath>& paths = paths_;
+  paths.clear();
   for (std::size_t i = 0; i < n; ++i) {
     const int body = static_cast<int>(i);
     paths.push_back(moves(body) ? BodyPath(bodies_[i], last_[i], now_[i], h_)
@@ -126,12 +127,12 @@ void Audit::addLoads() {
     for (std::size_t i = 0; i < n; ++i) points_[i] = paths[i].at(share);
     loads_.sum(model_.def.forces, bodies_, points_);
     // Torques count about the centre of mass of a group.
-    std::vector<Vec3> centre(n, Vec3::Zero());
+    centre_.assign(n, Vec3::Zero());
     for (std::size_t i = 0; i < n; ++i)
-      if (moves(i)) centre[rootOf(i)] += bodies_[i].M / groups_[rootOf(i)].mass * points_[i].x;
+      if (moves(i)) centre_[rootOf(i)] += bodies_[i].M / groups_[rootOf(i)].mass * points_[i].x;
     for (std::size_t i = 0; i < n; ++i) {
       if (!moves(i)) continue;
-      const Vec3 arm = points_[i].x - centre[rootOf(i)];
+      const Vec3 arm = points_[i].x - centre_[rootOf(i)];
       impulse_[i] += h_ * weight * loads_.force[i];
       if (!bodies_[i].particle) moment_[i] += h_ * weight * loads_.torque[i];
       if (groups_[rootOf(i)].count > 1)

@@ -49,14 +49,18 @@ void Nearness::list(const Part& part) {
     boxes_.push_back(boundingBox(model_.shapes[i], poseOf(part.end[i]), fat_));
   broadPhase_.update(boxes_);
   // What is known of pairs that stay is kept. Both lists are sorted.
-  std::vector<Known> before;
-  before.swap(pairs_);
-  auto old = before.begin();
+  known_.swap(pairs_);
+  pairs_.clear();
+  if (const std::size_t count = broadPhase_.pairs().size(); touched_.capacity() < count) {
+    for (std::vector<Known>* list : {&pairs_, &known_}) list->reserve(2 * count);
+    touched_.reserve(2 * count);
+  }
+  auto old = known_.begin();
   for (const auto& [i, j] : broadPhase_.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];
     if (!model_.mayTouch(a, b)) continue;
-    while (old != before.end() && std::pair(old->b, old->a) < std::pair(b, a)) ++old;
-    if (old != before.end() && old->b == b && old->a == a)
+    while (old != known_.end() && std::pair(old->b, old->a) < std::pair(b, a)) ++old;
+    if (old != known_.end() && old->b == b && old->a == a)
       pairs_.push_back(*old);
     else
       look(pairs_.emplace_back(Known{.b = b, .a = a}), part);

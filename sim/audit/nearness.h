@@ -73,8 +73,8 @@ class Nearness {
   std::vector<double> listed_;  ///< [m] the same when pairs were listed
   std::vector<Aabb> boxes_;
   BroadPhase broadPhase_;
-  double fat_ = -1.0;  ///< [m] what boxes were grown by; < 0: not listed yet
-  std::vector<Known> pairs_;
+  double fat_ = -1.0;                 ///< [m] what boxes were grown by; < 0: not listed yet
+  std::vector<Known> pairs_, known_;  ///< and those of the list before
   std::vector<Pair> touched_;
   double deepest_ = 0.0, between_ = 0.0;
 };

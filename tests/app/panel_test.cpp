@@ -127,7 +127,9 @@ TEST_CASE("a chart holds the largest error of its check against the cost of each
   const Recording recording = record(euler, euler.image.rate);
   CHECK(series[0].points[1].value == "0.01");
   double largest = 0.0;
-  for (const ClaimRow& row : judge(euler, recording).rows) largest = std::max(largest, row.error);
+  std::vector<ClaimRow> rows = judge(euler, recording).rows;
+  std::erase_if(rows, [](const ClaimRow& row) { return row.label.starts_with("audit"); });
+  for (const ClaimRow& row : rows) largest = std::max(largest, row.error);
   CHECK(largest > 0.0);
   CHECK(series[0].points[1].error == Approx(largest).epsilon(1e-9));
   for (std::size_t k = 1; k < 4; ++k) {
@@ -138,7 +140,7 @@ TEST_CASE("a chart holds the largest error of its check against the cost of each
 
   // One row alone, and one that is not there.
   ChartDef one = scene.charts[0];
-  const ClaimRow last = judge(euler, recording).rows.back();
+  const ClaimRow last = rows.back();
   one.row = last.label;
   CHECK(largestError(one, euler, recording) == last.error);
   one.row = "no such row";

@@ -164,6 +164,8 @@ velocity = [0.1, -1.0, 0.0]
     CAPTURE(method);
     for (const auto& [key, number] : kCertificateFields) {
       CAPTURE(key);
+      // The audit looks at the parts that a run is advanced in.
+      if (std::string_view(key).starts_with("audit")) continue;
       std::visit([&](auto field) { CHECK(often.certificate.*field == seldom.certificate.*field); },
                  number);
     }
