@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Residual of a pass that has no impulses: bodies with nowhere to go.
+/// Residual of a pass that has no impulses: bodies that fixed ones leave nowhere to go.
 constexpr double kHopeless = 1e-2;
 constexpr int kSweeps = 500;
 constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is for
@@ -186,9 +186,12 @@ bool anyApproaching(const Impact& impact) {
 
 ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes) {
   ImpactReport report;
+  const bool driven = std::any_of(
+      impact.bodies.begin(), impact.bodies.end(),
+      [](const RigidBody& b) { return b.fixed() && !(b.v.isZero(0.0) && b.omega.isZero(0.0)); });
   for (int pass = 0; pass < passes && anyApproaching(impact); ++pass) {
     strikeOnce(impact, kind, report);
-    if (report.residual > kHopeless) break;  // no impulses take them apart
+    if (driven && report.residual > kHopeless) break;  // no impulses take them apart
   }
   if (anyApproaching(impact)) {
     strikeOnce(impact, PassKind::Inelastic, report);

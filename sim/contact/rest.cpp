@@ -60,13 +60,15 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
 
 SolveReport RestForces::solve(std::span<const Contact> contacts) {
   // What a solver leaves is in the certificate. Where forces have no end, pivoting says so; and it
-  // bears joints alone under any load.
+  // bears joints under any load, with what leans on them.
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
   solution_ = {};             // the same answer whatever was solved before
   constexpr int kMost = 200;  // factorizations, pivots or sweeps
   const SolveSettings settings{.maxIterations = kMost};
-  const Solver& first = *findSolver(contacts.empty() ? "pivoting" : "newton");
+  const bool joined = std::any_of(problem_.cones.begin(), problem_.cones.end(),
+                                  [](const Cone& c) { return c.kind == ConeKind::Equality; });
+  const Solver& first = *findSolver(joined && !friction ? "pivoting" : "newton");
   SolveReport report = solveByIslands(first, problem_, settings, solution_);
   if (polished_ && friction) report = polish(problem_, {}, solution_);
   if (friction || report.status == SolveStatus::Solved) return report;

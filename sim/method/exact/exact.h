@@ -68,7 +68,6 @@ class Exact {
   void noteOverlaps(const Cluster& cluster);
   bool collides(const Cluster& cluster) const;
   void respond(double t, const Cluster& cluster);
-  void stopIfCrushed(double t, const Cluster& cluster, std::span<const double> vrel);
   struct Bounces {
     double height, end;
   };

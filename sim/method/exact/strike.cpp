@@ -6,6 +6,7 @@
 #include "sim/collide/collide.h"
 #include "sim/contact/impact.h"
 #include "sim/math/frames.h"
+#include "sim/method/crush.h"
 #include "sim/method/exact/corners.h"
 #include "sim/method/exact/exact.h"
 #include "sim/method/impacts.h"
@@ -16,7 +17,7 @@ namespace {
 /// [m] per size of the world: a bounce that would rise less than this is the last of its row. The
 /// bounces left out would take  2 v/(a (1 − e)), after which the contact counts as at rest.
 constexpr double kLowest = 1e-12;
-/// Residual of an impact that has no impulses, and the part of the approach that it leaves.
+/// Residual from which an impact is asked whether any velocities obey it.
 constexpr double kHopeless = 1e-2;
 /// Events that leave time where it is, in a row, before some are seen late.
 constexpr int kStalled = 1000;
@@ -136,7 +137,7 @@ std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& co
     const Contact& first = contacts[i];
     const bool lasting = lasts(first.a, first.b);
     double highest = 0.0, end = t;
-    bool hits = false, closes = true;
+    bool hits = false, closes = true, hard = false;
     const std::size_t begin = i;
     for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b; ++i) {
       const Contact& c = contacts[i];
@@ -145,13 +146,14 @@ std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& co
       if (vrel >= -tolerance_.rest) continue;
       const std::optional<Bounces> bounces = bouncesOf(t, c);
       hits = true;
+      hard = hard || (c.restitution == 0.0 && vrel < -tolerance_.keep);
       const bool leans = lasting && -c.restitution * vrel < tolerance_.keep;
       closes = closes && (leans || (bounces && bounces->height < lowest()));
       if (!bounces) continue;
       highest = std::max(highest, bounces->height);
       end = std::max(end, bounces->end);
     }
-    all = all && closes;
+    all = all && closes && !hard;  // a hard blow goes on through others, though it does not rebound
     any = any || hits;
     if (!closes || !hits) continue;
     std::fill(e.begin() + static_cast<std::ptrdiff_t>(begin), e.end(), 0.0);
@@ -201,19 +203,9 @@ void Exact::respond(double t, const Cluster& cluster) {
   state_.kineticMax = std::max(state_.kineticMax, kinetic);
   bookImpact(impact, report_);
   recordImpacts(t, cluster, vrel, impulse);
-  if (impact.residual > kHopeless) stopIfCrushed(t, cluster, vrel);
-}
-
-// Impulses that leave bodies running into each other are none: there is no way out.
-void Exact::stopIfCrushed(double t, const Cluster& cluster, std::span<const double> vrel) {
-  const auto speed = [&](const Contact& c) {
-    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
-  };
-  const auto worst =
-      std::min_element(cluster.contacts.begin(), cluster.contacts.end(),
-                       [&](const Contact& c, const Contact& d) { return speed(c) < speed(d); });
-  const double fastest = *std::min_element(vrel.begin(), vrel.end());
-  if (speed(*worst) < kHopeless * fastest) stop(crushedAt(model_, *worst, t));
+  if (!(impact.residual > kHopeless)) return;
+  const std::string crushed = findCrushed(model_, t, state_.bodies, cluster.contacts);
+  if (!crushed.empty()) stop(crushed);
 }
 
 void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,

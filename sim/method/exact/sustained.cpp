@@ -1,4 +1,5 @@
 #include "sim/method/exact/sustained.h"
+#include "sim/method/crush.h"
 
 #include <algorithm>
 #include <cmath>
@@ -212,7 +213,12 @@ void Sustained::cross(double most) {
   state_.lawless = false;
   if (step.left > kCrushed * std::max(1.0, model_.size)) {
     report_.stopped = true;
-    report_.reason = crushedAt(model_, step.worst, state_.t);
+    const auto driven = [&](const RigidBody& body) {
+      return drives(model_, body, static_cast<int>(&body - state_.bodies.data()));
+    };
+    report_.reason = std::any_of(state_.bodies.begin(), state_.bodies.end(), driven)
+                         ? crushedAt(model_, step.worst, state_.t)
+                         : crowdedAt(state_.t);
   }
   leave();
 }
