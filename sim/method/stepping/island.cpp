@@ -20,6 +20,15 @@ std::pair<int, int> Stepping::ends(Link link) const {
   return {row.b, row.a};
 }
 
+void Stepping::solveSteadily(double h) {
+  constexpr int kRounds = 10;
+  allKept_ = true;
+  solveIslands(h);
+  for (int round = 0; round < kRounds && work_.crushed.empty() && seeFurther(h); ++round)
+    solveIslands(h);
+  if (work_.crushed.empty()) bookIslands(h);
+}
+
 void Stepping::solveIslands(double h) {
   const std::size_t n = state_.bodies.size();
   bindGroups(h);
@@ -32,11 +41,22 @@ void Stepping::solveIslands(double h) {
   work_.touched.assign(n, 0);
   work_.later.assign(n, 0.0);
   memory_.islands.resize(n);
-  allKept_ = true;
   groupLinks(h);
-  for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i)
-    solveIsland(std::span(work_.order).subspan(work_.begin[i], work_.begin[i + 1] - work_.begin[i]),
-                h);
+  for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i) solveIsland(linksOf(i), h);
+}
+
+void Stepping::bookIslands(double h) {
+  Certificate& certificate = report_.certificate;
+  for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i) {
+    collectBodies(linksOf(i));
+    if (work_.movers.empty()) continue;
+    const IslandMemory& memory = memory_.islands[work_.movers.front()];
+    certificate.max_complementarity = std::max(certificate.max_complementarity, memory.residual);
+    certificate.energy_lost_impact += memory.books.lostImpact;
+    certificate.energy_lost_friction += memory.books.lostFriction;
+    certificate.work_of_forces += memory.books.work;
+    state_.externalImpulse += memory.books.external;
+  }
   if (!work_.bonds.empty() || !model_.joints.empty()) bookJoints(h);
 }
 
@@ -202,7 +222,6 @@ void Stepping::swing(std::span<const Link> links, double h) {
 }
 
 [[gnu::flatten]] void Stepping::solveIsland(std::span<const Link> links, double h) {
-  Certificate& certificate = report_.certificate;
   collectBodies(links);
   if (work_.movers.empty()) return;
   swing(links, h);
@@ -224,11 +243,6 @@ void Stepping::swing(std::span<const Link> links, double h) {
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     share(links, memory, h);
   }
-  certificate.max_complementarity = std::max(certificate.max_complementarity, memory.residual);
-  certificate.energy_lost_impact += memory.books.lostImpact;
-  certificate.energy_lost_friction += memory.books.lostFriction;
-  certificate.work_of_forces += memory.books.work;
-  state_.externalImpulse += memory.books.external;
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
     work_.after[work_.movers[i]] = memory.movers[i].v;
     work_.touched[work_.movers[i]] = memory.movers[i].v != memory.movers[i].vStar;

@@ -81,7 +81,8 @@ void Stepping::stepTo(double t1, double h) {
 
 void Stepping::moveTo(double t1, double h) {
   beginSegment(t1);
-  solveIslands(h);
+  solveSteadily(h);
+  if (report_.stopped) return stop(report_.reason);
   if (!work_.crushed.empty()) return stop(work_.crushed);
   applyTwists(h);
   recordEvents(t1);

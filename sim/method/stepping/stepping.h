@@ -46,7 +46,16 @@ class Stepping {
   void findTouching(double h);
   /// @return whether other pairs are near than before.
   bool findNear(double h);
+  /// Brings the near pairs up to date with the boxes. @return whether they are others than before
+  bool takePairs();
   double marginOf(std::size_t pair, double h) const;
+  /// The same for a speed [m/s] at which surfaces approach.
+  double marginFor(double speed, double h) const;
+  /// Looks where velocities that contacts gave lead, beyond what was foreseen. @return whether
+  /// something is met there that the contact problem must know.
+  bool seeFurther(double h);
+  bool growBoxes(double h);
+  bool lookFurther(std::size_t pair, double h);
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
   /// Gives a pair the points that were found; numbers the look, if it sees other levers.
@@ -84,7 +93,15 @@ class Stepping {
   }
 
   // island.cpp: the contact problem of each island.
+  /// Solves until nothing comes to meet what was not looked at.
+  void solveSteadily(double h);
   void solveIslands(double h);
+  /// What the islands of the step did, once they are solved for good.
+  void bookIslands(double h);
+  std::span<const Link> linksOf(std::size_t island) const {
+    const int first = work_.begin[island];
+    return std::span(work_.order).subspan(first, work_.begin[island + 1] - first);
+  }
   /// The velocities at the end of the step, were there nothing to touch or hold.
   void foreseeTwists(double h);
   void groupLinks(double h);

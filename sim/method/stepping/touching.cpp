@@ -25,6 +25,17 @@ bool isSame(const Lever& p, const Lever& q, double size) {
          std::abs(p.separation - q.separation) <= kRounding * size;
 }
 
+/// The box that holds a body for h seconds at this velocity, grown by `margin` [m].
+Aabb sweptBox(const Shape& shape, const Pose& pose, const Vec6& twist, double h, double margin) {
+  const double radius = boundingRadius(shape);
+  const double turn = std::isfinite(radius) ? twist.tail<3>().norm() * radius * h : 0.0;
+  Aabb box = boundingBox(shape, pose, margin + turn);
+  const Vec3 way = h * twist.head<3>();
+  box.lo += way.cwiseMin(0.0);
+  box.hi += way.cwiseMax(0.0);
+  return box;
+}
+
 }  // namespace
 
 void Stepping::findTouching(double h) {
@@ -35,6 +46,10 @@ void Stepping::findTouching(double h) {
 
 bool Stepping::findNear(double h) {
   sweptBoxes(model_, state_.bodies, h, gravity_, tolerance_.touch, work_.boxes);
+  return takePairs();
+}
+
+bool Stepping::takePairs() {
   state_.broadPhase.update(work_.boxes);
   work_.near.clear();
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
@@ -63,7 +78,6 @@ bool Stepping::findNear(double h) {
 /// As far [m] as the two surfaces can come towards each other within the step, and no less than
 /// what the projection wants to see; rounded up to a power of two, so that it seldom changes.
 [[gnu::flatten]] double Stepping::marginOf(std::size_t pair, double h) const {
-  constexpr double kNeighbour = 1e-4;
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &b = state_.bodies[ib], &a = state_.bodies[ia];
   double speed = (a.v - b.v).norm();
@@ -71,9 +85,72 @@ bool Stepping::findNear(double h) {
     const double radius = boundingRadius(model_.shapes[i]);
     if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
   }
+  return marginFor(speed, h);
+}
+
+double Stepping::marginFor(double speed, double h) const {
+  constexpr double kNeighbour = 1e-4;
   const double margin = std::max(kNeighbour, h * speed + 2.0 * gravity_ * h * h + tolerance_.touch);
   const double below = std::ldexp(1.0, std::ilogb(margin));
   return below < margin ? 2.0 * below : below;
+}
+
+bool Stepping::growBoxes(double h) {
+  bool grew = false;
+  for (std::size_t k = 0; k < model_.solid.size(); ++k) {
+    const int i = model_.solid[k];
+    if (!work_.touched[i]) continue;
+    const auto box = [&](double margin) {
+      return sweptBox(model_.shapes[i], state_.bodies[i].pose(), work_.after[i], h, margin);
+    };
+    Aabb& known = work_.boxes[k];
+    const Aabb needed = box(tolerance_.touch);
+    if ((needed.lo - known.lo).minCoeff() >= 0.0 && (known.hi - needed.hi).minCoeff() >= 0.0)
+      continue;
+    const Aabb wide = box(tolerance_.touch + gravity_ * h * h);
+    known.lo = known.lo.cwiseMin(wide.lo);
+    known.hi = known.hi.cwiseMax(wide.hi);
+    grew = true;
+  }
+  return grew;
+}
+
+/// Whether a pair has points that are not in the problem, and would overlap.
+bool Stepping::lookFurther(std::size_t k, double h) {
+  const auto [ib, ia] = state_.near[k];
+  if (!work_.touched[ia] && !work_.touched[ib]) return false;
+  const Vec6 &va = work_.after[ia], &vb = work_.after[ib];
+  double speed = (va - vb).head<3>().norm();
+  for (int i : {ib, ia}) {
+    const double radius = boundingRadius(model_.shapes[i]);
+    if (std::isfinite(radius)) speed += work_.after[i].tail<3>().norm() * radius;
+  }
+  PairMemory& memory = memory_.pairs[k];
+  const double margin = marginFor(speed, h);
+  if (margin > memory.margin) {
+    const long before = memory.form;
+    look(k, margin);
+    if (memory.form != before) return !memory.touches.empty();
+  }
+  bool meets = false;
+  for (const Touch& touch : memory.touches) {
+    if (!flies(touch, h)) continue;
+    const ContactPoint& c = touch.contact.point;
+    const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[ia].x) - vb.head<3>() -
+                      vb.tail<3>().cross(c.p - state_.bodies[ib].x);
+    if (c.separation + h * c.n.dot(rate) >= -tolerance_.drift) continue;
+    hold(touch.contact);
+    meets = true;
+  }
+  return meets;
+}
+
+bool Stepping::seeFurther(double h) {
+  if (growBoxes(h) && takePairs() && stopAtUnknownPair(model_, state_.near, report_)) return false;
+  bool meets = false;
+  for (std::size_t k = 0; k < state_.near.size(); ++k) meets = lookFurther(k, h) || meets;
+  if (meets) leaveSeams();
+  return meets;
 }
 
 [[gnu::flatten]] void Stepping::look(std::size_t pair, double margin) {
