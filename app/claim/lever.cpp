@@ -108,8 +108,8 @@ Vec3 contactForce(const Sample& sample, const Lever& lever) {
 void addHeld(const Scene& scene, const Recording& recording, const Lever& lever,
              std::vector<ClaimRow>& rows) {
   const BodyDef& body = scene.world.bodies[lever.body];
-  WorstRow push(body.name + ": force of the prop, f = m g L/(2 d) / N", 1e-12);
-  WorstRow hinge(body.name + ": force of the hinge, m g - f / N, error / the larger force", 1e-12);
+  WorstRow push(body.name + ": force of the prop, f = m g L/(2 d) / N", 3e-12);
+  WorstRow hinge(body.name + ": force of the hinge, m g - f / N, error / the larger force", 3e-12);
   for (const Sample& sample : recording.samples) {
     const BodySample& now = sample.bodies[lever.body];
     if ((now.x - body.position).norm() > 1e-12 || now.omega.norm() > 1e-12) continue;
