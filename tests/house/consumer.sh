@@ -32,4 +32,4 @@ mass = 1.0
 TOML
 prefix/bin/tumble golden --folder kept --update ball.toml
 prefix/bin/tumble golden --folder kept ball.toml | tee held
-grep -q "goldens: 3 pass, 3 equal" held
+grep -q "goldens: 5 pass, 5 equal" held
