@@ -55,9 +55,12 @@ void Audit::bodiesInFlight(const State& state, double t, bool before,
   out = bodies_;
   for (std::size_t i = 0; i < state.flights.size(); ++i) {
     const std::vector<Flight>& flights = state.flights[i];
-    std::size_t k = flights.size() - 1;
-    while (k > 0 && (before ? flights[k].start() >= t : flights[k].start() > t)) --k;
-    flights[k].at(t, out[i]);
+    const auto begun = [&](const Flight& flight) {
+      return before ? flight.start() < t : flight.start() <= t;
+    };
+    auto next = std::partition_point(flights.begin(), flights.end(), begun);
+    if (next != flights.begin()) --next;
+    next->at(t, out[i]);
   }
   for (std::size_t k = 0; k < state.tops.size(); ++k)
     state.tops[k].at(t, out[model_.pivots[k].body]);
