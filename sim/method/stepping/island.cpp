@@ -6,11 +6,8 @@
 #include <numeric>
 
 #include "sim/contact/rows.h"
-#include "sim/math/rotation.h"
-#include "sim/method/crush.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
-#include "sim/problem/endless.h"
 
 namespace tumble {
 
@@ -249,27 +246,6 @@ void Stepping::swing(std::span<const Link> links, double h) {
   }
 }
 
-/// Asks only where the solver has failed and a fixed body that moves is in the island.
-void Stepping::findCrushed(std::span<const Link> links, const SolveReport& solved) {
-  constexpr double kFailed = 1e-3;
-  if (solved.status == SolveStatus::Solved || !(solved.residual > kFailed)) return;
-  const auto driven = [&](int i) {
-    return i < model_.count() && drives(model_, state_.bodies[i], i);
-  };
-  if (std::none_of(links.begin(), links.end(), [&](Link link) {
-        return driven(ends(link).first) || driven(ends(link).second);
-      }))
-    return;
-  const std::vector<double> push = endlessPush(work_.problem);
-  if (push.empty()) return;
-  std::vector<std::pair<int, int>> pairs;
-  for (const Cone& cone : work_.problem.cones) {
-    const Row& row = work_.problem.rows[cone.row];
-    pairs.emplace_back(work_.bodies[row.a], work_.bodies[row.b]);
-  }
-  work_.crushed = crushWords(model_, state_.t, pairs, push);
-}
-
 /// Number of a body in the problem of its island.
 int Stepping::localOf(int body) {
   if (work_.local[body] < 0) {
@@ -348,32 +324,6 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   Vec3 t1, t2;
   tangents(c.n, slipVelocity(state_.bodies[contact.a], state_.bodies[contact.b], c), t1, t2);
   for (const Vec3& t : {t1, t2}) addAlong(t).bias = t.dot(lead);
-}
-
-/// What goes round with ω has moved along chords: v = (1 − exp(−hω)) d/h in the last step, and
-/// (exp(hω) − 1) d/h in this one, of which ω × d is known. The rest is, across ω, with θ = h |ω|,
-///   (sin θ − θ/2) ω̂ × v + (cos θ − (θ/2) cot(θ/2)) v,
-/// and ½ h ω × v to second order also of what rolls: the velocity of the carrier where the body
-/// will be in the middle of the step. Bodies that are both free have in common the part (p·q)(p +
-/// q)/(p² + q²) of their angular velocities p, q, along the tangents alone: normals follow the gap.
-Vec3 Stepping::carried(const Contact& contact, double h) const {
-  const RigidBody &a = state_.bodies[contact.a], &b = state_.bodies[contact.b];
-  const Vec3 &p = b.fixed() ? b.omega : a.omega, &q = a.fixed() ? a.omega : b.omega;
-  const double common = p.dot(q);
-  if (!(common > 0.0)) return Vec3::Zero();
-  const Vec3 omega = common / (p.squaredNorm() + q.squaredNorm()) * (p + q);
-  const double theta = h * omega.norm();
-  if (theta == 0.0) return Vec3::Zero();
-  double s, c, halfS, halfC;
-  sinCos(theta, s, c);
-  sinCos(0.5 * theta, halfS, halfC);
-  const Vec3 axis = omega.normalized();
-  const Vec3 v = (work_.before[contact.a] - work_.before[contact.b]).head<3>();
-  const Vec3 across = v - axis.dot(v) * axis;
-  // The velocities of the start are those of an instant, not of a chord.
-  const double turned = atStart() ? (1.0 - c) / theta : s - 0.5 * theta;
-  const double along = atStart() ? s / theta - 1.0 : c - 0.5 * theta * halfC / halfS;
-  return -(turned * axis.cross(v) + along * across);
 }
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
