@@ -24,10 +24,18 @@ class UiInput {
   void takeIn() { ImGui_ImplGlfw_NewFrame(); }
 };
 
+// A file that is dropped onto the window is shown.
+void acceptDrops(Window& window, Viewer& viewer) {
+  glfwSetWindowUserPointer(window.handle(), &viewer);
+  glfwSetDropCallback(window.handle(), [](GLFWwindow* handle, int count, const char** paths) {
+    if (count > 0) static_cast<Viewer*>(glfwGetWindowUserPointer(handle))->load(paths[count - 1]);
+  });
+}
+
 // Until the window is closed, or so many images are drawn if `images` is positive.
 void show(Window& window, UiInput& input, Viewer& viewer, UiRenderer& renderer, int images) {
   for (int drawn = 0; !window.closing() && (images <= 0 || drawn < images); ++drawn) {
-    window.poll(viewer.playback().playing() || images > 0 ? 0.0 : 0.1);
+    window.poll(viewer.busy() || images > 0 ? 0.0 : 0.1);
     input.takeIn();
     ImGui::NewFrame();
     viewer.advance(ImGui::GetIO().DeltaTime);
@@ -61,7 +69,8 @@ int view(int argc, char** argv) {
   UiInput input(window);
   UiRenderer uiRenderer;
   Viewer viewer(renderer, demoEntries());
-  if (scene) viewer.open(*scene);
+  if (scene) viewer.begin(*scene);
+  acceptDrops(window, viewer);
   show(window, input, viewer, uiRenderer, images);
   return kOk;
 }

@@ -174,8 +174,12 @@ Picture Presenter::strobe() const {
   addTheory(picture);
   addLabels(scene_, last, picture);
   addAnnotations(last, picture);
-  picture.subtitle += fmt::format("{}Strobe every {:g} s over {:g} s.",
-                                  picture.subtitle.empty() ? "" : "  ", scene_.show.strobe, last.t);
+  // Ghosts of the start alone are no strobe.
+  const std::string what =
+      scene_.show.strobe < last.t
+          ? fmt::format("Strobe every {:g} s over {:g} s.", scene_.show.strobe, last.t)
+          : fmt::format("Start, and end after {:g} s.", last.t);
+  picture.subtitle += (picture.subtitle.empty() ? "" : "  ") + what;
   finish(picture);
   return picture;
 }

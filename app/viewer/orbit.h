@@ -13,6 +13,8 @@ struct Orbit {
   double elevation = 0.2;  ///< [rad] of the eye above the horizon
   double fov = 24.0;       ///< [deg] vertical
 
+  bool operator==(const Orbit&) const = default;
+
   static Orbit of(const Camera& camera);
   Camera camera() const;
 

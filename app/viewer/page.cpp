@@ -7,41 +7,61 @@ namespace tumble {
 
 namespace {
 
-constexpr float kListWidth = 270.0f, kTransportHeight = 92.0f;  // [px]
-constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+constexpr float kListWidth = 290.0f, kTransportHeight = 98.0f;  // [px]
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-void beginPanel(const char* name, float x, float y, float width, float height) {
+void beginPanel(const char* name, float x, float y, float width, float height,
+                ImGuiWindowFlags more = 0) {
   ImGui::SetNextWindowPos({x, y});
   ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin(name, nullptr, kPanel);
+  ImGui::Begin(name, nullptr, kPanel | more);
 }
 
-void line(const std::string& text) {
+// A choice whose text takes as many lines as it needs.
+bool choice(const std::string& text, const std::string& name, bool shown) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
+  const ImVec2 place = ImGui::GetCursorPos();
+  const bool chosen = ImGui::Selectable(("##" + name).c_str(), shown, 0, {width, size.y});
+  const ImVec2 after = ImGui::GetCursorPos();
+  ImGui::SetCursorPos(place);
+  ImGui::PushTextWrapPos(place.x + width);
   ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorPos(after);
+  return chosen;
 }
 
 }  // namespace
 
 void Viewer::page() {
+  pull();
+  reloadIfSaved();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float width = size.x - kListWidth, height = size.y - kTransportHeight;
   keys();
-  beginPanel("list", 0.0f, 0.0f, kListWidth, size.y);
+  beginPanel("demos", 0.0f, 0.0f, kListWidth, 0.45f * size.y);
   demoList();
+  ImGui::End();
+  beginPanel("numbers", 0.0f, 0.45f * size.y, kListWidth, 0.55f * size.y);
   numbers();
+  shownList();
   ImGui::End();
 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-  beginPanel("picture", kListWidth, 0.0f, width, height);
+  beginPanel("picture", kListWidth, 0.0f, width, height, ImGuiWindowFlags_NoScrollbar);
   ImGui::PopStyleVar();
   picture(width, height);
   ImGui::End();
 
-  beginPanel("transport", kListWidth, height, width, kTransportHeight);
+  beginPanel("transport", kListWidth, height, width, kTransportHeight,
+             ImGuiWindowFlags_NoScrollbar);
   transport();
   ImGui::End();
+  if (helping_) help();
 }
 
 void Viewer::demoList() {
@@ -53,90 +73,102 @@ void Viewer::demoList() {
       ImGui::TextDisabled("%s", chapter.empty() ? "demos" : chapter.c_str());
     }
     const bool shown = scene_ && scene_->name == demo.name;
-    if (ImGui::Selectable((demo.title + "##" + demo.name).c_str(), shown)) choose(demo);
+    if (choice(demo.title, demo.name, shown)) load(demo.path);
   }
-}
-
-void Viewer::numbers() {
-  ImGui::Spacing();
-  ImGui::Separator();
-  ImGui::Spacing();
-  if (!complaint_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, {0.835f, 0.251f, 0.102f, 1.0f});
-    ImGui::TextWrapped("%s", complaint_.c_str());
-    ImGui::PopStyleColor();
-  }
-  if (!recording_) return;
-  const Sample& sample = recording_->samples[playback_.sample()];
-  const Certificate& certificate = recording_->report.certificate;
-  line(fmt::format("t = {:.3f} s", sample.t));
-  line(fmt::format("kinetic {:.4g} J", sample.kinetic));
-  line(fmt::format("potential {:.4g} J", sample.potential));
-  line(fmt::format("{} contact points", sample.contacts.size()));
-  ImGui::Spacing();
-  ImGui::TextDisabled("certificate");
-  line(fmt::format("method {}", recording_->method));
-  line(fmt::format("{} steps, {} events", certificate.steps, certificate.events));
-  line(fmt::format("penetration {:.1e} m", certificate.max_penetration));
-  line(fmt::format("energy balance {:.1e}", certificate.energy_balance_error));
 }
 
 void Viewer::picture(float width, float height) {
-  if (!recording_) {
-    ImGui::SetCursorPos({0.5f * width - 80.0f, 0.5f * height});
-    ImGui::TextDisabled("choose a demo on the left");
+  if (!presenter_) {
+    ImGui::SetCursorPos({0.5f * width - 110.0f, 0.5f * height});
+    ImGui::TextDisabled(recorder_ ? "simulating" : "choose a demo, or drop a scene here");
     return;
   }
   if (width < 16.0f || height < 16.0f) return;
-  mouse(height);
+  mouse(width, height);
   draw(static_cast<int>(width), static_cast<int>(height));
   ImGui::Image(texture_.id(), {width, height});
 }
 
-void Viewer::mouse(float height) {
+void Viewer::mouse(float width, float height) {
   if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f))
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) dragged_ = 0.0f;
+  if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f)) {
+    dragged_ += std::abs(io.MouseDelta.x) + std::abs(io.MouseDelta.y);
     orbit_.turn(io.MouseDelta.x, io.MouseDelta.y, height);
+  }
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f))
     orbit_.pan(io.MouseDelta.x, io.MouseDelta.y, height);
   if (io.MouseWheel != 0.0f) orbit_.zoom(io.MouseWheel);
+  // A click that does not turn the picture picks a body.
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_ < 4.0f) {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    pick(io.MousePos.x - corner.x, io.MousePos.y - corner.y, width, height);
+  }
 }
 
 void Viewer::transport() {
-  if (!recording_) return;
+  if (!presenter_) return;
   if (ImGui::Button(playback_.playing() ? "pause" : "play", {72.0f, 0.0f})) playback_.toggle();
   ImGui::SameLine();
   if (ImGui::Button("- 1")) playback_.step(-1);
   ImGui::SameLine();
   if (ImGui::Button("+ 1")) playback_.step(1);
   ImGui::SameLine();
-  if (ImGui::Button("view")) orbit_ = home_;
+  if (ImGui::Button("view")) orbit_ = home_, following_ = false;
   ImGui::SameLine();
   for (const double speed : {0.1, 0.25, 1.0}) {
     if (ImGui::RadioButton(fmt::format("{}×", speed).c_str(), playback_.speed == speed))
       playback_.speed = speed;
     ImGui::SameLine();
   }
-  ImGui::TextDisabled("drag: turn   right drag: shift   wheel: nearer");
+  if (recorder_)
+    ImGui::ProgressBar(static_cast<float>(recorder_->share()), {160.0f, 0.0f}, "simulating");
+  else
+    ImGui::TextDisabled("%s", told_.empty() ? "h: help" : told_.c_str());
 
   float time = static_cast<float>(playback_.time());
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderFloat("##time", &time, 0.0f, static_cast<float>(playback_.end()), "%.3f s"))
-    playback_.seek(time);
+  const float end = static_cast<float>(std::max(playback_.end(), 1e-9));
+  if (ImGui::SliderFloat("##time", &time, 0.0f, end, "%.3f s")) playback_.seek(time);
+  eventMarks();
+}
+
+// A line for each impact, above the slider's own rectangle.
+void Viewer::eventMarks() {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const double end = playback_.end();
+  if (!(end > 0.0)) return;
+  float last = -1.0f;
+  for (const Event& event : recording_->report.events) {
+    if (event.kind != EventKind::Impact) continue;
+    const float x = low.x + static_cast<float>(std::min(1.0, event.t / end)) * (high.x - low.x);
+    if (x < last + 1.0f) continue;
+    last = x;
+    ImGui::GetWindowDrawList()->AddLine({x, high.y - 5.0f}, {x, high.y},
+                                        IM_COL32(0xd5, 0x40, 0x1a, 0xff));
+  }
 }
 
 void Viewer::keys() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (!recording_ || io.WantTextInput) return;
   const auto pressed = [](ImGuiKey key, bool repeat) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
   };
+  if (!presenter_ || io.WantTextInput) return;
   if (pressed(ImGuiKey_Space, false)) playback_.toggle();
   if (pressed(ImGuiKey_LeftArrow, true)) playback_.step(-1);
   if (pressed(ImGuiKey_RightArrow, true)) playback_.step(1);
   if (pressed(ImGuiKey_Home, false)) playback_.seek(0.0);
   if (pressed(ImGuiKey_End, false)) playback_.seek(playback_.end());
+  // Letters come as text, whatever the keyboard's layout.
+  for (const ImWchar letter : io.InputQueueCharacters) {
+    if (letter == 'h' || letter == '?') helping_ = !helping_;
+    if (letter == 'v') orbit_ = home_, following_ = false;
+    if (letter == 'f') following_ = picked_ && !following_;
+    if (letter == 's') screenshot();
+    if (letter == 'c') ImGui::SetClipboardText(command().c_str()), told_ = command();
+  }
 }
 
 }  // namespace tumble

@@ -8,11 +8,11 @@ namespace tumble {
 void Playback::advance(double seconds) {
   if (!playing_) return;
   time_ = std::min(time_ + speed * seconds, end());
-  if (time_ == end()) playing_ = false;
+  if (time_ == end() && !growing) playing_ = false;
 }
 
 void Playback::toggle() {
-  if (!playing_ && time_ == end()) time_ = 0.0;
+  if (!playing_ && time_ == end() && !growing) time_ = 0.0;
   playing_ = !playing_;
 }
 

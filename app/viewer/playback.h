@@ -25,7 +25,11 @@ class Playback {
   /// The sample to show: the latest that is not in the future.
   int sample() const;
 
-  double speed = 1.0;  ///< [1] recording time over wall-clock time
+  /// More samples are known.
+  void extend(int last) { last_ = last; }
+
+  bool growing = false;  ///< at the end play waits for more
+  double speed = 1.0;    ///< [1] recording time over wall-clock time
 
  private:
   int last_ = 0;

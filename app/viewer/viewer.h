@@ -1,6 +1,8 @@
 // What the window shows: demos to the left, the picture, and the transport below it.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "app/scene/scene.h"
 #include "app/viewer/orbit.h"
 #include "app/viewer/playback.h"
+#include "app/viewer/recorder.h"
 #include "app/viewer/ui_renderer.h"
 #include "render/renderer.h"
 
@@ -31,38 +34,68 @@ class Viewer {
 
   /// Records the scene and shows it from its start. @throws SceneError
   void open(Scene scene);
+  /// Shows the scene from its start and plays it while it is recorded.
+  void begin(Scene scene);
+  /// Reads a scene and begins it; a refusal is shown with its place. With the overrides of the
+  /// scene at hand if it is the same file.
+  void load(const std::string& path);
   /// Lets wall-clock time pass.
   void advance(double seconds) { playback_.advance(seconds); }
   /// Emits one page into the current ImGui frame and handles what the user does with it.
   void page();
+  /// Whether the page changes by itself.
+  bool busy() const { return playback_.playing() || recorder_; }
 
   Playback& playback() { return playback_; }
+  const std::optional<Recording>& recording() const { return recording_; }
 
  private:
   void demoList();
+  void shownList();
   void numbers();
+  void bodyNumbers();
+  void certificate();
   void picture(float width, float height);
   void transport();
+  void eventMarks();
+  void help();
   void keys();
-  void mouse(float height);
-  void choose(const DemoEntry& demo);
+  void mouse(float width, float height);
   void draw(int width, int height);
+  void pull();
+  void show();
+  void pick(float x, float y, float width, float height);
+  void reloadIfSaved();
+  void screenshot();
+  Camera camera() const;
+  std::string command() const;
 
   Renderer& renderer_;
   std::vector<DemoEntry> demos_;
   std::optional<Scene> scene_;
+  std::optional<Scene> whole_;  ///< the scene with its claims, while it is recorded
   std::optional<Recording> recording_;
   std::optional<Presenter> presenter_;  // of scene_ and recording_
+  std::unique_ptr<Recorder> recorder_;  ///< while it is recorded
+  std::size_t presented_ = 0;           ///< samples that the presenter has seen all of
   std::string complaint_;               ///< why the scene that was asked for is not shown
+  std::string told_;                    ///< what the last command did
   Playback playback_;
   Orbit orbit_, home_;
+  std::optional<int> picked_;  ///< a body
+  bool following_ = false;     ///< the picked body
+  bool helping_ = false;
+  float dragged_ = 0.0f;  ///< [px] since the button went down
+  std::filesystem::file_time_type saved_;
+  double looked_ = 0.0;  ///< [s] when the file was last looked at
 
   /// What the texture shows, so that it is drawn only when something changed.
   struct Drawn {
-    int sample = -1, width = 0, height = 0;
+    int sample = -1, width = 0, height = 0, revision = 0;
     Eigen::Vector3d eye = Eigen::Vector3d::Zero(), target = Eigen::Vector3d::Zero();
     bool operator==(const Drawn&) const = default;
   } drawn_;
+  int revision_ = 0;  ///< counts what changes a picture besides time and camera
   UiTexture texture_;
 };
 

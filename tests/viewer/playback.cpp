@@ -49,3 +49,19 @@ TEST_CASE("a step pauses, and neither steps nor seeks leave the recording") {
   playback.seek(7.0);
   CHECK(playback.sample() == 10);
 }
+
+TEST_CASE("play waits at the end of what is known, and goes on when there is more") {
+  Playback playback(0, 60.0);
+  playback.growing = true;
+  playback.toggle();
+  playback.advance(1.0);
+  CHECK(playback.time() == 0.0);
+  CHECK(playback.playing());
+  playback.extend(30);
+  playback.advance(0.25);
+  CHECK(playback.time() == 0.25);
+  playback.growing = false;
+  playback.advance(9.0);
+  CHECK(playback.time() == 0.5);
+  CHECK_FALSE(playback.playing());
+}

@@ -1,0 +1,101 @@
+// The panels beside the picture: what there is to read, and what is to be shown.
+#include <fmt/core.h>
+
+#include "app/viewer/viewer.h"
+
+namespace tumble {
+
+namespace {
+
+void line(const std::string& text) {
+  ImGui::TextUnformatted(text.c_str());
+}
+
+struct Toggle {
+  const char* name;
+  bool ShowFlags::*flag;
+};
+constexpr Toggle kToggles[] = {
+    {"paths", &ShowFlags::path},           {"forces", &ShowFlags::contact_forces},
+    {"normals", &ShowFlags::normals},      {"velocities", &ShowFlags::velocities},
+    {"P, L, ω", &ShowFlags::momenta},      {"planes", &ShowFlags::planes},
+    {"boxes", &ShowFlags::boxes},          {"glass", &ShowFlags::glass},
+    {"impacts", &ShowFlags::impacts},      {"names", &ShowFlags::labels},
+    {"ellipsoids", &ShowFlags::ellipsoid}, {"energy", &ShowFlags::energy}};
+
+std::string vector(const Vec3& v) {
+  return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x(), v.y(), v.z());
+}
+
+}  // namespace
+
+void Viewer::numbers() {
+  if (!complaint_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, {0.835f, 0.251f, 0.102f, 1.0f});
+    ImGui::TextWrapped("%s", complaint_.c_str());
+    ImGui::PopStyleColor();
+  }
+  if (!presenter_) return;
+  const Sample& sample = recording_->samples[playback_.sample()];
+  line(fmt::format("t = {:.3f} s", sample.t));
+  line(fmt::format("kinetic {:.4g} J", sample.kinetic));
+  line(fmt::format("potential {:.4g} J", sample.potential));
+  line(fmt::format("{} contact points", sample.contacts.size()));
+  bodyNumbers();
+  if (!recorder_) certificate();
+}
+
+void Viewer::bodyNumbers() {
+  if (!picked_) return;
+  const BodySample& body = recording_->samples[playback_.sample()].bodies[*picked_];
+  ImGui::Spacing();
+  ImGui::TextDisabled("%s", scene_->world.bodies[*picked_].name.c_str());
+  line("x  " + vector(body.x) + " m");
+  line("v  " + vector(body.v) + " m/s");
+  line("ω  " + vector(body.omega) + " rad/s");
+  ImGui::Checkbox("follow (f)", &following_);
+}
+
+void Viewer::certificate() {
+  const Certificate& certificate = recording_->report.certificate;
+  ImGui::Spacing();
+  ImGui::TextDisabled("certificate");
+  line(fmt::format("method {}", recording_->method));
+  line(fmt::format("{} steps, {} events", certificate.steps, certificate.events));
+  line(fmt::format("penetration {:.1e} m", certificate.max_penetration));
+  line(fmt::format("energy balance {:.1e}", certificate.energy_balance_error));
+}
+
+// What is drawn besides the bodies, in two columns.
+void Viewer::shownList() {
+  if (!presenter_) return;
+  ImGui::Spacing();
+  ImGui::TextDisabled("show");
+  const float half = 0.5f * ImGui::GetContentRegionAvail().x;
+  bool left = true;
+  for (const Toggle& toggle : kToggles) {
+    if (!left) ImGui::SameLine(half + 16.0f);
+    if (ImGui::Checkbox(toggle.name, &(scene_->show.*toggle.flag))) ++revision_;
+    left = !left;
+  }
+}
+
+void Viewer::help() {
+  ImGui::SetNextWindowPos({340.0f, 60.0f}, ImGuiCond_Appearing);
+  ImGui::Begin("keys", &helping_,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoSavedSettings);
+  line("space          play, pause");
+  line("← →            one image back, on");
+  line("Home, End      start, end");
+  line("drag           turn;  right drag  shift;  wheel  nearer");
+  line("click          pick a body;  f  follow it");
+  line("v              the view of the start");
+  line("s              write the picture as PNG, 1280 × 720");
+  line("c              copy the command that draws it");
+  line("h              this help");
+  line("A scene that is saved, or dropped here, is shown anew.");
+  ImGui::End();
+}
+
+}  // namespace tumble
