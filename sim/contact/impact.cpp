@@ -9,8 +9,12 @@ namespace tumble {
 namespace {
 
 constexpr ImpactLaw kLaws[] = {
+    {"auto", "reflections where a blow reaches few contacts, else crowd", impactAuto},
     {"reflections", "Newton's law at all approaching contacts at once, again and again",
      impactReflections},
+    {"crowd",
+     "one problem for all that a blow reaches; what compression took is given back in part",
+     impactCrowd},
     {"simultaneous", "Newton's law at all contacts at once, as one LCP", impactSimultaneous},
     {"sequential", "Newton's law at one contact after the other", impactSequential},
     {"poisson", "what compression took is given back in part", impactPoisson},

@@ -15,6 +15,7 @@ struct ImpactReport {
   double lostNormal = 0.0;  ///< taken by restitution < 1
   double lostFriction = 0.0;
   double work = 0.0;               ///< done on the others by fixed bodies that move
+  double cut = 0.0;                ///< restitution held back, that would have added energy
   double residual = 0.0;           ///< worst natural-map residual
   bool finishedInelastic = false;  ///< the passes ran out; the last one took e = 0
 };
@@ -28,6 +29,8 @@ struct Impact {
   ContactTolerance tolerance;
   /// Rows that hold at the end of every pass, u = 0 or u ≥ 0; their λ adds up. Null: none.
   Bonds* bonds = nullptr;
+  /// Whether a contact problem follows at once that stops what a law for crowds leaves approaching.
+  bool goesOn = false;
 
   bool bound() const { return bonds && !bonds->empty(); }
 };
@@ -61,6 +64,30 @@ ImpactReport impactReflections(const Impact& impact);
 /// share.
 ///   Glocker and Pfeiffer, Multiple impacts with friction in rigid multibody systems, 1995.
 ImpactReport impactPoisson(const Impact& impact);
+
+/// Poisson's law for crowds: one inelastic problem of all that the blow reaches; then the contacts
+/// that approached give e j back along their normals, but no more, island by island, than leaves
+/// the energy that there was. What approaches after that is stopped, here or by the problem that
+/// follows. A blow costs two or three problems, however many bodies it runs through.
+///   Guendelman, Bridson, Fedkiw, Nonconvex rigid bodies with stacking, 2003, §5. Departure: e j in
+///   place of −e vrel, so that no energy is gained; friction of both phases is found in the first,
+///   inside (1 + e) mu.
+ImpactReport impactCrowd(const Impact& impact);
+
+/// `reflections` as far as a blow reaches kReflectionsReach contacts; beyond, `crowd`, one island
+/// of contacts after the other.
+ImpactReport impactAuto(const Impact& impact);
+
+/// Contacts that a blow may reach before reflections, pass after pass through all of them, cost
+/// more than the steps do.
+inline constexpr int kReflectionsReach = 64;
+
+/// What the contacts of one pair count for there: those that rub side by side take hundreds of
+/// sweeps a pass to share their friction.
+inline int weightOfContacts(int contacts, double friction) {
+  constexpr int kRubbing = 4;
+  return contacts > 1 && friction > 0.0 ? kRubbing * contacts : contacts;
+}
 
 /// Newton's law for one contact at a time, the fastest approach first (slide SD46).
 ImpactReport impactSequential(const Impact& impact);

@@ -3,9 +3,11 @@
 #include "sim/contact/impact_pass.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
+#include "sim/problem/cone.h"
 
 namespace tumble {
 namespace {
@@ -49,25 +51,55 @@ ImpulseEnergy giveBonds(const Impact& impact, const Solution& solution, std::siz
   return {.lost = before - kineticEnergy(impact.bodies) + work, .work = work};
 }
 
-/// Gives the impulses of a solved pass, first along the normals, then across them.
+/// Gives the impulses of one contact of a solved pass, first along its normal, then across.
+/// @return that along the normal
+double giveOne(const Impact& impact, const Strike& strike, int k, const Solution& solution,
+               ImpactReport& report) {
+  const Cone& cone = strike.problem.cones[k];
+  const double j = solution.lambda[cone.row];
+  const ImpulseEnergy normal =
+      applyContactImpulse(impact, strike.contacts[k], j * strike.problem.rows[cone.row].linear);
+  report.lostNormal += normal.lost;
+  report.work += normal.work;
+  if (cone.kind != ConeKind::Friction) return j;
+  const Vec3 across = solution.lambda[cone.row + 1] * strike.problem.rows[cone.row + 1].linear +
+                      solution.lambda[cone.row + 2] * strike.problem.rows[cone.row + 2].linear;
+  const ImpulseEnergy friction = applyContactImpulse(impact, strike.contacts[k], across);
+  report.lostFriction += friction.lost;
+  report.work += friction.work;
+  return j;
+}
+
+/// Gives the impulses of a solved pass.
 std::vector<double> give(const Impact& impact, const Strike& strike, const Solution& solution,
                          ImpactReport& report) {
   std::vector<double> j;
-  for (std::size_t k = 0; k < strike.contacts.size(); ++k) {
-    const Cone& cone = strike.problem.cones[k];
-    j.push_back(solution.lambda[cone.row]);
-    const ImpulseEnergy normal = applyContactImpulse(
-        impact, strike.contacts[k], j.back() * strike.problem.rows[cone.row].linear);
-    report.lostNormal += normal.lost;
-    report.work += normal.work;
-    if (cone.kind != ConeKind::Friction) continue;
-    const Vec3 across = solution.lambda[cone.row + 1] * strike.problem.rows[cone.row + 1].linear +
-                        solution.lambda[cone.row + 2] * strike.problem.rows[cone.row + 2].linear;
-    const ImpulseEnergy friction = applyContactImpulse(impact, strike.contacts[k], across);
-    report.lostFriction += friction.lost;
-    report.work += friction.work;
-  }
+  for (std::size_t k = 0; k < strike.contacts.size(); ++k)
+    j.push_back(giveOne(impact, strike, static_cast<int>(k), solution, report));
   return j;
+}
+
+/// Sets the impulses of islands that would gain energy to the part of them that takes most.
+void keepFromGaining(const Problem& problem, std::span<const int> island, Solution& solution) {
+  std::vector<double> first(problem.rows.size()), last(problem.rows.size());
+  rowVelocities(problem, problem.vStar, first);
+  rowVelocities(problem, solution.v, last);
+  const int count = *std::max_element(island.begin(), island.end()) + 1;
+  std::vector<double> slope(count, 0.0), curvature(count, 0.0);
+  const auto forRows = [&](const auto& visit) {
+    for (std::size_t c = 0; c < problem.cones.size(); ++c) {
+      const int of = c < island.size() ? island[c] : 0;
+      for (int k = 0; k < coneRows(problem.cones[c].kind); ++k) visit(of, problem.cones[c].row + k);
+    }
+  };
+  forRows([&](int of, int row) {
+    slope[of] += solution.lambda[row] * first[row];
+    curvature[of] += solution.lambda[row] * (last[row] - first[row]);
+  });
+  forRows([&](int of, int row) {
+    if (slope[of] + 0.5 * curvature[of] <= 0.0) return;
+    solution.lambda[row] *= std::clamp(-slope[of] / curvature[of], 0.0, 1.0);
+  });
 }
 
 /// Solves for the impulses of a pass; those of bonds are given at once.
@@ -160,6 +192,36 @@ void strikeOne(const Impact& impact, int contact, ImpactReport& report) {
   rub(impact, pass.contacts, j, report);
 }
 
+std::vector<Compressed> compress(const Impact& impact, std::span<const int> contacts,
+                                 std::span<const double> e, std::span<const int> island,
+                                 ImpactReport& report) {
+  constexpr int kRough = 60;         // sweeps, where a contact problem follows,
+  constexpr double kRoughly = 1e-3;  // and the residual that is enough then
+  Strike pass;
+  beginVelocityProblem(impact.bodies, pass.problem);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    addContact(impact, contacts[k], 0.0, true, pass);
+    pass.problem.cones.back().mu *= 1.0 + e[k];
+  }
+  Solution solution;
+  std::vector<Compressed> taken(contacts.size() + 1);
+  const ImpactReport before = report;
+  if (impact.goesOn && !impact.bound()) {
+    const SolveSettings roughly{.tolerance = kRoughly, .maxIterations = kRough};
+    solveByIslands(*findSolver("pgs"), pass.problem, roughly, solution);
+    keepFromGaining(pass.problem, island, solution);
+  } else {
+    solvePass(impact, pass, solution, report);
+  }
+  taken.back().lost = report.lostNormal - before.lostNormal;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const double sum = report.lostNormal + report.lostFriction;
+    taken[k].j = giveOne(impact, pass, static_cast<int>(k), solution, report);
+    taken[k].lost = report.lostNormal + report.lostFriction - sum;
+  }
+  return taken;
+}
+
 void tighten(const Impact& impact, bool afterFriction, ImpactReport& report) {
   if (!impact.bound()) return;
   Problem problem;
@@ -182,6 +244,36 @@ bool anyApproaching(const Impact& impact) {
     return approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point) <
            -impact.tolerance.rest;
   });
+}
+
+std::vector<int> islandsOfContacts(const Impact& impact, std::span<const int> contacts) {
+  std::vector<int> island(contacts.size(), 0);
+  if (impact.bound()) return island;
+  std::vector<int> root(impact.bodies.size()), number(impact.bodies.size(), -1);
+  std::iota(root.begin(), root.end(), 0);
+  for (const int i : contacts) {
+    const Contact& c = impact.contacts[i];
+    if (impact.bodies[c.a].fixed() || impact.bodies[c.b].fixed()) continue;
+    const int p = islandRoot(root, c.a), q = islandRoot(root, c.b);
+    root[std::max(p, q)] = std::min(p, q);
+  }
+  int count = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = impact.contacts[contacts[k]];
+    int& own = number[islandRoot(root, impact.bodies[c.a].fixed() ? c.b : c.a)];
+    if (own < 0) own = count++;
+    island[k] = own;
+  }
+  return island;
+}
+
+void add(const ImpactReport& part, ImpactReport& sum) {
+  sum.lostNormal += part.lostNormal;
+  sum.lostFriction += part.lostFriction;
+  sum.work += part.work;
+  sum.cut += part.cut;
+  sum.residual = std::max(sum.residual, part.residual);
+  sum.finishedInelastic = sum.finishedInelastic || part.finishedInelastic;
 }
 
 ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes) {

@@ -27,6 +27,27 @@ void strikeOne(const Impact& impact, int contact, ImpactReport& report);
 /// the energy counts as friction if that was what broke them, else as restitution.
 void tighten(const Impact& impact, bool afterFriction, ImpactReport& report);
 
+/// What a contact takes in compression.
+struct Compressed {
+  double j = 0.0;     ///< [N·s] along its normal
+  double lost = 0.0;  ///< [J]; the sum over an island is what its bodies lost
+};
+
+/// The inelastic problem of some contacts, friction inside (1 + e) mu.
+/// @param e       [1] per contact of the list
+/// @param island  per contact of the list: none of them gains energy, however far the solver came
+/// @return one for each contact of the list, and last a row for the bonds
+std::vector<Compressed> compress(const Impact& impact, std::span<const int> contacts,
+                                 std::span<const double> e, std::span<const int> island,
+                                 ImpactReport& report);
+
+/// Per contact of the list the number of its island, which bodies that can move join; bonds join
+/// all.
+std::vector<int> islandsOfContacts(const Impact& impact, std::span<const int> contacts);
+
+/// Adds what one impact did to what others did.
+void add(const ImpactReport& part, ImpactReport& sum);
+
 /// Passes until nothing approaches; after so many, one more without rebound.
 ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes);
 

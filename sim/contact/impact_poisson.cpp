@@ -39,13 +39,6 @@ ImpactReport restore(const Impact& impact, std::span<const Vec3> compression, do
   return report;
 }
 
-void add(const ImpactReport& part, ImpactReport& sum) {
-  sum.lostNormal += part.lostNormal;
-  sum.lostFriction += part.lostFriction;
-  sum.work += part.work;
-  sum.residual = std::max(sum.residual, part.residual);
-}
-
 }  // namespace
 
 ImpactReport impactPoisson(const Impact& impact) {

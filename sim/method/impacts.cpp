@@ -21,6 +21,7 @@ void bookImpact(const ImpactReport& impact, Report& report) {
   books.energy_lost_impact += impact.lostNormal;
   books.energy_lost_friction += impact.lostFriction;
   books.work_of_forces += impact.work;
+  books.energy_cut_impact += impact.cut;
   books.max_complementarity = std::max(books.max_complementarity, impact.residual);
   if (impact.finishedInelastic)
     report.note("impacts that did not come to an end were finished without rebound");

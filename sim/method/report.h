@@ -30,12 +30,13 @@ struct Event {
 /// The certificate that every run ends with. SI.
 struct Certificate {
   long steps = 0, events = 0;
-  long evaluations = 0;              ///< of the forces on all bodies; a Taylor jet counts its order
-  long plane_tests = 0;              ///< looks at a pair that was near
-  long plane_hits = 0;               ///< of these, answered by a plane that parted it before
-  double max_penetration = 0.0;      ///< [m] max(0, −separation)
-  double max_joint_gap = 0.0;        ///< [m] how far a joint was from being met
-  double max_closed_height = 0.0;    ///< [m] of bounces that were left out at the end of a row
+  long evaluations = 0;            ///< of the forces on all bodies; a Taylor jet counts its order
+  long plane_tests = 0;            ///< looks at a pair that was near
+  long plane_hits = 0;             ///< of these, answered by a plane that parted it before
+  double max_penetration = 0.0;    ///< [m] max(0, −separation)
+  double max_joint_gap = 0.0;      ///< [m] how far a joint was from being met
+  double energy_cut_impact = 0.0;  ///< [J] that restitution would have given beyond what there was
+  double max_closed_height = 0.0;  ///< [m] of bounces that were left out at the end of a row
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
@@ -72,6 +73,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"plane_hits", &Certificate::plane_hits},
     {"max_penetration", &Certificate::max_penetration},
     {"max_joint_gap", &Certificate::max_joint_gap},
+    {"energy_cut_impact", &Certificate::energy_cut_impact},
     {"max_closed_height", &Certificate::max_closed_height},
     {"max_complementarity", &Certificate::max_complementarity},
     {"energy_start", &Certificate::energy_start},
