@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "sim/shape/crossings.h"
 #include "sim/shape/shells.h"
 
 namespace tumble {
@@ -189,6 +190,7 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
   checkEdges(solid, given);
   checkOutside(solid, given);
   checkShells(solid);
+  checkCrossings(solid);
 
   std::vector<std::vector<int>> flat;
   for (std::vector<int>& face : solid.faces) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/shape/pieces.h"
+
 namespace tumble {
 
 namespace {
@@ -106,9 +108,17 @@ double radius(const Mesh& mesh) {
 }
 double radius(const Compound& compound) {
   double far = 0.0;
-  for (const Part& part : compound.parts)
+  for (const Part& part : compound.parts) {
+    // Corners one by one: a hull may stand far from its own origin.
+    if (const Hull* hull = std::get_if<Hull>(&part.solid)) {
+      for (const Vec3& p : hull->solid->points)
+        far = std::max(far,
+                       (part.pose.x - compound.origin + part.pose.q * (p - hull->origin)).norm());
+      continue;
+    }
     far = std::max(far, (part.pose.x - compound.origin).norm() +
                             std::visit([](const auto& s) { return radius(s); }, part.solid));
+  }
   return far;
 }
 
@@ -156,8 +166,20 @@ std::string_view shapeName(const Shape& shape) {
 }
 
 Shape contactShape(const Shape& shape) {
-  const Particle* particle = std::get_if<Particle>(&shape);
-  return particle && particle->radius > 0.0 ? Shape(Sphere{particle->radius}) : shape;
+  if (const Particle* particle = std::get_if<Particle>(&shape); particle && particle->radius > 0.0)
+    return Sphere{particle->radius};
+  const Mesh* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh || !mesh->pieces) return shape;
+  Compound compound;
+  compound.origin = mesh->origin;
+  compound.slack = mesh->pieces->slack;
+  for (const Hull& hull : mesh->pieces->hulls) {
+    // About its own middle, so that a ball around it is small.
+    const Aabb box = boxOf(hull, Mat3::Identity());
+    const Vec3 middle = hull.origin + 0.5 * (box.lo + box.hi);
+    compound.parts.push_back({Hull{hull.solid, middle}, {middle - hull.origin}});
+  }
+  return compound;
 }
 
 bool touchesAnything(const Shape& shape) {
@@ -172,7 +194,10 @@ double boundingRadius(const Shape& shape) {
 Shape withOrigin(Shape shape, const Vec3& origin) {
   if (Hull* hull = std::get_if<Hull>(&shape)) hull->origin = origin;
   if (Mesh* mesh = std::get_if<Mesh>(&shape)) mesh->origin = origin;
-  if (Compound* compound = std::get_if<Compound>(&shape)) compound->origin = origin;
+  if (Compound* compound = std::get_if<Compound>(&shape)) {
+    compound->origin = origin;
+    compound->ready = nullptr;
+  }
   return shape;
 }
 
@@ -192,6 +217,8 @@ Pose poseInBody(const Compound& compound, const Part& part) {
 }
 
 std::vector<PosedPart> convexParts(const Shape& shape) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape); mesh && mesh->pieces)
+    return convexParts(contactShape(shape));
   std::vector<PosedPart> parts;
   if (const Compound* compound = std::get_if<Compound>(&shape)) {
     for (const Part& part : compound->parts)

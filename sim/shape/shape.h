@@ -50,10 +50,13 @@ struct Particle {
   double radius = 0.0;
 };
 
+struct Pieces;
+
 /// A polyhedron, shared by all bodies that are made of it.
 struct Mesh {
-  std::shared_ptr<const Polyhedron> solid;  ///< checked by `makePolyhedron`
-  Vec3 origin = Vec3::Zero();               ///< [m] the body origin, in the polyhedron's frame
+  std::shared_ptr<const Polyhedron> solid;    ///< checked by `makePolyhedron`
+  Vec3 origin = Vec3::Zero();                 ///< [m] the body origin, in the polyhedron's frame
+  std::shared_ptr<const Pieces> pieces = {};  ///< that others meet, see pieces.h; none: nothing can
 };
 
 /// A convex piece of a compound, in the compound's frame.
@@ -62,10 +65,14 @@ struct Part {
   Pose pose;
 };
 
+struct Parts;
+
 /// The union of convex parts that touch at most.
 struct Compound {
   std::vector<Part> parts;
   Vec3 origin = Vec3::Zero();  ///< [m] the body origin, in the parts' frame
+  double slack = 0.0;          ///< [m] parts that touch may overlap, or gape, by as much
+  std::shared_ptr<const Parts> ready = {};  ///< for contact, as `readyShape` leaves them
 };
 
 using Shape =
@@ -101,16 +108,16 @@ struct PosedPart {
 };
 
 /// The convex parts that a shape is the union of: those of a compound; of any other the shape
-/// itself at the body origin, a particle with a radius as its ball. A mesh has none, nor has a
-/// particle without a radius.
+/// itself at the body origin, a particle with a radius as its ball. A mesh without pieces has none,
+/// nor has a particle without a radius.
 std::vector<PosedPart> convexParts(const Shape& shape);
 
 /// Smallest axis-aligned box around a posed shape, grown by `margin` [m] on every side.
 /// A half-space has none: ±infinity.
 Aabb boundingBox(const Shape& shape, const Pose& pose, double margin = 0.0);
 
-/// What others meet when they touch the shape: the ball of a particle that has a radius; every
-/// other shape as it is.
+/// What others meet when they touch the shape: the ball of a particle that has a radius; the
+/// compound of a mesh's pieces; every other shape as it is.
 Shape contactShape(const Shape& shape);
 
 /// False for what meets nothing: a particle without a radius.

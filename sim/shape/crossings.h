@@ -1,0 +1,14 @@
+// Chapter 2, shape: surfaces that cross themselves.
+#pragma once
+
+#include "sim/shape/polyhedron.h"
+
+namespace tumble {
+
+/// Refuses a surface of which an edge passes through the inside of a face, decided exactly
+/// (`orientation`). Faces that touch do not cross; nor are those found whose edges meet just on
+/// each other.
+/// @throws NotASolid with one of the two faces
+void checkCrossings(const Polyhedron& solid);
+
+}  // namespace tumble

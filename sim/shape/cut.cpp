@@ -1,0 +1,278 @@
+#include "sim/shape/cut.h"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "sim/math/orientation.h"
+
+namespace tumble::cut {
+
+using Whole = boost::multiprecision::cpp_int;
+
+/// A point in whole numbers: (x, y, z) / w, w > 0.
+struct Fraction3 {
+  Whole x, y, z, w;
+};
+
+namespace {
+
+/// The number x as mantissa · 2^exponent.
+Whole mantissa(double x, int& exponent) {
+  const double m = std::frexp(x, &exponent);
+  exponent -= 53;
+  return static_cast<long long>(std::ldexp(m, 53));
+}
+
+Fraction3 exactly(const Vec3& p) {
+  int e[3];
+  Whole m[3];
+  for (int k = 0; k < 3; ++k) m[k] = mantissa(p[k], e[k]);
+  int least = 0;
+  for (int k = 0; k < 3; ++k)
+    if (m[k] != 0) least = std::min(least, e[k]);
+  for (int k = 0; k < 3; ++k)
+    if (m[k] != 0) m[k] <<= e[k] - least;
+  return {m[0], m[1], m[2], Whole(1) << -least};
+}
+
+Fraction3 exactly(const Points& points, int p) {
+  const auto& known = points.exact[static_cast<std::size_t>(p)];
+  return known ? *known : exactly(points.at[static_cast<std::size_t>(p)]);
+}
+
+/// Divided by what all four have in common.
+Fraction3 reduced(Fraction3 p) {
+  const Whole common = gcd(gcd(p.x, p.y), gcd(p.z, p.w));
+  if (common > 1) p.x /= common, p.y /= common, p.z /= common, p.w /= common;
+  return p;
+}
+
+double quotient(const Whole& x, const Whole& w) {
+  return boost::multiprecision::cpp_rational(x, w).convert_to<double>();
+}
+
+int signOf(const Whole& x) {
+  return x > 0 ? 1 : x < 0 ? -1 : 0;
+}
+
+/// Far more than rounding may change a height or a turn by.
+constexpr double kSure = 1e-9;
+
+const Vec3& at(const Points& points, int p) {
+  return points.at[static_cast<std::size_t>(p)];
+}
+
+/// A plane in whole numbers: n·p − d w for a point p / w, of the sign of its height.
+struct WholePlane {
+  Fraction3 n;  ///< w is d
+
+  explicit WholePlane(const CutPlane& plane) {
+    const Fraction3 a = exactly(plane.a), b = exactly(plane.b), c = exactly(plane.c);
+    const auto along = [&](const Fraction3& p) {
+      return Fraction3{p.x * a.w - a.x * p.w, p.y * a.w - a.y * p.w, p.z * a.w - a.z * p.w, 1};
+    };
+    const Fraction3 u = along(b), v = along(c);
+    n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x, 0};
+    n.w = n.x * a.x + n.y * a.y + n.z * a.z;
+    n.x *= a.w, n.y *= a.w, n.z *= a.w;
+    n = reduced(n);
+  }
+  Whole height(const Fraction3& p) const { return n.x * p.x + n.y * p.y + n.z * p.z - n.w * p.w; }
+};
+
+/// The corner where the edge from p to q passes the plane.
+int crossing(Points& points, int p, int q, const CutPlane& plane, const WholePlane* exact) {
+  const Vec3 from = at(points, p), to = at(points, q);
+  if (!exact) {
+    const double h = plane.height(from), k = plane.height(to);
+    points.at.push_back(from + (h / (h - k)) * (to - from));
+    points.exact.emplace_back();
+  } else {
+    // (h q − k p) / (h − k) of points as they are, h and k heights times their w.
+    const Fraction3 a = exactly(points, p), b = exactly(points, q);
+    Whole h = exact->height(a), k = exact->height(b);
+    if (h < k) h = -h, k = -k;
+    const Fraction3 x =
+        reduced({h * b.x - k * a.x, h * b.y - k * a.y, h * b.z - k * a.z, h * b.w - k * a.w});
+    points.at.emplace_back(quotient(x.x, x.w), quotient(x.y, x.w), quotient(x.z, x.w));
+    points.exact.push_back(std::make_shared<const Fraction3>(x));
+  }
+  return static_cast<int>(points.at.size()) - 1;
+}
+
+/// Sorts triangles to the two sides of a plane, and splits those that cross it.
+class Splitter {
+ public:
+  Splitter(Points& points, const CutPlane& plane, double tolerance)
+      : points_(points), plane_(plane), tolerance_(tolerance) {
+    if (tolerance == 0.0) exact_.emplace(plane);
+  }
+
+  void add(const Triangle& t, Halves& halves) {
+    int side[3], above = 0, below = 0;
+    for (int k = 0; k < 3; ++k) {
+      side[k] = sideOf(t.corner[static_cast<std::size_t>(k)]);
+      above += side[k] > 0 ? 1 : 0;
+      below += side[k] < 0 ? 1 : 0;
+    }
+    if (above == 0 && below == 0) {
+      const Vec3 &a = at(points_, t.corner[0]), &b = at(points_, t.corner[1]),
+                 &c = at(points_, t.corner[2]);
+      ((b - a).cross(c - a).dot(plane_.n) > 0.0 ? halves.below : halves.above).push_back(t);
+    } else if (above == 0) {
+      halves.below.push_back(t);
+    } else if (below == 0) {
+      halves.above.push_back(t);
+    } else {
+      split(t, side, halves);
+    }
+  }
+
+ private:
+  int sideOf(int p) {
+    const auto [known, fresh] = side_.emplace(p, 0);
+    if (fresh) known->second = cut::sideOf(points_, p, plane_, tolerance_);
+    return known->second;
+  }
+
+  int between(int p, int q) {
+    const auto [known, fresh] = crossing_.emplace(std::minmax(p, q), 0);
+    if (fresh) known->second = crossing(points_, p, q, plane_, exact_ ? &*exact_ : nullptr);
+    return known->second;
+  }
+
+  void split(const Triangle& t, const int* side, Halves& halves) {
+    // The outline on either side, new corners between.
+    std::vector<int> half[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      const int p = t.corner[k], q = t.corner[next];
+      if (side[k] <= 0) half[0].push_back(p);
+      if (side[k] >= 0) half[1].push_back(p);
+      if (side[k] * side[next] >= 0) continue;
+      const int x = between(p, q);
+      half[0].push_back(x);
+      half[1].push_back(x);
+    }
+    for (int k = 0; k < 2; ++k)
+      for (std::size_t m = 1; m + 1 < half[k].size(); ++m)
+        (k == 0 ? halves.below : halves.above)
+            .push_back({{half[k][0], half[k][m], half[k][m + 1]}, t.face});
+  }
+
+  Points& points_;
+  const CutPlane& plane_;
+  double tolerance_;
+  std::optional<WholePlane> exact_;
+  std::map<int, int> side_;
+  std::map<std::pair<int, int>, int> crossing_;
+};
+
+}  // namespace
+
+CutPlane planeThrough(const Vec3& a, const Vec3& b, const Vec3& c) {
+  CutPlane plane{a, b, c};
+  plane.n = (b - a).cross(c - a).normalized();
+  plane.d = plane.n.dot(a);
+  return plane;
+}
+
+int sideOf(const Points& points, int p, const CutPlane& plane, double tolerance) {
+  const double height = plane.height(at(points, p));
+  if (tolerance > 0.0) return height > tolerance ? 1 : height < -tolerance ? -1 : 0;
+  const double size = (at(points, p) - plane.a).norm() + plane.a.norm();
+  if (std::abs(height) > kSure * size) return height > 0.0 ? 1 : -1;
+  if (!points.exact[static_cast<std::size_t>(p)])
+    return orientation(plane.a, plane.b, plane.c, at(points, p));
+  return signOf(WholePlane(plane).height(exactly(points, p)));
+}
+
+double sixfoldVolume(const Points& points, const Surface& surface) {
+  if (surface.empty()) return 0.0;
+  const Vec3 foot = at(points, surface[0].corner[0]);
+  double sum = 0.0;
+  for (const auto& [corner, face] : surface) {
+    const Vec3 a = at(points, corner[0]) - foot;
+    sum += a.dot((at(points, corner[1]) - foot).cross(at(points, corner[2]) - foot));
+  }
+  return sum;
+}
+
+double turn(const Points& points, int a, int b, int c, int axis, bool exact) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec3 &p = at(points, a), &q = at(points, b), &r = at(points, c);
+  const double left = (q[u] - p[u]) * (r[v] - p[v]), right = (q[v] - p[v]) * (r[u] - p[u]);
+  const double size = p.norm() + q.norm() + r.norm();
+  const double doubt = kSure * (std::abs(left) + std::abs(right) + kSure * size * size);
+  if (!exact || std::abs(left - right) > doubt) return left - right;
+  ++points.looks;
+  const auto of = [](const Fraction3& x, int axis) -> const Whole& {
+    return axis == 0 ? x.x : axis == 1 ? x.y : x.z;
+  };
+  const Fraction3 x = exactly(points, a), y = exactly(points, b), z = exactly(points, c);
+  const Whole &xu = of(x, u), &xv = of(x, v), &yu = of(y, u), &yv = of(y, v), &zu = of(z, u),
+              &zv = of(z, v);
+  return signOf(x.w * (yu * zv - yv * zu) - xu * (y.w * zv - yv * z.w) +
+                xv * (y.w * zu - yu * z.w));
+}
+
+Halves halve(Points& points, const Surface& surface, const CutPlane& plane, double tolerance) {
+  Halves halves;
+  Splitter splitter(points, plane, tolerance);
+  for (const Triangle& t : surface) splitter.add(t, halves);
+  // Edges below that have lost their other side bound the cut.
+  std::map<std::pair<int, int>, int> open;
+  for (const auto& [corner, face] : halves.below)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int p = corner[k], q = corner[(k + 1) % 3];
+      ++open[{p, q}];
+      --open[{q, p}];
+    }
+  std::vector<std::array<int, 2>> edges;
+  for (const auto& [edge, count] : open)
+    for (int k = 0; k < count; ++k) edges.push_back({edge.second, edge.first});
+  for (Triangle& t : fill(points, edges, plane.n, tolerance == 0.0)) {
+    halves.below.push_back(t);
+    std::swap(t.corner[1], t.corner[2]);
+    halves.above.push_back(t);
+  }
+  return halves;
+}
+
+std::vector<Surface> pieces(const Points& points, const Surface& surface) {
+  std::vector<int> up(surface.size());
+  std::iota(up.begin(), up.end(), 0);
+  const auto root = [&](int i) {
+    while (up[static_cast<std::size_t>(i)] != i)
+      i = up[static_cast<std::size_t>(i)] =
+          up[static_cast<std::size_t>(up[static_cast<std::size_t>(i)])];
+    return i;
+  };
+  std::map<std::pair<int, int>, int> known;
+  for (std::size_t t = 0; t < surface.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::pair<int, int> edge =
+          std::minmax(surface[t].corner[k], surface[t].corner[(k + 1) % 3]);
+      const auto [other, fresh] = known.emplace(edge, static_cast<int>(t));
+      if (fresh) continue;
+      const int a = root(other->second), b = root(static_cast<int>(t));
+      up[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  std::map<int, Surface> found;
+  for (std::size_t t = 0; t < surface.size(); ++t)
+    found[root(static_cast<int>(t))].push_back(surface[t]);
+  std::vector<Surface> apart;
+  for (auto& [first, piece] : found) apart.push_back(std::move(piece));
+  const bool hollow = std::any_of(apart.begin(), apart.end(), [&](const Surface& piece) {
+    return sixfoldVolume(points, piece) < 0.0;
+  });
+  if (hollow) return {surface};
+  return apart;
+}
+
+}  // namespace tumble::cut

@@ -1,0 +1,202 @@
+// Polygons with holes as triangles: holes are tied to what is around them, then ears are cut
+// (Meisters 1975; the ties as in Eberly, "Triangulation by Ear Clipping", 2002).
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim/shape/cut.h"
+
+namespace tumble::cut {
+namespace {
+
+using Loop = std::vector<int>;
+
+class Filler {
+ public:
+  Filler(const Points& points, const Vec3& n, bool exact) : points_(points), exact_(exact) {
+    n.cwiseAbs().maxCoeff(&axis_);
+    side_ = n[axis_] < 0.0 ? -1.0 : 1.0;
+  }
+
+  std::vector<Loop> loopsOf(const std::vector<std::array<int, 2>>& edges) const {
+    std::map<int, std::vector<int>> after;
+    for (const auto& [from, to] : edges) after[from].push_back(to);
+    std::vector<Loop> loops;
+    for (auto& [first, list] : after)
+      while (!list.empty()) {
+        Loop loop;
+        int last = -1, here = first;
+        do {
+          loop.push_back(here);
+          const int next = takeNext(last, here, after[here]);
+          last = here;
+          here = next;
+        } while (here != first && here >= 0);
+        if (loop.size() > 2) loops.push_back(loop);
+      }
+    return loops;
+  }
+
+  void run(std::vector<Loop> loops, Surface& out) const {
+    std::vector<Loop> outer, holes;
+    for (Loop& loop : loops) (areaOf(loop) > 0.0 ? outer : holes).push_back(std::move(loop));
+    // What reaches farthest is tied first, so that no later tie crosses it.
+    std::sort(holes.begin(), holes.end(), [&](const Loop& p, const Loop& q) {
+      return farthest(p) != farthest(q) ? farthest(p) > farthest(q) : p < q;
+    });
+    for (const Loop& hole : holes) {
+      Loop* around = nullptr;
+      for (Loop& loop : outer)
+        if (holds(loop, hole) && (!around || areaOf(loop) < areaOf(*around))) around = &loop;
+      if (around) tie(hole, holes, *around);
+    }
+    for (Loop& loop : outer) cutEars(loop, out);
+  }
+
+ private:
+  double u(int p) const { return points_.at[static_cast<std::size_t>(p)][(axis_ + 1) % 3]; }
+  double v(int p) const { return points_.at[static_cast<std::size_t>(p)][(axis_ + 2) % 3]; }
+  double turn(int a, int b, int c) const {
+    return side_ * cut::turn(points_, a, b, c, axis_, exact_);
+  }
+  static int at(const Loop& loop, std::size_t k) { return loop[k % loop.size()]; }
+
+  double areaOf(const Loop& loop) const {
+    double sum = 0.0;
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+      const int a = loop[0], b = loop[k], c = loop[k + 1];
+      sum += side_ * ((u(b) - u(a)) * (v(c) - v(a)) - (v(b) - v(a)) * (u(c) - u(a)));
+    }
+    return sum;
+  }
+
+  double farthest(const Loop& loop) const {
+    double far = u(loop[0]);
+    for (const int p : loop) far = std::max(far, u(p));
+    return far;
+  }
+
+  /// Of several ways on, the one that turns most to the left.
+  int takeNext(int last, int here, std::vector<int>& ways) const {
+    if (ways.empty()) return -1;
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < ways.size() && last >= 0; ++k)
+      if (angle(last, here, ways[k]) > angle(last, here, ways[best])) best = k;
+    const int next = ways[best];
+    ways.erase(ways.begin() + static_cast<std::ptrdiff_t>(best));
+    return next;
+  }
+
+  /// A number that grows with the angle by which the way a, b, c turns left.
+  double angle(int a, int b, int c) const {
+    const double x = u(b) - u(a), y = v(b) - v(a), s = u(c) - u(b), t = v(c) - v(b);
+    const double size = std::sqrt((x * x + y * y) * (s * s + t * t));
+    const double sine = side_ * (x * t - y * s) / size, cosine = (x * s + y * t) / size;
+    return sine >= 0.0 ? 1.0 - cosine : cosine - 1.0;
+  }
+
+  bool holds(const Loop& loop, const Loop& inner) const {
+    for (const int p : inner) {
+      if (std::find(loop.begin(), loop.end(), p) != loop.end()) continue;
+      bool odd = false;
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const int a = loop[k], b = at(loop, k + 1);
+        if ((v(a) > v(p)) == (v(b) > v(p))) continue;
+        if (u(a) + (v(p) - v(a)) / (v(b) - v(a)) * (u(b) - u(a)) > u(p)) odd = !odd;
+      }
+      return odd;
+    }
+    return true;
+  }
+
+  bool cross(int a, int b, int c, int d) const {
+    if (a == c || a == d || b == c || b == d) return false;
+    const double ac = turn(a, b, c), ad = turn(a, b, d), ca = turn(c, d, a), cb = turn(c, d, b);
+    const auto apart = [](double x, double y) {
+      return (x > 0.0 && y > 0.0) || (x < 0.0 && y < 0.0);
+    };
+    if (ac == 0.0 && ad == 0.0) return false;
+    return !apart(ac, ad) && !apart(ca, cb);
+  }
+
+  bool crossesAny(int a, int b, const Loop& loop) const {
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (cross(a, b, loop[k], at(loop, k + 1))) return true;
+    return false;
+  }
+
+  /// Whether p lies inside the angle of a loop at its corner k.
+  bool inCorner(const Loop& loop, std::size_t k, int p) const {
+    const int last = at(loop, k + loop.size() - 1), here = loop[k], next = at(loop, k + 1);
+    const bool left = turn(last, here, p) > 0.0, right = turn(here, next, p) > 0.0;
+    return turn(last, here, next) >= 0.0 ? left && right : left || right;
+  }
+
+  /// Joins a hole to the loop around it by the shortest tie that crosses nothing.
+  void tie(const Loop& hole, const std::vector<Loop>& holes, Loop& loop) const {
+    std::size_t from = 0, to = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < hole.size(); ++i)
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const int p = hole[i], q = loop[k];
+        const double du = u(p) - u(q), dv = v(p) - v(q), length = du * du + dv * dv;
+        if (length >= least || !inCorner(loop, k, p) || crossesAny(p, q, loop)) continue;
+        if (std::any_of(holes.begin(), holes.end(),
+                        [&](const Loop& other) { return crossesAny(p, q, other); }))
+          continue;
+        least = length, from = i, to = k;
+      }
+    Loop joined(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+    for (std::size_t i = 0; i <= hole.size(); ++i) joined.push_back(at(hole, from + i));
+    joined.insert(joined.end(), loop.begin() + static_cast<std::ptrdiff_t>(to), loop.end());
+    loop = std::move(joined);
+  }
+
+  bool isEar(const Loop& loop, std::size_t k) const {
+    const int a = at(loop, k + loop.size() - 1), b = loop[k], c = at(loop, k + 1);
+    if (!(turn(a, b, c) > 0.0)) return false;
+    return std::none_of(loop.begin(), loop.end(), [&](int p) {
+      return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
+             turn(c, a, p) >= 0.0;
+    });
+  }
+
+  /// The ear that is cut next. Where rounding leaves none, any corner that turns least.
+  std::size_t earOf(const Loop& loop) const {
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (isEar(loop, k)) return k;
+    std::size_t flattest = 0;
+    const auto bend = [&](std::size_t k) {
+      return std::abs(turn(at(loop, k + loop.size() - 1), loop[k], at(loop, k + 1)));
+    };
+    for (std::size_t k = 1; k < loop.size(); ++k)
+      if (bend(k) < bend(flattest)) flattest = k;
+    return flattest;
+  }
+
+  void cutEars(Loop& loop, Surface& out) const {
+    while (loop.size() > 2) {
+      const std::size_t k = earOf(loop);
+      const int a = at(loop, k + loop.size() - 1), b = loop[k], c = at(loop, k + 1);
+      out.push_back({{a, b, c}, -1});
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+
+  const Points& points_;
+  int axis_ = 0;
+  double side_ = 1.0;
+  bool exact_;
+};
+
+}  // namespace
+
+Surface fill(const Points& points, const std::vector<std::array<int, 2>>& edges, const Vec3& n,
+             bool exact) {
+  Surface filled;
+  const Filler filler(points, n, exact);
+  filler.run(filler.loopsOf(edges), filled);
+  return filled;
+}
+
+}  // namespace tumble::cut

@@ -1,0 +1,403 @@
+#include "sim/shape/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "sim/math/orientation.h"
+#include "sim/shape/convex_hull.h"
+#include "sim/shape/cut.h"
+#include "sim/shape/join.h"
+
+namespace tumble {
+namespace {
+
+using cut::CutPlane;
+using cut::Surface;
+using cut::Triangle;
+
+constexpr double kRounding = 1e-12;     // of the size: what rounding of corners may come to
+constexpr double kSnap = 2e-6;          // of the size: corners no further from a cut are on it
+constexpr long kMostWork = 20'000'000;  // triangles looked at, in all surfaces together
+constexpr std::size_t kMostSeeds = 48;  // notches of a piece from which planes are drawn
+constexpr int kSlices = 4;
+
+/// An edge of a piece at which it is not convex.
+struct Notch {
+  int from = 0, to = 0;
+  int left = 0, right = 0;  ///< faces of the mesh
+};
+
+/// The convex hull of a piece, and how far the mesh lies under it.
+struct Wrapping {
+  Polyhedron hull;
+  double excess = 0.0;  ///< [m]
+};
+
+class Decomposer {
+ public:
+  Decomposer(const Polyhedron& solid, double tolerance) : tolerance_(tolerance) {
+    points_.at = solid.points;
+    points_.exact.resize(solid.points.size());
+    for (const std::vector<int>& face : solid.faces) {
+      std::vector<std::array<int, 3>> triangles;
+      cutIntoTriangles(solid, face, triangles);
+      for (const auto& corner : triangles) {
+        whole_.push_back({corner, static_cast<int>(whole_.size())});
+        faceOf_.push_back(static_cast<int>(&face - solid.faces.data()));
+      }
+    }
+    for (const Vec3& p : solid.points) size_ = std::max(size_, (p - solid.points[0]).norm());
+    snap_ = std::min(tolerance, kSnap * size_);
+    findReflex();
+  }
+
+  Pieces good() {
+    std::vector<Surface> open = cut::pieces(points_, whole_);
+    std::vector<Polyhedron> done;
+    while (!open.empty()) {
+      Surface piece = std::move(open.back());
+      open.pop_back();
+      work_ += static_cast<long>(piece.size());
+      const std::vector<Notch> notches = notchesOf(piece);
+      if (std::optional<Wrapping> whole = wrapped(piece, notches)) {
+        excess_ = std::max(excess_, whole->excess);
+        done.push_back(std::move(whole->hull));
+      } else {
+        for (Surface& part : parted(piece, notches)) open.push_back(std::move(part));
+      }
+      if (done.size() + open.size() > kMostPieces || spent()) refuse(notches);
+    }
+    std::reverse(done.begin(), done.end());
+    constexpr double kConvex = 0.02;  // of what a cut takes for on it
+    joinConvex(done, std::max(kConvex * snap_, 1e-15 * size_), slack());
+    checkVolume(done);
+    return collected(std::move(done));
+  }
+
+  Pieces slivers() {
+    const Pieces good = this->good();
+    Vec3 lo = points_.at[0], hi = lo;
+    for (const Vec3& p : points_.at) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+    int axis = 0;
+    (hi - lo).minCoeff(&axis);
+    std::vector<Polyhedron> slices;
+    for (const Hull& hull : good.hulls) {
+      Surface rest = surfaceOf(*hull.solid);
+      for (int k = 1; k < kSlices && !rest.empty(); ++k) {
+        Vec3 p = lo;
+        p[axis] += k * (hi[axis] - lo[axis]) / kSlices;
+        const Vec3 u = size_ * Vec3::Unit((axis + 1) % 3), v = size_ * Vec3::Unit((axis + 2) % 3);
+        cut::Halves halves =
+            cut::halve(points_, rest, cut::planeThrough(p, p + u, p + v), kRounding * size_);
+        if (!halves.below.empty()) slices.push_back(hullOf(halves.below));
+        rest = std::move(halves.above);
+      }
+      if (!rest.empty()) slices.push_back(hullOf(rest));
+    }
+    if (slices.size() > kMostPieces)
+      throw NoPieces("the mesh makes " + std::to_string(slices.size()) + " slivers, more than " +
+                         std::to_string(kMostPieces) + "; take pieces = \"good\"",
+                     -1);
+    return collected(std::move(slices));
+  }
+
+ private:
+  /// A question that takes whole numbers costs as much as looking at a hundred triangles.
+  bool spent() const { return work_ + 100 * points_.looks > kMostWork; }
+  const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
+  double slack() const { return std::max(tolerance_, kRounding * size_); }
+
+  /// Pairs of triangles of the mesh that make a notch, decided exactly.
+  void findReflex() {
+    std::map<std::pair<int, int>, int> left;
+    for (std::size_t f = 0; f < whole_.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        left[{whole_[f].corner[k], whole_[f].corner[(k + 1) % 3]}] = static_cast<int>(f);
+    for (const auto& [edge, f] : left) {
+      const auto other = left.find({edge.second, edge.first});
+      if (other == left.end() || edge.first > edge.second) continue;
+      const int g = other->second;
+      const int a = edge.first, b = edge.second;
+      const auto apex = [&](int t) {
+        for (const int p : whole_[static_cast<std::size_t>(t)].corner)
+          if (p != a && p != b) return p;
+        return a;
+      };
+      if (orientation(at(a), at(b), at(apex(f)), at(apex(g))) > 0)
+        reflex_[std::minmax(f, g)] = edge;
+    }
+  }
+
+  std::vector<Notch> notchesOf(const Surface& piece) const {
+    std::map<std::pair<int, int>, int> left;
+    for (const auto& [corner, face] : piece)
+      for (std::size_t k = 0; k < 3; ++k) left[{corner[k], corner[(k + 1) % 3]}] = face;
+    std::vector<Notch> notches;
+    for (const auto& [edge, f] : left) {
+      const auto other = left.find({edge.second, edge.first});
+      if (edge.first > edge.second || other == left.end()) continue;
+      const int g = other->second;
+      if (f >= 0 && g >= 0 && f != g && reflex_.count(std::minmax(f, g)) > 0)
+        notches.push_back({edge.first, edge.second, f, g});
+    }
+    return notches;
+  }
+
+  std::vector<Vec3> cornersOf(const Surface& piece) const {
+    std::vector<int> list;
+    for (const auto& [corner, face] : piece) list.insert(list.end(), corner.begin(), corner.end());
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    std::vector<Vec3> corners;
+    for (const int p : list) corners.push_back(at(p));
+    return corners;
+  }
+
+  Polyhedron hullOf(const Surface& piece) const { return hullInFrame(cornersOf(piece)); }
+
+  /// The hull of a piece that stands out of the mesh by no more than the tolerance.
+  std::optional<Wrapping> wrapped(const Surface& piece, const std::vector<Notch>& notches) const {
+    if (tolerance_ == 0.0 && !notches.empty()) return {};
+    Wrapping whole;
+    try {
+      whole.hull = hullOf(piece);
+    } catch (const NotASolid&) {  // flatter than numbers can tell
+      whole.hull.points.clear();
+      return cut::sixfoldVolume(points_, piece) <= 6.0 * slack() * size_ * size_
+                 ? std::optional(whole)
+                 : std::nullopt;
+    }
+    if (notches.empty()) return whole;
+    for (const Triangle& t : piece) {
+      if (t.face < 0) continue;
+      const double depth = depthUnder(whole.hull, at(t.corner[0]), at(t.corner[1]), at(t.corner[2]),
+                                      kRounding * size_ * size_);
+      if (depth > slack()) return {};
+      whole.excess = std::max(whole.excess, depth);
+    }
+    return whole;
+  }
+
+  /// A plane and what it is worth.
+  struct Cut {
+    CutPlane plane;
+    int resolved = 0, crossed = 0;
+  };
+
+  bool isBetter(const Cut& a, const Cut& b) const {
+    return a.resolved != b.resolved ? a.resolved > b.resolved : a.crossed < b.crossed;
+  }
+
+  std::vector<Surface> parted(const Surface& piece, const std::vector<Notch>& notches) {
+    std::vector<Cut> cuts = cutsOf(piece, notches);
+    std::stable_sort(cuts.begin(), cuts.end(),
+                     [&](const Cut& a, const Cut& b) { return isBetter(a, b); });
+    for (const Cut& best : cuts) {
+      work_ += static_cast<long>(piece.size());
+      cut::Halves halves = cut::halve(points_, piece, best.plane, snap_);
+      if (halves.below.empty() || halves.above.empty()) continue;
+      std::vector<Surface> parts = cut::pieces(points_, halves.below);
+      for (Surface& part : cut::pieces(points_, halves.above)) parts.push_back(std::move(part));
+      return parts;
+    }
+    refuse(notches);
+  }
+
+  std::vector<Cut> cutsOf(const Surface& piece, const std::vector<Notch>& notches) {
+    // Notches that matter, from all over the piece.
+    const std::vector<Notch> deep = deepest(piece, notches);
+    std::vector<Cut> cuts;
+    const std::size_t seeds = std::min(kMostSeeds, deep.size());
+    for (std::size_t k = 0; k < seeds; ++k) {
+      const Notch& notch = deep[tolerance_ > 0.0 ? k : k * deep.size() / seeds];
+      for (const CutPlane& plane : planesAt(notch, deep)) cuts.push_back({plane});
+    }
+    for (Cut& c : cuts) {
+      work_ += static_cast<long>(deep.size());
+      for (const Notch& notch : deep) c.resolved += resolves(c.plane, notch) ? 1 : 0;
+    }
+    int most = 0;
+    for (const Cut& c : cuts) most = std::max(most, c.resolved);
+    const double on = std::max(snap_, kRounding * size_);
+    for (Cut& c : cuts) {
+      if (c.resolved < most) continue;
+      for (const auto& [corner, face] : piece)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double h = c.plane.height(at(corner[k])),
+                       g = c.plane.height(at(corner[(k + 1) % 3]));
+          c.crossed += (h > on && g < -on) || (h < -on && g > on) ? 1 : 0;
+        }
+    }
+    return cuts;
+  }
+
+  /// Notches deeper than the tolerance under the hull, the deepest first; without a tolerance all.
+  std::vector<Notch> deepest(const Surface& piece, const std::vector<Notch>& notches) const {
+    if (tolerance_ == 0.0) return notches;
+    Polyhedron hull;
+    try {
+      hull = hullOf(piece);
+    } catch (const NotASolid&) {
+      return notches;
+    }
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < notches.size(); ++k) {
+      const Vec3 p = 0.5 * (at(notches[k].from) + at(notches[k].to));
+      double depth = std::numeric_limits<double>::infinity();
+      for (std::size_t f = 0; f < hull.faces.size(); ++f)
+        depth = std::min(depth, hull.normals[f].dot(
+                                    hull.points[static_cast<std::size_t>(hull.faces[f][0])] - p));
+      // Of depths that differ by less than the tolerance the first notch comes first.
+      order.emplace_back(-std::floor(depth / tolerance_), k);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Notch> sorted;
+    for (const auto& [depth, k] : order)
+      if (depth < 0.0 || sorted.empty()) sorted.push_back(notches[k]);
+    return sorted;
+  }
+
+  CutPlane planeOfFace(int face) const {
+    const auto& corner = whole_[static_cast<std::size_t>(face)].corner;
+    return cut::planeThrough(at(corner[0]), at(corner[1]), at(corner[2]));
+  }
+
+  std::vector<CutPlane> planesAt(const Notch& notch, const std::vector<Notch>& others) const {
+    const auto [a, b] = reflex_.at(std::minmax(notch.left, notch.right));
+    const CutPlane left = planeOfFace(notch.left), right = planeOfFace(notch.right);
+    std::vector<CutPlane> planes = {left, right};
+    const double length = (at(b) - at(a)).norm();
+    // Between the faces: into the solid, away from both.
+    if (const Vec3 in = left.n + right.n; in.norm() > 1e-6)
+      planes.push_back(cut::planeThrough(at(a), at(b), at(a) - length * in.normalized()));
+    for (const Notch& other : others) {
+      const auto [c, d] = reflex_.at(std::minmax(other.left, other.right));
+      if ((a == c) + (a == d) + (b == c) + (b == d) != 1) continue;
+      const int third = a == c || b == c ? d : c;
+      const CutPlane plane = cut::planeThrough(at(a), at(b), at(third));
+      if (!plane.n.allFinite()) continue;
+      if (tolerance_ == 0.0) {
+        planes.push_back(plane);
+      } else {
+        planes.push_back(spread(plane, others));
+      }
+    }
+    std::erase_if(planes, [](const CutPlane& plane) { return !plane.n.allFinite(); });
+    return planes;
+  }
+
+  /// The plane through the notches near a plane that three of their corners far apart tell best.
+  CutPlane spread(CutPlane plane, const std::vector<Notch>& notches) const {
+    constexpr double kBand = 32.0;  // of what a cut takes for on it
+    for (int round = 0; round < 2; ++round) {
+      std::vector<Vec3> near;
+      for (const Notch& notch : notches)
+        for (const int p : {notch.from, notch.to})
+          if (std::abs(plane.height(at(p))) < kBand * snap_) near.push_back(at(p));
+      if (near.size() < 3) return plane;
+      const auto farthestBy = [&](auto measure) {
+        return *std::max_element(near.begin(), near.end(), [&](const Vec3& p, const Vec3& q) {
+          return measure(p) < measure(q);
+        });
+      };
+      const Vec3 a = farthestBy([&](const Vec3& p) { return (p - near[0]).squaredNorm(); });
+      const Vec3 b = farthestBy([&](const Vec3& p) { return (p - a).squaredNorm(); });
+      const Vec3 c = farthestBy([&](const Vec3& p) { return (p - a).cross(b - a).squaredNorm(); });
+      CutPlane better = cut::planeThrough(a, b, c);
+      if (!better.n.allFinite()) return plane;
+      if (better.n.dot(plane.n) < 0.0) better = cut::planeThrough(a, c, b);
+      plane = better;
+    }
+    return plane;
+  }
+
+  /// Whether a plane through a notch leaves no notch on either side of it.
+  bool resolves(const CutPlane& plane, const Notch& notch) const {
+    if (std::abs(plane.height(at(notch.from))) > slack() ||
+        std::abs(plane.height(at(notch.to))) > slack())
+      return false;
+    const CutPlane left = planeOfFace(notch.left), right = planeOfFace(notch.right);
+    const Vec3 e = (at(notch.to) - at(notch.from)).normalized();
+    // The way that the plane takes into the solid turns from neither face by more than half a turn.
+    const Vec3 way = plane.n.cross(e);
+    const double l = left.n.dot(way), r = right.n.dot(way);
+    return (l <= kRounding && r <= kRounding) || (l >= -kRounding && r >= -kRounding);
+  }
+
+  /// The pieces fill the mesh, to what the tolerance may add all over its surface and the cuts.
+  void checkVolume(const std::vector<Polyhedron>& hulls) const {
+    double sum = 0.0, area = 0.0;
+    for (const Polyhedron& hull : hulls) sum += volumeOf(hull), area += areaOf(hull);
+    const double whole = cut::sixfoldVolume(points_, whole_) / 6.0;
+    if (std::abs(sum - whole) <= 2.0 * slack() * area) return;
+    throw NoPieces(
+        "its pieces do not add up to its volume; does the surface touch or cross itself?", -1);
+  }
+
+  Surface surfaceOf(const Polyhedron& solid) {
+    Surface surface;
+    const int first = static_cast<int>(points_.at.size());
+    points_.at.insert(points_.at.end(), solid.points.begin(), solid.points.end());
+    points_.exact.resize(points_.at.size());
+    std::vector<std::array<int, 3>> triangles;
+    for (const std::vector<int>& face : solid.faces) cutIntoTriangles(solid, face, triangles);
+    for (const auto& [a, b, c] : triangles)
+      surface.push_back({{first + a, first + b, first + c}, -1});
+    return surface;
+  }
+
+  Pieces collected(std::vector<Polyhedron> hulls) const {
+    Pieces pieces;
+    pieces.excess = excess_;
+    if (tolerance_ > 0.0) pieces.slack = 2.0 * std::max(snap_, excess_);
+    for (Polyhedron& hull : hulls)
+      pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
+    return pieces;
+  }
+
+  [[noreturn]] void refuse(const std::vector<Notch>& notches) const {
+    std::string where;
+    int face = -1;
+    if (!notches.empty()) {
+      const auto text = [&](int p) {
+        char buffer[96];
+        std::snprintf(buffer, sizeof buffer, "(%.6g, %.6g, %.6g)", at(p).x(), at(p).y(), at(p).z());
+        return std::string(buffer);
+      };
+      const Notch& notch = notches[0];
+      face = faceOf_[static_cast<std::size_t>(notch.left)];
+      where = ", as at the notch from " + text(notch.from) + " to " + text(notch.to);
+    }
+    const std::string many =
+        spent() ? "the mesh is too intricate to be taken apart exactly"
+                : "the mesh needs more than " + std::to_string(kMostPieces) + " convex pieces";
+    throw NoPieces(many + where + "; allow more by pieces_tolerance, or take pieces = \"hull\"",
+                   face);
+  }
+
+  cut::Points points_;
+  Surface whole_;
+  std::vector<int> faceOf_;  ///< per triangle of `whole_`: the face of the polyhedron
+  std::map<std::pair<int, int>, std::pair<int, int>> reflex_;  ///< pairs of triangles: their edge
+  double tolerance_, snap_ = 0.0;  ///< [m] of a piece over the mesh; of corners on a cut
+  double size_ = 0.0, excess_ = 0.0;
+  long work_ = 0;
+};
+
+}  // namespace
+
+Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
+  if (kind == PieceKind::Hull) {
+    Polyhedron hull = convexHull(solid.points);
+    Pieces one;
+    one.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull)), -solid.points[0]});
+    return one;
+  }
+  Decomposer decomposer(solid, tolerance);
+  return kind == PieceKind::Good ? decomposer.good() : decomposer.slivers();
+}
+
+}  // namespace tumble

@@ -1,0 +1,50 @@
+// Chapter 2, shape: convex decomposition (slide SH27: "a good one").
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/shape/shape.h"
+
+namespace tumble {
+
+/// The convex pieces that carry the contacts of a mesh, in the frame of its polyhedron.
+struct Pieces {
+  std::vector<Hull> hulls;
+  double excess = 0.0;  ///< [m] no face of the mesh lies deeper under its piece, along its normal
+  double slack = 0.0;   ///< [m] pieces that touch overlap, or gape, by no more
+};
+
+/// How a mesh is taken apart.
+enum class PieceKind {
+  Good,    ///< few: cut at its notches
+  Hull,    ///< one, its convex hull: hits where the mesh is hollow
+  Slivers  ///< each good piece once more in four slices: right, but costly
+};
+
+/// The largest number of pieces; a mesh that needs more is refused.
+inline constexpr std::size_t kMostPieces = 512;
+
+/// A mesh that has no decomposition within bounds; the text says why, and what may help.
+class NoPieces : public std::runtime_error {
+ public:
+  NoPieces(const std::string& what, int face) : std::runtime_error(what), face_(face) {}
+  int face() const { return face_; }  ///< index of a face that shows it; −1 for none
+
+ private:
+  int face_;
+};
+
+/// Takes a polyhedron apart at its notches, the edges at which it is not convex. Each cut is by a
+/// plane through corners of the mesh: that along a face at a notch, between its faces or through
+/// two notches which resolves most of them, then crosses fewest edges, then comes first. What is
+/// on which side is decided exactly; corners within `tolerance` of a cut count as on it.
+///   Chazelle, "Convex Partitions of Polyhedra", SIAM J. Comput. 13, 1984. Departure: one plane
+///   takes several notches, and notches shallower than the tolerance stay.
+/// @param tolerance  [m] that a piece may stand out of the mesh; 0: the union of the pieces is the
+///                   mesh, their corners rounded once
+/// @throws NoPieces  for more than kMostPieces, or too much work to find them
+Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance);
+
+}  // namespace tumble

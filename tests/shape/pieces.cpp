@@ -1,0 +1,295 @@
+// Convex decomposition: few pieces that are the mesh.
+#include "sim/shape/pieces.h"
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+
+#include "sim/body/mass_properties.h"
+#include "sim/shape/convex_hull.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+using Fraction = boost::multiprecision::cpp_rational;
+
+/// A prism over a polygon that runs counter-clockwise, from z = 0 up.
+Polyhedron prism(const std::vector<std::pair<double, double>>& outline, double height) {
+  const int n = static_cast<int>(outline.size());
+  std::vector<Vec3> points;
+  for (const double z : {0.0, height})
+    for (const auto& [x, y] : outline) points.emplace_back(x, y, z);
+  std::vector<int> below, above;
+  std::vector<std::vector<int>> faces;
+  for (int k = 0; k < n; ++k) {
+    below.push_back(n - 1 - k);
+    above.push_back(n + k);
+    const int next = (k + 1) % n;
+    faces.push_back({k, next, n + next, n + k});
+  }
+  faces.push_back(below);
+  faces.push_back(above);
+  return makePolyhedron(points, faces);
+}
+
+Polyhedron ell() {
+  return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1);
+}
+Polyhedron letterU() {
+  return prism({{0, 0}, {3, 0}, {3, 2}, {2.5, 2}, {2.5, 0.5}, {0.5, 0.5}, {0.5, 2}, {0, 2}}, 0.5);
+}
+Polyhedron comb(int teeth) {
+  std::vector<std::pair<double, double>> outline = {{0, 0}, {2.0 * teeth - 1, 0}};
+  for (int k = teeth - 1; k >= 0; --k) {
+    outline.push_back({2.0 * k + 1, 2});
+    outline.push_back({2.0 * k, 2});
+    if (k > 0) outline.push_back({2.0 * k, 1}), outline.push_back({2.0 * k - 1, 1});
+  }
+  // The first corner on the right stands below the last tooth.
+  return prism(outline, 1);
+}
+Polyhedron star(int tips) {
+  std::vector<std::pair<double, double>> outline;
+  for (int k = 0; k < 2 * tips; ++k) {
+    const double r = k % 2 == 0 ? 1.0 : 0.4, angle = 3.14159265358979323846 * k / tips;
+    outline.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  return prism(outline, 0.3);
+}
+
+/// A ring about z, its corners rounded to `digits` decimals.
+Polyhedron ring(int around, int across, int digits) {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces;
+  const double scale = std::pow(10.0, digits), turn = 2.0 * 3.14159265358979323846;
+  for (int i = 0; i < around; ++i)
+    for (int k = 0; k < across; ++k) {
+      const double a = turn * i / around, b = turn * k / across, r = 1.0 + 0.3 * std::cos(b);
+      const Vec3 p(r * std::cos(a), r * std::sin(a), 0.3 * std::sin(b));
+      points.emplace_back((scale * p).array().round() / scale);
+      const int j = (i + 1) % around, l = (k + 1) % across;
+      faces.push_back({i * across + k, j * across + k, j * across + l, i * across + l});
+    }
+  return makePolyhedron(points, faces);
+}
+
+/// Σ over a closed surface of 1, x, y, z, x², y², z², xy, yz, zx inside, all times 120.
+struct Moments {
+  Fraction sum[10] = {};
+
+  void add(const Polyhedron& solid, const Vec3& origin) {
+    for (const std::vector<int>& face : solid.faces)
+      for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+        Fraction p[3][3];
+        const int corner[3] = {face[0], face[k], face[k + 1]};
+        for (int c = 0; c < 3; ++c)
+          for (int axis = 0; axis < 3; ++axis)
+            p[c][axis] = Fraction(solid.points[static_cast<std::size_t>(corner[c])][axis]) -
+                         Fraction(origin[axis]);
+        const Fraction det = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
+                             p[0][1] * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+                             p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+        sum[0] += 20 * det;
+        for (int i = 0; i < 3; ++i) {
+          const Fraction first = p[0][i] + p[1][i] + p[2][i];
+          sum[1 + i] += 5 * det * first;
+          for (const auto& [j, at] : {std::pair(i, 4 + i), std::pair((i + 1) % 3, 7 + i)}) {
+            Fraction second = first * (p[0][j] + p[1][j] + p[2][j]);
+            for (int c = 0; c < 3; ++c) second += p[c][i] * p[c][j];
+            sum[at] += det * second;
+          }
+        }
+      }
+  }
+};
+
+Moments momentsOf(const Polyhedron& solid) {
+  Moments m;
+  m.add(solid, Vec3::Zero());
+  return m;
+}
+Moments momentsOf(const Pieces& pieces) {
+  Moments m;
+  for (const Hull& hull : pieces.hulls) m.add(*hull.solid, hull.origin);
+  return m;
+}
+
+double worstOff(const Moments& a, const Moments& b) {
+  double scale = 0.0, off = 0.0;
+  for (int k = 0; k < 10; ++k) {
+    scale = std::max(scale, std::abs(a.sum[k].convert_to<double>()));
+    off = std::max(off, std::abs(Fraction(a.sum[k] - b.sum[k]).convert_to<double>()));
+  }
+  return off / scale;
+}
+
+std::string refusalOf(const Polyhedron& solid, double tolerance) {
+  try {
+    piecesOf(solid, PieceKind::Good, tolerance);
+  } catch (const NoPieces& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+/// A ball of 2 · n · n triangles or so with bumps, as a scan would be.
+Polyhedron scan(int n, double bump) {
+  std::vector<Vec3> points = {{0, 0, 1}};
+  std::vector<std::vector<int>> faces;
+  const double half = 3.14159265358979323846;
+  for (int i = 1; i < n; ++i)
+    for (int k = 0; k < 2 * n; ++k) {
+      const double a = half * i / n, b = half * k / n;
+      const double r = 1.0 + bump * (std::sin(3 * b) * std::sin(a) + 0.5 * std::cos(5 * a + b)) +
+                       0.02 * bump * ((i * 7919 + k * 104729) % 17 - 8);
+      points.emplace_back(r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b),
+                          1.3 * r * std::cos(a));
+    }
+  points.emplace_back(0, 0, -1.3);
+  points[0].z() = 1.3;
+  const int last = static_cast<int>(points.size()) - 1;
+  const auto at = [&](int i, int k) { return 1 + (i - 1) * 2 * n + k % (2 * n); };
+  for (int k = 0; k < 2 * n; ++k) {
+    faces.push_back({0, at(1, k), at(1, k + 1)});
+    faces.push_back({last, at(n - 1, k + 1), at(n - 1, k)});
+    for (int i = 1; i + 1 < n; ++i) {
+      faces.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      faces.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  }
+  return makePolyhedron(points, faces);
+}
+
+}  // namespace
+
+// Oracle: the fewest convex pieces by hand; volume, centre and inertia of the mesh as fractions.
+TEST_CASE("a mesh comes apart into few pieces that are the mesh exactly") {
+  const auto check = [](const Polyhedron& solid, std::size_t count) {
+    for (const double tolerance : {0.0, 1e-6}) {
+      const Pieces pieces = piecesOf(solid, PieceKind::Good, tolerance);
+      CHECK(pieces.hulls.size() == count);
+      CHECK(pieces.excess <= tolerance);
+      const Moments whole = momentsOf(solid), parts = momentsOf(pieces);
+      for (int k = 0; k < 10; ++k) CHECK(whole.sum[k] == parts.sum[k]);
+    }
+  };
+  SECTION("a cube") {
+    check(prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1), 1);
+  }
+  SECTION("an L") {
+    check(ell(), 2);
+  }
+  SECTION("a U") {
+    check(letterU(), 3);
+  }
+  SECTION("a comb") {
+    check(comb(5), 6);
+  }
+}
+
+// Oracle: the same fractions, corners rounded once. Measured 2e-16, allowed 1e-13.
+TEST_CASE("pieces whose corners have to be rounded have the moments of the mesh to rounding") {
+  const Polyhedron solid = star(5);
+  const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
+  CHECK(pieces.hulls.size() <= 6);  // a core and tips, or fewer
+  const double off = worstOff(momentsOf(solid), momentsOf(pieces));
+  WARN("a star of five tips: measured " << pieces.hulls.size() << " pieces, moments off by "
+                                        << off);
+  CHECK(off < 1e-13);
+}
+
+// Oracle: the planes through the axis and the rings of corners. The ring's six decimals bend its
+// faces by 5e-7, which the tolerance lets pass.
+TEST_CASE("a ring of 48 by 24 faces comes apart into 48 pieces") {
+  const Polyhedron solid = ring(48, 24, 6);
+  const Pieces pieces = piecesOf(solid, PieceKind::Good, 1.4e-6);
+  const double off = worstOff(momentsOf(solid), momentsOf(pieces));
+  WARN("a ring: measured " << pieces.hulls.size() << " pieces, excess " << pieces.excess
+                           << " m, moments off by " << off);
+  CHECK(pieces.hulls.size() <= 48);
+  CHECK(pieces.excess <= 1.4e-6);
+  CHECK(off < 1e-5);
+}
+
+TEST_CASE("what takes too many pieces is refused with the place, and a tolerance helps") {
+  const Polyhedron solid = scan(12, 0.05);
+  const std::string why = refusalOf(solid, 0.0);
+  INFO(why);
+  CHECK(why.find("the mesh") != std::string::npos);
+  CHECK(why.find("notch") != std::string::npos);
+  CHECK(why.find("pieces_tolerance") != std::string::npos);
+  const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.08);
+  WARN("a scan of " << solid.faces.size() << " faces at 8 cm: measured " << pieces.hulls.size()
+                    << " pieces, excess " << pieces.excess);
+  CHECK(pieces.hulls.size() <= 512);
+  CHECK(pieces.excess <= 0.08);
+}
+
+TEST_CASE("slivers are the mesh too, and the hull is one piece that is more") {
+  const Polyhedron solid = ell();
+  const Pieces slivers = piecesOf(solid, PieceKind::Slivers, 1e-6);
+  CHECK(slivers.hulls.size() == 8);
+  CHECK(worstOff(momentsOf(solid), momentsOf(slivers)) < 1e-13);
+  const Pieces hull = piecesOf(solid, PieceKind::Hull, 1e-6);
+  REQUIRE(hull.hulls.size() == 1);
+  CHECK(volume(hull.hulls[0]) == Approx(3.5));
+}
+
+// Oracle: two boxes, and a box less a box, by hand.
+TEST_CASE("shells apart are one body, and a cavity stays hollow") {
+  const auto box = [](std::vector<Vec3>& points, std::vector<std::vector<int>>& faces, double lo,
+                      double hi, double x, bool inside) {
+    const int first = static_cast<int>(points.size());
+    for (int k = 0; k < 8; ++k)
+      points.emplace_back(x + (k & 1 ? hi : lo), k & 2 ? hi : lo, k & 4 ? hi : lo);
+    for (std::vector<int> face : {std::vector<int>{0, 4, 6, 2},
+                                  {1, 3, 7, 5},
+                                  {0, 1, 5, 4},
+                                  {2, 6, 7, 3},
+                                  {0, 2, 3, 1},
+                                  {4, 5, 7, 6}}) {
+      if (inside) std::reverse(face.begin(), face.end());
+      for (int& p : face) p += first;
+      faces.push_back(face);
+    }
+  };
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces;
+  box(points, faces, 0.0, 4.0, 0.0, false);
+  SECTION("apart") {
+    box(points, faces, 0.0, 1.0, 6.0, false);
+    const Polyhedron solid = makePolyhedron(points, faces);
+    CHECK(piecesOf(solid, PieceKind::Good, 0.0).hulls.size() == 2);
+  }
+  SECTION("hollow") {
+    box(points, faces, 1.0, 2.0, 0.0, true);
+    const Polyhedron solid = makePolyhedron(points, faces);
+    const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
+    CHECK(pieces.hulls.size() <= 6);
+    const Moments whole = momentsOf(solid), parts = momentsOf(pieces);
+    for (int k = 0; k < 10; ++k) CHECK(whole.sum[k] == parts.sum[k]);
+  }
+}
+
+TEST_CASE("faces that pass through each other are refused by name") {
+  // Two long boxes in a cross, as one surface of two shells whose faces cross.
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces;
+  for (const Vec3& half : {Vec3(2.0, 0.5, 0.5), Vec3(0.4, 0.4, 2.0)}) {
+    const int first = static_cast<int>(points.size());
+    for (int k = 0; k < 8; ++k)
+      points.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
+                          k & 4 ? half.z() : -half.z());
+    for (std::vector<int> face : {std::vector<int>{0, 4, 6, 2},
+                                  {1, 3, 7, 5},
+                                  {0, 1, 5, 4},
+                                  {2, 6, 7, 3},
+                                  {0, 2, 3, 1},
+                                  {4, 5, 7, 6}}) {
+      for (int& p : face) p += first;
+      faces.push_back(face);
+    }
+  }
+  CHECK_THROWS_AS(makePolyhedron(points, faces), NotASolid);
+}
