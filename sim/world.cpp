@@ -6,11 +6,13 @@
 
 #include "sim/audit/audit.h"
 #include "sim/collide/overlap.h"
+#include "sim/collide/parts.h"
 #include "sim/contact/impact.h"
 #include "sim/joined.h"
 #include "sim/method/auto.h"
 #include "sim/method/method.h"
 #include "sim/neighbours.h"
+#include "sim/shape/pieces.h"
 
 namespace tumble {
 namespace {
@@ -138,6 +140,10 @@ void checkShape(const Shape& shape, std::size_t i) {
 void checkParts(const BodyDef& def, std::size_t i) {
   const Compound* compound = std::get_if<Compound>(&def.shape);
   if (!compound) return;
+  need(compound->parts.size() <= kMostParts, bodyPath(i, ".shape"),
+       "\"" + def.name + "\" has " + std::to_string(compound->parts.size()) +
+           " parts; one body has room for " + std::to_string(kMostParts) +
+           ", so cut it into several");
   const auto [a, b] = overlappingParts(*compound);
   need(a < 0, bodyPath(i, ".shape"),
        "parts " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " of \"" + def.name +
@@ -221,7 +227,7 @@ void World::Parts::build(const WorldDef& def) {
   for (std::size_t i = 0; i < def.bodies.size(); ++i) {
     checkShape(def.bodies[i].shape, i);
     checkParts(def.bodies[i], i);
-    model.shapes.push_back(contactShape(byMethod(def.bodies[i], i, centredShape)));
+    model.shapes.push_back(readyShape(contactShape(byMethod(def.bodies[i], i, centredShape))));
     if (touchesAnything(def.bodies[i].shape)) model.solid.push_back(static_cast<int>(i));
     state.bodies.push_back(bodyOf(def.bodies[i], i));
   }
@@ -256,6 +262,9 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   }
   for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
   Certificate& books = parts_->report.certificate;
+  for (const BodyDef& body : def.bodies)
+    if (const Mesh* mesh = std::get_if<Mesh>(&body.shape); mesh && mesh->pieces)
+      books.mesh_excess = std::max(books.mesh_excess, mesh->pieces->excess);
   books.energy_start =
       kineticEnergy(state.bodies) + potentialEnergy(def.gravity, def.forces, state.bodies);
   account(model, state, parts_->report);

@@ -1,213 +1,121 @@
-// Chapter 5, collide: the table of shape pairs, and how it is read in both orders.
+// Chapter 5, collide: convex solids by the table of pairs; compounds part by part.
 #include "sim/collide/collide.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "sim/collide/features.h"
-#include "sim/collide/pairs.h"
-#include "sim/math/frames.h"
+#include "sim/collide/pair_table.h"
+#include "sim/collide/seam.h"
 
 namespace tumble {
 
 namespace {
 
-constexpr std::size_t kKinds = std::variant_size_v<Shape>;
-
-template <class Kind, std::size_t I = 0>
-constexpr std::size_t indexOf() {
-  if constexpr (std::is_same_v<Kind, std::variant_alternative_t<I, Shape>>) {
-    return I;
-  } else {
-    return indexOf<Kind, I + 1>();
-  }
-}
-
-struct PairRow {
-  std::size_t kindA = 0, kindB = 0;
-  double (*separation)(const Shape&, const Pose&, const Shape&, const Pose&);
-  ContactPoint (*separatingPlane)(const Shape&, const Pose&, const Shape&, const Pose&);
-  void (*collide)(const Shape&, const Pose&, const Shape&, const Pose&, double, Manifold&);
-};
-
-template <class A, class B>
-constexpr PairRow row() {
-  return {indexOf<A>(), indexOf<B>(),
-          [](const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-            return pairs::separation(*std::get_if<A>(&a), poseA, *std::get_if<B>(&b), poseB);
-          },
-          [](const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-            return pairs::separatingPlane(*std::get_if<A>(&a), poseA, *std::get_if<B>(&b), poseB);
-          },
-          [](const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
-             Manifold& out) {
-            pairs::collide(*std::get_if<A>(&a), poseA, *std::get_if<B>(&b), poseB, margin, out);
-          }};
-}
-
-// All pairs. To add one: write sim/collide/<a>_<b>.cpp, declare it in pairs.h, add its row here.
-constexpr PairRow kPairs[] = {
-    row<Sphere, Sphere>(), row<Sphere, Box>(),    row<Sphere, HalfSpace>(),
-    row<Box, Box>(),       row<Box, HalfSpace>(),
-};
-
-// Any two solids that have a core, and one of them against a half-space.
-constexpr PairRow kConvex = {0, 0, pairs::convexSeparation, pairs::convexPlane,
-                             pairs::convexCollide};
-constexpr PairRow kConvexHalfSpace = {
-    0, indexOf<HalfSpace>(),
-    [](const Shape& a, const Pose& poseA, const Shape& b, const Pose&) {
-      return pairs::convexSeparation(a, poseA, *std::get_if<HalfSpace>(&b));
-    },
-    [](const Shape& a, const Pose& poseA, const Shape& b, const Pose&) {
-      return pairs::convexPlane(a, poseA, *std::get_if<HalfSpace>(&b));
-    },
-    [](const Shape& a, const Pose& poseA, const Shape& b, const Pose&, double margin,
-       Manifold& out) {
-      pairs::convexCollide(a, poseA, *std::get_if<HalfSpace>(&b), margin, out);
-    }};
-constexpr std::size_t kCores[] = {indexOf<Sphere>(), indexOf<Box>(), indexOf<Cylinder>(),
-                                  indexOf<Capsule>(), indexOf<Hull>()};
-
-struct Entry {
-  const PairRow* row = nullptr;
-  bool swapped = false;
-};
-
-constexpr std::array<std::array<Entry, kKinds>, kKinds> kLookup = [] {
-  std::array<std::array<Entry, kKinds>, kKinds> lookup{};
-  for (const std::size_t a : kCores) {
-    for (const std::size_t b : kCores) lookup[a][b] = {&kConvex, false};
-    lookup[a][indexOf<HalfSpace>()] = {&kConvexHalfSpace, false};
-    lookup[indexOf<HalfSpace>()][a] = {&kConvexHalfSpace, true};
-  }
-  for (const PairRow& row : kPairs) {
-    lookup[row.kindB][row.kindA] = {&row, true};
-    lookup[row.kindA][row.kindB] = {&row, false};
-  }
-  return lookup;
-}();
-
-// One row of the table, read in the order of a and b.
-double separationOf(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-  const Entry entry = kLookup[a.index()][b.index()];
-  if (!entry.row) return std::numeric_limits<double>::infinity();
-  return entry.swapped ? entry.row->separation(b, poseB, a, poseA)
-                       : entry.row->separation(a, poseA, b, poseB);
-}
-
-ContactPoint planeOf(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-  const Entry entry = kLookup[a.index()][b.index()];
-  ContactPoint plane;
-  plane.separation = std::numeric_limits<double>::infinity();
-  if (!entry.row) return plane;
-  if (!entry.swapped) return entry.row->separatingPlane(a, poseA, b, poseB);
-  plane = entry.row->separatingPlane(b, poseB, a, poseA);
-  mirror(plane);
-  return plane;
-}
-
-// Appends.
-void pointsOf(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
-              Manifold& out) {
-  const Entry entry = kLookup[a.index()][b.index()];
-  if (!entry.row) return;
-  if (!entry.swapped) return entry.row->collide(a, poseA, b, poseB, margin, out);
-  const std::size_t first = out.size();
-  entry.row->collide(b, poseB, a, poseA, margin, out);
-  for (std::size_t k = first; k < out.size(); ++k) mirror(out[k]);
-}
-
 bool isCompound(const Shape& a, const Shape& b) {
   return std::holds_alternative<Compound>(a) || std::holds_alternative<Compound>(b);
 }
 
-// Calls visit(number, solid, pose) for each convex part of a shape.
-template <class Visit>
-void visitParts(const Shape& shape, const Pose& pose, Visit visit) {
-  const Compound* compound = std::get_if<Compound>(&shape);
-  if (!compound) return visit(0u, shape, pose);
-  for (std::size_t k = 0; k < compound->parts.size(); ++k) {
-    const Pose part = poseInBody(*compound, compound->parts[k]);
-    visit(static_cast<std::uint32_t>(k), shapeOf(compound->parts[k]),
-          Pose{toWorld(pose, part.x), (pose.q * part.q).normalized()});
-  }
-}
-
-// A gap [m] that two parts have at least: that of the balls around them.
-double ballGap(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-  const double radii = boundingRadius(a) + boundingRadius(b);
-  return std::isfinite(radii) ? (poseA.x - poseB.x).norm() - radii
-                              : -std::numeric_limits<double>::infinity();
-}
-
-// Calls visit(feature of the parts, solid, pose, solid, pose) for each pair of parts whose balls
-// are nearer than `reach` [m], which visit may shorten.
-template <class Visit>
-void visitPairs(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
-                const double& reach, Visit visit) {
-  visitParts(a, poseA, [&](std::uint32_t i, const Shape& solidA, const Pose& atA) {
-    visitParts(b, poseB, [&](std::uint32_t j, const Shape& solidB, const Pose& atB) {
-      if (ballGap(solidA, atA, solidB, atB) > reach) return;
-      visit(featurePair(inPart(i, 0), inPart(j, 0)), solidA, atA, solidB, atB);
-    });
-  });
+std::uint64_t featureOf(int i, int j) {
+  return featurePair(inPart(static_cast<std::uint32_t>(i), 0),
+                     inPart(static_cast<std::uint32_t>(j), 0));
 }
 
 bool partsCollide(const Shape& a, const Shape& b) {
-  bool all = true;
-  visitParts(a, Pose{}, [&](std::uint32_t, const Shape& solidA, const Pose&) {
-    visitParts(b, Pose{}, [&](std::uint32_t, const Shape& solidB, const Pose&) {
-      all = all && kLookup[solidA.index()][solidB.index()].row;
-    });
-  });
-  return all;
+  const std::vector<PosedPart> ofA = convexParts(a), ofB = convexParts(b);
+  const auto meets = [&](const PosedPart& p) {
+    return std::all_of(ofB.begin(), ofB.end(),
+                       [&](const PosedPart& q) { return pairs::inTable(p.solid, q.solid); });
+  };
+  return !ofA.empty() && !ofB.empty() && std::all_of(ofA.begin(), ofA.end(), meets);
 }
 
 }  // namespace
 
 bool canCollide(const Shape& a, const Shape& b) {
-  return isCompound(a, b) ? partsCollide(a, b) : kLookup[a.index()][b.index()].row != nullptr;
+  return isCompound(a, b) ? partsCollide(a, b) : pairs::inTable(a, b);
 }
 
 double separation(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-  if (!isCompound(a, b)) return separationOf(a, poseA, b, poseB);
+  if (!isCompound(a, b)) return pairs::separationOf(a, poseA, b, poseB);
+  const PartView ofA(a, poseA), ofB(b, poseB);
   double least = std::numeric_limits<double>::infinity();
-  visitPairs(
-      a, poseA, b, poseB, least,
-      [&](std::uint64_t, const Shape& solidA, const Pose& atA, const Shape& solidB,
-          const Pose& atB) { least = std::min(least, separationOf(solidA, atA, solidB, atB)); });
+  forNearParts(ofA, ofB, least, [&](int i, int j) {
+    least = std::min(least,
+                     pairs::separationOf(ofA.solid(i), ofA.poseOf(i), ofB.solid(j), ofB.poseOf(j)));
+  });
   return least;
 }
 
 ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
-  if (!isCompound(a, b)) return planeOf(a, poseA, b, poseB);
+  if (!isCompound(a, b)) return pairs::planeOf(a, poseA, b, poseB);
+  const PartView ofA(a, poseA), ofB(b, poseB);
   ContactPoint nearest;
   nearest.separation = std::numeric_limits<double>::infinity();
-  visitPairs(a, poseA, b, poseB, nearest.separation,
-             [&](std::uint64_t parts, const Shape& solidA, const Pose& atA, const Shape& solidB,
-                 const Pose& atB) {
-               ContactPoint plane = planeOf(solidA, atA, solidB, atB);
-               plane.feature |= parts;
-               if (plane.separation < nearest.separation) nearest = plane;
-             });
+  std::uint64_t first = ~std::uint64_t{0};
+  forNearParts(ofA, ofB, nearest.separation, [&](int i, int j) {
+    ContactPoint plane = pairs::planeOf(ofA.solid(i), ofA.poseOf(i), ofB.solid(j), ofB.poseOf(j));
+    plane.feature |= featureOf(i, j);
+    // Of planes as wide that of the first parts, in whatever order the tree brings them.
+    if (plane.separation < nearest.separation ||
+        (plane.separation == nearest.separation && featureOf(i, j) < first)) {
+      nearest = plane;
+      first = featureOf(i, j);
+    }
+  });
   return nearest;
 }
+
+namespace {
+
+void collideParts(const PartView& a, const PartView& b, double margin, Manifold& out,
+                  std::vector<PartWitness>* known, PartLooks* looks) {
+  // Both keep their storage from call to call.
+  thread_local std::vector<std::pair<int, int>> near;
+  thread_local std::vector<PartWitness> old;
+  near.clear();
+  forNearParts(a, b, margin, [&](int i, int j) { near.emplace_back(i, j); });
+  std::sort(near.begin(), near.end());
+  old.clear();
+  if (known) old.swap(*known);
+  auto before = old.begin();
+  for (const auto& pair : near) {
+    const auto [i, j] = pair;
+    const Pose poseA = a.poseOf(i), poseB = b.poseOf(j);
+    const Shape &solidA = a.solid(i), &solidB = b.solid(j);
+    while (before != old.end() && std::pair(before->i, before->j) < pair) ++before;
+    const bool seen = before != old.end() && std::pair(before->i, before->j) == pair;
+    if (looks) ++looks->tests;
+    if (seen && showsApart(before->plane, solidA, poseA, solidB, poseB, margin)) {
+      ++looks->hits;
+      known->push_back(*before);
+      continue;
+    }
+    const std::size_t first = out.size();
+    pairs::pointsOf(solidA, poseA, solidB, poseB, margin, out);
+    if (known && out.size() == first)
+      known->push_back(
+          {i, j, witnessOf(pairs::planeOf(solidA, poseA, solidB, poseB), poseA, poseB)});
+    leaveCovered(a, i, b, j, margin, first, out);
+    for (std::size_t k = first; k < out.size(); ++k) out[k].feature |= featureOf(i, j);
+  }
+}
+
+}  // namespace
 
 void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
              Manifold& out) {
   out.clear();
-  if (!isCompound(a, b)) return pointsOf(a, poseA, b, poseB, margin, out);
-  visitPairs(a, poseA, b, poseB, margin,
-             [&](std::uint64_t parts, const Shape& solidA, const Pose& atA, const Shape& solidB,
-                 const Pose& atB) {
-               const std::size_t first = out.size();
-               pointsOf(solidA, atA, solidB, atB, margin, out);
-               for (std::size_t k = first; k < out.size(); ++k) out[k].feature |= parts;
-             });
+  if (!isCompound(a, b)) return pairs::pointsOf(a, poseA, b, poseB, margin, out);
+  collideParts(PartView(a, poseA), PartView(b, poseB), margin, out, nullptr, nullptr);
+}
+
+void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
+             Manifold& out, std::vector<PartWitness>& known, PartLooks& looks) {
+  out.clear();
+  if (!isCompound(a, b)) return pairs::pointsOf(a, poseA, b, poseB, margin, out);
+  collideParts(PartView(a, poseA), PartView(b, poseB), margin, out, &known, &looks);
 }
 
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/collide/contact_point.h"
+#include "sim/collide/witness.h"
 #include "sim/shape/shape.h"
 
 namespace tumble {
@@ -23,9 +24,19 @@ ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, 
 /// Writes all contact points of a pair whose separation is at most `margin` [m] into `out`
 /// (cleared first): the full manifold, clipped, with one normal. Order and features depend on the
 /// poses alone. Of compounds it is the union of the manifolds of their parts, each with its own
-/// normal; `separation` is then the least over pairs of parts, and `separatingPlane` that of the
-/// nearest pair.
+/// normal, less what other parts of the same body cover (seam.h); `separation` is then the least
+/// over pairs of parts, and `separatingPlane` that of the nearest pair.
 void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
              Manifold& out);
+
+/// Looks at near pairs of parts, and those of them that a remembered plane answered.
+struct PartLooks {
+  long tests = 0, hits = 0;
+};
+
+/// The same with a memory of the planes that parted the near parts of two compounds a moment ago,
+/// which is renewed; it stays empty where neither is a compound.
+void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
+             Manifold& out, std::vector<PartWitness>& known, PartLooks& looks);
 
 }  // namespace tumble

@@ -7,6 +7,19 @@
 #include "sim/collide/pairs.h"
 #include "sim/math/frames.h"
 
+namespace tumble::convex {
+
+void toWorld(const Mat3& Rb, const Vec3& xb, ContactPoint& c) {
+  c.n = Rb * c.n;
+  c.pb = xb + Rb * c.pb;
+  c.pa = c.pb + (c.separation + c.ra + c.rb) * c.n;
+  c.p = c.pb + (c.rb + 0.5 * c.separation) * c.n;
+  c.ea = Rb * c.ea;
+  c.eb = Rb * c.eb;
+}
+
+}  // namespace tumble::convex
+
 namespace tumble::pairs {
 namespace {
 
@@ -34,15 +47,6 @@ struct SeenFromB {
   double gap(const Plane& plane) const { return plane.gap - (a.radius + b.radius); }
 };
 
-void toWorld(const Mat3& Rb, const Vec3& xb, ContactPoint& c) {
-  c.n = Rb * c.n;
-  c.pb = xb + Rb * c.pb;
-  c.pa = c.pb + (c.separation + c.ra + c.rb) * c.n;
-  c.p = c.pb + (c.rb + 0.5 * c.separation) * c.n;
-  c.ea = Rb * c.ea;
-  c.eb = Rb * c.eb;
-}
-
 }  // namespace
 
 double convexSeparation(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
@@ -53,7 +57,7 @@ double convexSeparation(const Shape& a, const Pose& poseA, const Shape& b, const
 ContactPoint convexPlane(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB) {
   const SeenFromB seen(a, poseA, b, poseB);
   ContactPoint c = convex::pointOf(convex::widestPlane(seen.a, seen.b, 0.0), seen.a, seen.b);
-  toWorld(seen.Rb, poseB.x, c);
+  convex::toWorld(seen.Rb, poseB.x, c);
   return c;
 }
 
@@ -64,7 +68,7 @@ void convexCollide(const Shape& a, const Pose& poseA, const Shape& b, const Pose
   if (seen.gap(plane) > margin) return;
   const std::size_t first = out.size();
   convex::clipFacets(seen.a, seen.b, plane, seen.tolerance(), margin, out);
-  for (std::size_t k = first; k < out.size(); ++k) toWorld(seen.Rb, poseB.x, out[k]);
+  for (std::size_t k = first; k < out.size(); ++k) convex::toWorld(seen.Rb, poseB.x, out[k]);
 }
 
 }  // namespace tumble::pairs

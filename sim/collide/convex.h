@@ -50,6 +50,9 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
 void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
                  Manifold& out);
 
+/// Takes a contact point from the frame of b, which stands at xb turned by Rb, to the world.
+void toWorld(const Mat3& Rb, const Vec3& xb, ContactPoint& c);
+
 /// A contact point of the plane itself.
 ContactPoint pointOf(const Plane& plane, const Core& a, const Core& b);
 

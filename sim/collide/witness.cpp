@@ -47,11 +47,14 @@ double reach(const Compound& compound, const Vec3& n) {
 }
 
 double reach(const Shape& shape, const Quat& q, const Vec3& n) {
-  const Vec3 n_B = q.conjugate() * n;
-  return std::visit([&](const auto& s) { return reach(s, n_B); }, shape);
+  return reachAlong(shape, q.conjugate() * n);
 }
 
 }  // namespace
+
+double reachAlong(const Shape& shape, const Vec3& n) {
+  return std::visit([&](const auto& s) { return reach(s, n); }, shape);
+}
 
 [[gnu::flatten]] Witness witnessOf(const ContactPoint& plane, const Pose& poseA,
                                    const Pose& poseB) {

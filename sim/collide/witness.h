@@ -2,6 +2,8 @@
 // them still, as a rule; to see that it does costs less than to find it.
 #pragma once
 
+#include <vector>
+
 #include "sim/collide/contact_point.h"
 #include "sim/shape/shape.h"
 
@@ -15,11 +17,28 @@ struct Witness {
   Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< [1] edges, if it is tied to two
 };
 
+/// A plane that parts one part of a compound from one of another, in the order of the parts.
+struct PartWitness {
+  int i = 0, j = 0;  ///< of a and of b; 0 of a shape that is no compound
+  Witness plane;     ///< in the frames of the bodies
+};
+
+/// What is remembered of two bodies: a plane that parts all of both, or, where there is none
+/// because one reaches around the other, the planes between their near parts.
+struct PairWitness {
+  Witness whole;
+  std::vector<PartWitness> parts;
+};
+
 /// The witness of a plane found at these poses, as by `separatingPlane`.
 Witness witnessOf(const ContactPoint& plane, const Pose& poseA, const Pose& poseB);
 
 /// The witness's normal where its features are now: [1] unit, world frame, out of b towards a.
 Vec3 normalOf(const Witness& witness, const Quat& qa, const Quat& qb);
+
+/// How far [m] a shape reaches above its origin along n, both in its body frame; infinity for
+/// half-spaces and meshes.
+double reachAlong(const Shape& shape, const Vec3& n);
 
 /// Width [m] of the slab between two shapes along the witness, where its features are now: at most
 /// the distance of the shapes. O(corners); −∞ of meshes.

@@ -7,12 +7,12 @@ namespace {
 
 /// Planes of pairs that are near no longer are forgotten. Both lists are sorted.
 void passWitnesses(std::span<const std::pair<int, int>> near, State& state) {
-  std::vector<Witness> passed(near.size());
+  std::vector<PairWitness> passed(near.size());
   std::size_t old = 0;
   for (std::size_t k = 0; k < near.size(); ++k) {
     while (old < state.witnesses.size() && state.near[old] < near[k]) ++old;
     if (old < state.witnesses.size() && state.near[old] == near[k])
-      passed[k] = state.witnesses[old];
+      passed[k] = std::move(state.witnesses[old]);
   }
   state.witnesses.swap(passed);
 }
@@ -89,7 +89,7 @@ bool planeShowsApart(const Model& model, const State& state, std::span<const Rig
   if (!model.def.rememberPlanes) return false;
   const auto [b, a] = state.near[k];
   ++report.certificate.plane_tests;
-  const Witness& witness = state.witnesses[k];
+  const Witness& witness = state.witnesses[k].whole;
   const bool apart = witness.known && showsApart(witness, model.shapes[a], bodies[a].pose(),
                                                  model.shapes[b], bodies[b].pose(), margin);
   if (apart) ++report.certificate.plane_hits;
@@ -102,12 +102,19 @@ void findNearPoints(const Model& model, State& state, std::size_t k, double marg
   if (planeShowsApart(model, state, state.bodies, k, margin, report)) return;
   const auto [b, a] = state.near[k];
   const Pose poseA = state.bodies[a].pose(), poseB = state.bodies[b].pose();
-  collide(model.shapes[a], poseA, model.shapes[b], poseB, margin, points);
-  if (!model.def.rememberPlanes) return;
-  state.witnesses[k] =
-      points.empty()
-          ? witnessOf(separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB), poseA, poseB)
-          : witnessOf(points.front(), poseA, poseB);
+  if (!model.def.rememberPlanes)
+    return collide(model.shapes[a], poseA, model.shapes[b], poseB, margin, points);
+  PairWitness& known = state.witnesses[k];
+  PartLooks looks;
+  collide(model.shapes[a], poseA, model.shapes[b], poseB, margin, points, known.parts, looks);
+  report.certificate.plane_tests += looks.tests;
+  report.certificate.plane_hits += looks.hits;
+  // Where parts are near, one of the bodies may reach around the other.
+  if (!points.empty() || known.parts.empty())
+    known.whole =
+        witnessOf(points.empty() ? separatingPlane(model.shapes[a], poseA, model.shapes[b], poseB)
+                                 : points.front(),
+                  poseA, poseB);
 }
 
 void findNearContacts(const Model& model, State& state, std::size_t k, double margin,

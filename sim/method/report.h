@@ -34,6 +34,7 @@ struct Certificate {
   long plane_tests = 0;            ///< looks at a pair that was near
   long plane_hits = 0;             ///< of these, answered by a plane that parted it before
   double max_penetration = 0.0;    ///< [m] max(0, −separation)
+  double mesh_excess = 0.0;        ///< [m] how far pieces stand out of their mesh at most
   double max_joint_gap = 0.0;      ///< [m] how far a joint was from being met
   double energy_cut_impact = 0.0;  ///< [J] that restitution would have given beyond what there was
   double max_closed_height = 0.0;  ///< [m] of bounces that were left out at the end of a row
@@ -72,6 +73,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"plane_tests", &Certificate::plane_tests},
     {"plane_hits", &Certificate::plane_hits},
     {"max_penetration", &Certificate::max_penetration},
+    {"mesh_excess", &Certificate::mesh_excess},
     {"max_joint_gap", &Certificate::max_joint_gap},
     {"energy_cut_impact", &Certificate::energy_cut_impact},
     {"max_closed_height", &Certificate::max_closed_height},

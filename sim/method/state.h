@@ -61,7 +61,7 @@ struct State {
   std::vector<Segment> spareTrail;  ///< stretches gone by, whose memory is used again
 
   std::vector<std::pair<int, int>> near;  ///< pairs that the next step may bring together
-  std::vector<Witness> witnesses;         ///< planes that parted them when last looked at
+  std::vector<PairWitness> witnesses;     ///< planes that parted them when last looked at
 
   // What only `course` remembers: whether the contacts of this instant are known, and the events
   // since the last whole step.

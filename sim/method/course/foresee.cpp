@@ -7,25 +7,38 @@
 namespace tumble {
 namespace {
 
-/// Distance [m] of the nearest face from the origin.
-double innerRadius(const Hull& hull) {
-  const Polyhedron& solid = *hull.solid;
+/// Distance [m] of the nearest face from a point of the polyhedron's frame.
+double innerRadius(const Polyhedron& solid, const Vec3& middle) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::vector<int>& face : solid.faces) {
-    const Vec3 p = solid.points[static_cast<std::size_t>(face[0])] - hull.origin;
+    const Vec3 p = solid.points[static_cast<std::size_t>(face[0])] - middle;
     least = std::min(least, areaVector(solid, face).normalized().dot(p));
   }
   return least;
 }
 
-/// Radius [m] of the largest ball about the origin that fits inside a shape.
+/// The origin of a part need not be inside it.
+double innerRadius(const Part& part);
+
+/// Radius [m] of a ball that fits inside a shape; of a compound, inside each of its parts.
 double innerRadius(const Shape& shape) {
   if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return sphere->r;
   if (const Box* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
   if (const Cylinder* c = std::get_if<Cylinder>(&shape)) return std::min(c->r, 0.5 * c->h);
   if (const Capsule* capsule = std::get_if<Capsule>(&shape)) return capsule->r;
-  if (const Hull* hull = std::get_if<Hull>(&shape)) return innerRadius(*hull);
-  return std::numeric_limits<double>::infinity();
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return innerRadius(*hull->solid, hull->origin);
+  double least = std::numeric_limits<double>::infinity();
+  if (const Compound* compound = std::get_if<Compound>(&shape))
+    for (const Part& part : compound->parts) least = std::min(least, innerRadius(part));
+  return least;
+}
+
+double innerRadius(const Part& part) {
+  const Hull* hull = std::get_if<Hull>(&part.solid);
+  if (!hull) return innerRadius(shapeOf(part));
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : hull->solid->points) middle += p;
+  return innerRadius(*hull->solid, middle / static_cast<double>(hull->solid->points.size()));
 }
 
 /// Largest speed [m/s] and centripetal acceleration [m/s²] of the turning points of a body.

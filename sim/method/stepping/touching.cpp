@@ -61,13 +61,13 @@ bool Stepping::takePairs() {
   // What is known of pairs that stay goes with them. Both lists are sorted.
   work_.passed.clear();
   work_.passed.resize(work_.near.size());
-  std::vector<Witness> witnesses(work_.near.size());
+  std::vector<PairWitness> witnesses(work_.near.size());
   std::size_t old = 0;
   for (std::size_t k = 0; k < work_.near.size(); ++k) {
     while (old < memory_.pairs.size() && state_.near[old] < work_.near[k]) ++old;
     if (old == memory_.pairs.size() || state_.near[old] != work_.near[k]) continue;
     work_.passed[k] = std::move(memory_.pairs[old]);
-    witnesses[k] = state_.witnesses[old];
+    witnesses[k] = std::move(state_.witnesses[old]);
   }
   std::swap(state_.near, work_.near);
   std::swap(memory_.pairs, work_.passed);

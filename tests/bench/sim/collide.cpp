@@ -1,14 +1,17 @@
 // What it costs to see how far two bodies are apart: full searches, remembered planes, manifolds,
-// certified signs, and an L in three decompositions.
+// certified signs, an L in three decompositions, and rings in each other.
 #include "sim/collide/collide.h"
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "sim/collide/certified.h"
+#include "sim/collide/parts.h"
 #include "sim/collide/witness.h"
+#include "sim/shape/pieces.h"
 #include "tests/collide/hulls.h"
 
 namespace {
@@ -110,7 +113,7 @@ void ell(benchmark::State& state) {
       parts.parts.push_back({Box{{1.0, 0.5, half}}, {{1.0, 0.5, z}, Quat::Identity()}});
       parts.parts.push_back({Box{{0.5, 0.5, half}}, {{0.5, 1.5, z}, Quat::Identity()}});
     }
-    shape = parts;
+    shape = readyShape(parts);
   }
   Random random(92);
   std::vector<Pair> pairs;
@@ -120,6 +123,38 @@ void ell(benchmark::State& state) {
   }
   askAll(state, pairs, [](const Pair& p) { return separation(p.a, p.poseA, p.b, p.poseB); });
 }
+
+/// Two rings of 48 pieces in each other, one turning slowly: a look with what the look before knew.
+void interlocked(benchmark::State& state) {
+  const int around = 48, across = 24;
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces;
+  for (int i = 0; i < around; ++i)
+    for (int k = 0; k < across; ++k) {
+      const double a = 2.0 * EIGEN_PI * i / around, b = 2.0 * EIGEN_PI * k / across;
+      const double r = 1.0 + 0.3 * std::cos(b);
+      points.emplace_back(r * std::cos(a), r * std::sin(a), 0.3 * std::sin(b));
+      const int j = (i + 1) % around, l = (k + 1) % across;
+      faces.push_back({i * across + k, j * across + k, j * across + l, i * across + l});
+    }
+  Mesh mesh{std::make_shared<const Polyhedron>(makePolyhedron(points, faces)), -points[0]};
+  mesh.pieces = std::make_shared<const Pieces>(piecesOf(*mesh.solid, PieceKind::Good, 1.4e-6));
+  const Shape ring = readyShape(contactShape(mesh));
+  std::vector<PartWitness> known;
+  PartLooks looks;
+  Manifold out;
+  long count = 0;
+  for (auto _ : state) {
+    const double angle = 1e-3 * static_cast<double>(count++ % 1000);
+    const Pose other{{1.0, 0.0, 0.0},
+                     Quat(Eigen::AngleAxisd(0.5 * EIGEN_PI + angle, Vec3::UnitX()))};
+    collide(ring, Pose{}, ring, other, 0.01, out, known, looks);
+  }
+  state.counters["pairs_a_look"] = static_cast<double>(looks.tests) / static_cast<double>(count);
+  state.counters["remembered"] =
+      static_cast<double>(looks.hits) / static_cast<double>(std::max(1L, looks.tests));
+}
+BENCHMARK(interlocked)->Name("collide: ring in ring, 48 pieces each, coherent");
 
 BENCHMARK_CAPTURE(fullSearch, boxes_apart, Solids::Boxes, 0.01);
 BENCHMARK_CAPTURE(fullSearch, boxes_overlapping, Solids::Boxes, -0.01);

@@ -1,0 +1,27 @@
+// Chapter 5, collide: the parts of one body are one solid. What a part shows where another part of
+// its body covers it is no surface, and nothing touches it there.
+//
+// A contact normal lies in the normal cone of the solid's feature. On a convex part B of the body
+// that cone is known; of the solid, at a point q,
+//   n is normal  ⇔  no other part that holds q rises above the plane through q square to n.
+// A contact is one of the solid's if such q lie within a small reach of it on the feature that B
+// shows along n: the face beside a wall that stands on it is a surface, the face inside a seam and
+// the edges about it are none, whether edges match or not.
+#pragma once
+
+#include "sim/collide/contact_point.h"
+#include "sim/collide/parts.h"
+
+namespace tumble {
+
+/// Whether the surface of a part is the surface of the body at p [m] along the unit vector n, both
+/// in the body frame; `edge` is the direction of the edge that p lies on, or 0.
+bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const Vec3& edge);
+
+/// Takes away the points from `first` on that are no contact of the two solids: those between part
+/// i of a and part j of b. Where all go although the parts overlap, the widest plane along a face
+/// that shows takes their place.
+void leaveCovered(const PartView& a, int i, const PartView& b, int j, double margin,
+                  std::size_t first, Manifold& out);
+
+}  // namespace tumble
