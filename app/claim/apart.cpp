@@ -4,9 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "app/claim/free_body.h"
 #include "app/claim/parting.h"
 #include "app/claim/rows.h"
+#include "app/scene/piece_store.h"
 #include "sim/collide/collide.h"
+#include "sim/collide/parts.h"
+#include "sim/collide/polygon_pairs.h"
 #include "sim/shape/convex_hull.h"
 
 namespace tumble {
@@ -86,12 +90,23 @@ Compound sliced(const Compound& compound) {
 struct Decomposed {
   Shape parts, slivers, hull;
 };
+std::optional<Decomposed> decomposed(const Mesh& mesh) {
+  if (!mesh.pieces || mesh.pieces->excess > 0.0) return {};
+  const auto by = [&](PieceKind kind) {
+    Mesh other = mesh;
+    other.pieces = storedPieces(*mesh.solid, kind, 0.5 * mesh.pieces->slack, "mesh");
+    return readyShape(contactShape(other));
+  };
+  return Decomposed{by(PieceKind::Good), by(PieceKind::Slivers), by(PieceKind::Hull)};
+}
+
 std::optional<Decomposed> decomposed(const Shape& shape) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return decomposed(*mesh);
   const Compound* compound = std::get_if<Compound>(&shape);
   if (!compound) return {};
   const std::optional<Hull> hull = wrapped(*compound);
   if (!hull) return {};
-  return Decomposed{shape, sliced(*compound), *hull};
+  return Decomposed{readyShape(shape), readyShape(sliced(*compound)), *hull};
 }
 
 // Samples in which two compounds overlap, by decomposition.
@@ -129,6 +144,53 @@ void addHits(const Scene& scene, const Recording& recording, std::vector<ClaimRo
     }
 }
 
+// Two meshes by their pieces and by their polygons, which share nothing; what trees of boxes and
+// remembered planes spare of the pairs of polygons.
+struct MeshPair {
+  PolygonSoup soupA, soupB;
+  PolygonPairs pairs{soupA, soupB};
+  Shape partsA, partsB;
+  double slack;
+  long differ = 0, seen = 0, remembered = 0, all = 0;
+
+  MeshPair(const Mesh& a, const Mesh& b)
+      : soupA(a),
+        soupB(b),
+        partsA(readyShape(contactShape(a))),
+        partsB(readyShape(contactShape(b))),
+        slack(kRounding + a.pieces->excess + b.pieces->excess) {}
+
+  void see(const Pose& poseA, const Pose& poseB) {
+    const PolygonLook look = pairs.look(poseA, poseB);
+    const double gap = separation(partsA, poseA, partsB, poseB);
+    if ((gap > slack && !look.apart) || (gap < -slack && look.apart)) ++differ;
+    seen += look.pairs;
+    remembered += look.remembered;
+    all += static_cast<long>(soupA.triangles().size() * soupB.triangles().size());
+  }
+};
+
+void addPolygons(const Scene& scene, const Recording& recording, std::vector<ClaimRow>& rows) {
+  const std::vector<BodyDef>& bodies = scene.world.bodies;
+  for (std::size_t j = 0; j < bodies.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const Mesh *a = std::get_if<Mesh>(&bodies[j].shape), *b = std::get_if<Mesh>(&bodies[i].shape);
+      if (!a || !b || !a->pieces || !b->pieces || !(moves(bodies[i]) || moves(bodies[j]))) continue;
+      MeshPair pair(*a, *b);
+      for (const Sample& sample : recording.samples)
+        pair.see({sample.bodies[j].x, sample.bodies[j].q},
+                 {sample.bodies[i].x, sample.bodies[i].q});
+      const std::string names = bodies[i].name + ", " + bodies[j].name;
+      const auto number = [](long n) { return static_cast<double>(n); };
+      rows.push_back({names + ": samples that polygons see otherwise", number(pair.differ), 0.0,
+                      number(pair.differ), 0.0});
+      rows.push_back({names + ": pairs of polygons that boxes leave", number(pair.seen),
+                      number(pair.all), pair.seen > pair.all ? 1.0 : 0.0, 0.0});
+      rows.push_back({names + ": of these, planes remembered", number(pair.remembered),
+                      number(pair.seen), pair.remembered > pair.seen ? 1.0 : 0.0, 0.0});
+    }
+}
+
 }  // namespace
 
 std::vector<ClaimRow> apartRows(const Scene& scene, const Recording& recording) {
@@ -153,6 +215,7 @@ std::vector<ClaimRow> apartRows(const Scene& scene, const Recording& recording) 
                   coherence.searches() > coherence.pairs() ? 1.0 : 0.0, 0.0, false,
                   Relation::AtMost});
   addHits(scene, recording, rows);
+  addPolygons(scene, recording, rows);
   return rows;
 }
 

@@ -2,6 +2,8 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/palette.h"
+#include "sim/collide/parts.h"
+#include "sim/collide/polygon_pairs.h"
 
 namespace tumble {
 
@@ -45,6 +47,26 @@ void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture) {
     if (!moves(body)) continue;
     const Aabb box = boundingBox(body.shape, {Vec3::Zero(), Quat::Identity()});
     addBox(box, sample.bodies[i].x, sample.bodies[i].q.toRotationMatrix(), colour::kForce, picture);
+  }
+}
+
+namespace {
+
+BoxTree treeOf(const Shape& shape) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return PolygonSoup(*mesh).tree();
+  if (const Compound* compound = std::get_if<Compound>(&shape)) return partsOf(*compound).tree;
+  return {};
+}
+
+}  // namespace
+
+void addTreeBoxes(const Scene& scene, const Sample& sample, int level, Picture& picture) {
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    const BodySample& body = sample.bodies[i];
+    const BoxTree tree = treeOf(scene.world.bodies[i].shape);
+    for (const BoxTree::Node& node : tree.nodes())
+      if (node.level == level || (node.item >= 0 && node.level < level))
+        addBox(node.box, body.x, body.q.toRotationMatrix(), colour::kForce, picture);
   }
 }
 

@@ -13,4 +13,8 @@ void addBoundingBoxes(const Scene& scene, const Sample& sample, Picture& picture
 /// even where the body is drawn as a matrix has sheared it.
 void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture);
 
+/// The boxes at one level of the trees over the faces of meshes and the parts of compounds, in body
+/// axes; leaves above that level too.
+void addTreeBoxes(const Scene& scene, const Sample& sample, int level, Picture& picture);
+
 }  // namespace tumble

@@ -337,6 +337,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.matrix) addContactMatrix(scene_, sample, framing_.page, picture);
   if (show.either_or) addEitherOr(scene_, recording_, sample, framing_.page, picture);
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);
+  if (show.tree >= 0) addTreeBoxes(scene_, sample, show.tree, picture);
   if (show.samples) addSamplePoints(scene_, sample, picture);
   if (show.body_box) addBodyBoxes(scene_, sample, picture);
   if (show.ellipsoid) addInertiaEllipsoids(scene_, sample, picture);

@@ -81,6 +81,7 @@ struct ShowFlags {
   bool impacts = false;    ///< rings at impacts with t and j
   bool labels = false;     ///< names of bodies
   bool boxes = false;      ///< bounding boxes
+  int tree = -1;           ///< level of the tree of boxes over faces or parts; 0: root; < 0: none
   bool samples = false;    ///< the points inside that bodies are weighed by
   bool planes = false;     ///< planes between bodies near each other
   bool energy = false;     ///< energy in the subtitle

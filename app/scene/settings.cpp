@@ -190,6 +190,8 @@ void readImage(Section& root, ImageFormat& image) {
   section.finish();
 }
 
+constexpr int kDeepestTree = 100;
+
 void readShow(Section& root, ShowFlags& show) {
   const Node* node = root.find("show");
   if (!node) return;
@@ -211,6 +213,7 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("impacts", show.impacts);
   section.read("labels", show.labels);
   section.read("boxes", show.boxes);
+  section.read("tree", show.tree, 0, kDeepestTree);
   section.read("samples", show.samples);
   section.read("planes", show.planes);
   section.read("energy", show.energy);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/scene/mesh_file.h"
+#include "app/scene/piece_store.h"
 #include "sim/math/rotation.h"
 #include "sim/shape/convex_hull.h"
 
@@ -72,16 +73,34 @@ std::optional<Shape> readPlane(Section& shape) {
   return HalfSpace{n / length, p[3] / length};
 }
 
+// The radius of a mesh about the middle of its box [m], which tolerances are told in.
+double sizeOf(const Polyhedron& solid) {
+  Vec3 lo = solid.points[0], hi = lo;
+  for (const Vec3& p : solid.points) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+  return 0.5 * (hi - lo).norm();
+}
+
 std::optional<Shape> readMeshFile(Section& shape) {
-  std::string name;
+  constexpr double kTolerance = 1e-6;
+  std::string name, pieces = "good";
+  double tolerance = kTolerance;
   shape.read("mesh", name);
+  shape.read("pieces", pieces, std::vector<std::string>{"good", "hull", "slivers"});
+  shape.read("pieces_tolerance", tolerance, {0.0, 0.5, false, {}});
   if (!shape.good()) return {};
+  const PieceKind kind = pieces == "good"   ? PieceKind::Good
+                         : pieces == "hull" ? PieceKind::Hull
+                                            : PieceKind::Slivers;
   try {
-    return Mesh{readMesh(meshPath(name, shape.findings().file()))};
+    Mesh mesh{readMesh(meshPath(name, shape.findings().file()))};
+    mesh.pieces = storedPieces(*mesh.solid, kind, tolerance * sizeOf(*mesh.solid), name);
+    return mesh;
   } catch (const MeshError& reason) {
     shape.complain("mesh", reason.what());
-    return {};
+  } catch (const NoPieces& reason) {
+    shape.complain("mesh", name + ": " + reason.what());
   }
+  return {};
 }
 
 std::optional<Shape> readCompound(Section& shape);

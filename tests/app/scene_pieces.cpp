@@ -1,0 +1,95 @@
+// The convex pieces of meshes, as a scene file asks for them and as the cache keeps them.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "app/scene/mesh_file.h"
+#include "app/scene/piece_store.h"
+#include "app/scene/scene.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Mesh meshOf(const std::string& keys) {
+  const Scene scene = parseScene(
+      "[world]\ngravity = [0, 0, 0]\nduration = 1\n[[body]]\nname = \"b\"\n"
+      "mass = 3.0\nshape = { mesh = \"ell.obj\"" +
+          keys + " }\n",
+      "s.toml");
+  return std::get<Mesh>(scene.world.bodies.at(0).shape);
+}
+
+std::string why(const std::string& keys) {
+  try {
+    meshOf(keys);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool same(const Pieces& a, const Pieces& b) {
+  if (a.hulls.size() != b.hulls.size() || a.excess != b.excess || a.slack != b.slack) return false;
+  for (std::size_t k = 0; k < a.hulls.size(); ++k) {
+    const Polyhedron &p = *a.hulls[k].solid, &q = *b.hulls[k].solid;
+    if (p.points != q.points || p.faces != q.faces || a.hulls[k].origin != b.hulls[k].origin)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("a scene says how a mesh is taken apart") {
+  CHECK(meshOf("").pieces->hulls.size() == 2);
+  CHECK(meshOf(", pieces = \"hull\"").pieces->hulls.size() == 1);
+  CHECK(meshOf(", pieces = \"slivers\"").pieces->hulls.size() == 8);
+  CHECK(meshOf(", pieces_tolerance = 0").pieces->slack == 0.0);
+  CHECK(why(", pieces = \"splinters\"").find("good") != std::string::npos);
+  CHECK(why(", pieces_tolerance = -1").find("pieces_tolerance") != std::string::npos);
+  CHECK(why(", pieces_tolerance = nan").find("pieces_tolerance") != std::string::npos);
+}
+
+TEST_CASE("pieces as text are the same to the last bit, and a broken text is none") {
+  const Mesh mesh = meshOf("");
+  const std::string text = textOf(*mesh.pieces);
+  const auto again = piecesFrom(text);
+  REQUIRE(again);
+  CHECK(same(*again, *mesh.pieces));
+  CHECK(!piecesFrom(""));
+  CHECK(!piecesFrom(text.substr(0, text.size() / 2)));
+  std::string changed = text;
+  changed[text.size() / 2] = changed[text.size() / 2] == '0' ? '1' : '0';
+  CHECK(!piecesFrom(changed));
+}
+
+TEST_CASE("pieces are kept in the user's cache; a broken file is made anew, none is no error") {
+  const fs::path folder = fs::temp_directory_path() / "tumble-pieces-test";
+  fs::remove_all(folder);
+  const char* before = std::getenv("XDG_CACHE_HOME");
+  const std::string old = before ? before : "";
+  setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+  const Mesh mesh = meshOf("");
+  const auto files = [&] {
+    std::vector<fs::path> found;
+    if (fs::exists(folder / "tumble"))
+      for (const auto& entry : fs::directory_iterator(folder / "tumble"))
+        found.push_back(entry.path());
+    return found;
+  };
+  // Another tolerance each time: the program remembers what it has found before.
+  const auto first = storedPieces(*mesh.solid, PieceKind::Good, 1.25e-6, "ell.obj");
+  REQUIRE(files().size() == 1);
+  CHECK(same(*first, *mesh.pieces) == (first->slack == mesh.pieces->slack));
+  const fs::path file = files()[0];
+  std::ofstream(file) << "nonsense";
+  CHECK(storedPieces(*mesh.solid, PieceKind::Good, 1.5e-6, "ell.obj"));
+  setenv("XDG_CACHE_HOME", "/proc/nowhere", 1);
+  CHECK(storedPieces(*mesh.solid, PieceKind::Good, 1.75e-6, "ell.obj"));
+  old.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", old.c_str(), 1);
+  fs::remove_all(folder);
+}
