@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints the figures that the README claims, each below the command that measures it. Ends with 1 if a
+# Prints the figures that README.md and assets/report/README.md claim, each below the command that measures it. Ends with 1 if a
 # command fails.
 # usage: figures.sh BUILD_DIR
 set -uo pipefail

@@ -56,7 +56,8 @@ bool hasCase(const std::string& room, const std::string& name) {
 
 TEST_CASE("every link and picture of a page is there") {
   int count = 0;
-  for (const char* page : {"README.md", "sim/README.md", "assets/demos/README.md"}) {
+  for (const char* page :
+       {"README.md", "sim/README.md", "assets/demos/README.md", "assets/report/README.md"}) {
     const std::vector<std::string> links = found(textOf(kRoot / page), R"(\]\(([^)#:]+)\))");
     for (const std::string& link : links) {
       CAPTURE(page, link);
