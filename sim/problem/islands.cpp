@@ -77,6 +77,7 @@ struct Island {
     problem.cones.clear();
     solution.lambda.clear();
     solution.v.clear();
+    solution.pull.clear();
     bodies.clear();
   }
 };
@@ -181,6 +182,7 @@ SolveReport solveParts(const Solver& solver, const Problem& problem, const Solve
   std::swap(work.start, solution);
   solution.lambda.assign(problem.rows.size(), 0.0);
   solution.v = problem.vStar;
+  solution.pull.clear();
   work.local.assign(problem.invM.size(), -1);
   SolveReport worst;
   for (int i = 0; i < work.deal.count(); ++i) {

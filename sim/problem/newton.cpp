@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/problem/direct.h"
 #include "sim/problem/last_resort.h"
@@ -36,7 +37,10 @@ class Newton {
   void keepBetter(SolveReport& report);
   void polish(SolveReport& report);
   void closeBalance(SolveReport& report);
+  bool expect(SolveReport& report);
+  void takeSprings(double residual, SolveReport& report);
   void select(SolveReport& report);
+  bool solveAnew(int most, const Solution& start, SolveReport& report);
 
   void takeLambda(const Problem& problem, Solution& solution, SolveReport& report);
 
@@ -249,6 +253,23 @@ void Newton<N>::closeBalance(SolveReport& report) {
   }
 }
 
+/// Where contacts do what they are expected to do, forces of springs are found at once.
+/// @return whether they were
+template <int N>
+bool Newton<N>::expect(SolveReport& report) {
+  const double rho = system_.rho, residual = system_.expectSprings(tolerance_);
+  if (!(residual <= tolerance_)) return false;
+  takeSprings(residual, report);
+  system_.rho = rho;
+  return report.balance <= kClosed;
+}
+
+template <int N>
+void Newton<N>::takeSprings(double residual, SolveReport& report) {
+  report.residual = residual;
+  report.balance = system_.balance();
+}
+
 /// Of the many forces that solve the problem those of springs, if they can be had.
 template <int N>
 void Newton<N>::select(SolveReport& report) {
@@ -256,8 +277,7 @@ void Newton<N>::select(SolveReport& report) {
   remember();
   const double rho = system_.rho, residual = system_.findSprings(tolerance_);
   if (residual <= tolerance_) {
-    report.residual = residual;
-    report.balance = system_.balance();
+    takeSprings(residual, report);
   } else {
     system_.goBack(points_, movers_);
     system_.rho = rho;
@@ -270,22 +290,32 @@ SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settin
   tolerance_ = settings.tolerance;
   system_.prepare(problem);
   system_.restart(solution);
+  system_.expect(problem, settings.pull);
   SolveReport report;
+  const bool easy = expect(report) || solveAnew(settings.maxIterations, solution, report);
+  report.iterations += system_.factorizations;
+  system_.write(problem, solution);
+  if (!easy || report.balance > kOpen) takeLambda(problem, solution, report);
+  if (!(report.residual <= tolerance_)) report.status = SolveStatus::NotConverged;
+  return report;
+}
+
+/// From λ = 0 and the velocities at hand. @return whether calm stages did it
+template <int N>
+bool Newton<N>::solveAnew(int most, const Solution& start, SolveReport& report) {
+  report.iterations = std::exchange(system_.factorizations, 0);
+  if (report.iterations > 0) system_.restart(start);
   report.residual = solveCalm();
   const bool calm = report.residual <= tolerance_;
   if (!calm) {
-    if (!std::isfinite(report.residual)) system_.restart(solution);
-    report.residual = solveHard(settings.maxIterations);
+    if (!std::isfinite(report.residual)) system_.restart(start);
+    report.residual = solveHard(most);
   }
   report.balance = system_.balance();
   if (calm) polish(report);
   select(report);
   closeBalance(report);
-  report.iterations = system_.factorizations;
-  system_.write(problem, solution);
-  if (!calm || report.balance > kOpen) takeLambda(problem, solution, report);
-  if (!(report.residual <= tolerance_)) report.status = SolveStatus::NotConverged;
-  return report;
+  return calm;
 }
 
 template <int N>

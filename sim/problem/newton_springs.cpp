@@ -13,6 +13,7 @@ namespace tumble {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kInner = 10;                       ///< steps of a stage
 constexpr double kStiff = 1e4, kStiffest = 1e8;  ///< ρ of springs, by the weight of the system
 constexpr double kNoSlip = 1e-10;  ///< of the scale: slower slips are those of springs
 
@@ -94,20 +95,18 @@ void NewtonSystem<N>::loosen() {
   }
 }
 
-/// The first step of loose springs goes by what holds now: at λ = 0 and u = 0 rounding would choose
-/// the pieces.
+/// The first step of loose springs goes by slopes that are known: at λ = 0 and u = 0 rounding would
+/// choose them. Where pulls are the right ones but for a factor, it is the last.
 template <int N>
-void NewtonSystem<N>::startFromNow() {
+void NewtonSystem<N>::startPressed() {
   loosen();
-  for (Point& point : points) {
-    const bool slips =
-        point.piece == Piece::Edge && std::hypot(point.u[1], point.u[2]) > kNoSlip * scale;
-    point.lambda = point.force;
-    if (slips) point.lambda.template tail<2>().setZero();
-  }
+  for (Point& point : points) point.lambda = point.pull + rho * point.u;
   assemblePressed();
-  for (Point& point : points) point.lambda.setZero();
-  for (Mover& mover : movers) mover.gradient = mover.momentum(mover.v - mover.star);
+  for (Point& point : points) {
+    point.lambda.setZero();
+    point.force = slopeOfSpring(point, point.pull) * (-rho * point.u);
+  }
+  evaluateAsIs();
   direction(live_);
   for (Mover& mover : movers) mover.v += mover.step;
 }
@@ -126,26 +125,33 @@ bool NewtonSystem<N>::springsFit() const {
                                            [](const Point& p) { return p.piece == p.pressed; });
 }
 
-/// Brings the gradient to 0, to rounding. @return whether it came there
+/// Brings the gradient to 0, to rounding, by at most that many factors. @return whether it came
+/// there
 template <int N>
 bool NewtonSystem<N>::press(int most) {
   constexpr double kChord = 0.1;   // a factor of other slips serves while steps shrink so
   constexpr double kSmall = 1e-9;  // of the scale: below it a step that does not shrink is rounding
-  constexpr double kNone = 1e-16;  // of the scale: a step that changes nothing
+  constexpr double kNone = 1e-15;  // of the scale: a step that changes nothing
+  const int end = factorizations + most;
   double before = kInfinity;
   look();
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < 4 * most && factorizations < end; ++k) {
     const bool bent = std::any_of(points.begin(), points.end(),
                                   [](const Point& p) { return p.piece == Piece::Edge; });
     const bool fits = springsFit();
     double change = fits ? direction(live_) : 0.0;
-    if (!fits || (bent && !(change <= kChord * before))) {
+    if (!fits || (bent && change > kSmall * scale && change > kChord * before)) {
       assemblePressed();
       change = direction(live_);
     }
     if (!std::isfinite(change)) return false;
+    if (change <= kNone * scale) {
+      for (Mover& mover : movers) mover.v += mover.step;
+      look();
+      return true;
+    }
     const bool whole = shorten();
-    if (change <= kNone * scale || (whole && !bent && springsFit())) return true;
+    if ((whole && !bent && springsFit())) return true;
     if (change > 0.5 * before && change < kSmall * scale) return true;
     before = change;
   }
@@ -169,27 +175,38 @@ void NewtonSystem<N>::nextPress() {
 
 /// Stages until they bring nothing, nor stiffer ones. @return the residual
 template <int N>
-double NewtonSystem<N>::pressOn(double tolerance, int most) {
+double NewtonSystem<N>::pressOn(double tolerance) {
   constexpr int kStages = 16;
   constexpr double kStiffer = 10.0, kClosed = 1e-14;
   double before = kInfinity;
   for (int stage = 0; stage < kStages; ++stage) {
     if (stage > 0) nextPress();
-    if (!press(most)) break;
+    if (!press(kInner)) break;
     const double now = residual();
     const bool stays = stage > 1 && now > 0.5 * before;
     before = now;
-    if (now <= kClosed || (stays && (now <= tolerance || rho >= kStiffest * weight))) return now;
+    if (now <= kClosed || (stays && (now <= tolerance || rho >= kStiffest * weight))) break;
     if (stays) rho *= kStiffer;
   }
   return before;
+}
+
+/// A step by the last factor alone, in which u changes as the step says: what stiff springs make of
+/// the rounding of fast velocities would be no balance of momentum.
+template <int N>
+void NewtonSystem<N>::closePress() {
+  if (!springsFit()) return;
+  direction(live_);
+  for (Mover& mover : movers) mover.v += mover.step;
+  for (Point& point : points) point.u += point.du;
+  evaluate();
 }
 
 /// From soft springs to stiff ones, each from the v of those before. @return whether it came there
 template <int N>
 bool NewtonSystem<N>::climb() {
   constexpr double kSoft = 0.01, kFar = 10.0, kNear = 1.3;
-  constexpr int kInner = 25, kEasy = 4, kFailures = 6, kFactors = 150;
+  constexpr int kSteps = 25, kEasy = 4, kFailures = 6, kFactors = 150;
   const int end = factorizations + kFactors;
   double tau = kSoft, factor = kFar;
   loosen();
@@ -199,7 +216,7 @@ bool NewtonSystem<N>::climb() {
   for (int failed = 0; factorizations < end && failed < kFailures; tau *= factor) {
     const int spent = factorizations;
     rho = std::min(tau, kStiff) * weight;
-    if (press(kInner)) {
+    if (press(kSteps)) {
       if (tau >= kStiff) return true;
       pointsBefore = points;
       moversBefore = movers;
@@ -215,14 +232,51 @@ bool NewtonSystem<N>::climb() {
 }
 
 template <int N>
-double NewtonSystem<N>::findSprings(double tolerance) {
-  constexpr int kInner = 10;
+void NewtonSystem<N>::expect(const Problem& problem, std::span<const double> pull) {
+  expects_ = false;
+  if (pull.size() != problem.rows.size()) return;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    Point& point = points[c];
+    point.pull = -rho * point.u;  // of a new contact
+    if (std::isnan(pull[problem.cones[c].row])) continue;
+    expects_ = true;
+    for (int k = 0; k < point.rows; ++k)
+      point.pull[k] = pull[problem.cones[c].row + k] / point.length;
+  }
+}
+
+template <int N>
+double NewtonSystem<N>::expectSprings(double tolerance) {
+  if (!expects_) return kInfinity;
   rho = kStiff * weight;
-  startFromNow();
-  double found = kInfinity;
-  if (press(kInner) || climb()) found = pressOn(tolerance, kInner);
+  for (Point& point : points) ofSpring(point, point.pull, point.piece);
+  startPressed();
+  return endSprings(press(kInner), tolerance);
+}
+
+template <int N>
+double NewtonSystem<N>::findSprings(double tolerance) {
+  rho = kStiff * weight;
+  for (Point& point : points) {
+    const bool slips =
+        point.piece == Piece::Edge && std::hypot(point.u[1], point.u[2]) > kNoSlip * scale;
+    point.pull = point.force - rho * point.u;
+    if (slips) point.pull.template tail<2>() = -rho * point.u.template tail<2>();
+  }
+  startPressed();
+  return endSprings(press(kInner) || climb(), tolerance);
+}
+
+/// Goes on from where springs were found, if they were. @return the residual
+template <int N>
+double NewtonSystem<N>::endSprings(bool found, double tolerance) {
+  const double residual = found ? pressOn(tolerance) : kInfinity;
+  pulled_ = residual <= tolerance;
+  if (pulled_) closePress();
+  // As of the ρ that they begin with, which tells on what slips in earnest alone.
+  for (Point& point : points) point.pull = point.lambda - kStiff * weight * point.u;
   springs_ = false;
-  return found;
+  return residual;
 }
 
 template class NewtonSystem<3>;

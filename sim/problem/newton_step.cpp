@@ -79,6 +79,12 @@ template <int N>
   gather([this](Point& point, const Vec3& z) { project(point, z); });
 }
 
+/// The gradient with forces as they are.
+template <int N>
+void NewtonSystem<N>::evaluateAsIs() {
+  gather([](const Point&, const Vec3&) {});
+}
+
 /// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
 template <int N>
 [[gnu::flatten]] bool NewtonSystem<N>::stageMore() {

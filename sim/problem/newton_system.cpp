@@ -268,6 +268,7 @@ void NewtonSystem<N>::restart(const Solution& start) {
     point.sum.setZero();
     point.mu = point.muTrue;
   }
+  pulled_ = false;
   guess_ = true;
   look(true);
 }
@@ -321,10 +322,14 @@ template <int N>
 template <int N>
 void NewtonSystem<N>::write(const Problem& problem, Solution& solution) const {
   solution.lambda.resize(problem.rows.size());
+  solution.pull.resize(pulled_ ? problem.rows.size() : 0);
   solution.v = problem.vStar;
   for (std::size_t c = 0; c < points.size(); ++c)
-    for (int k = 0; k < points[c].rows; ++k)
-      solution.lambda[problem.cones[c].row + k] = points[c].length * points[c].force[k];
+    for (int k = 0; k < points[c].rows; ++k) {
+      const int row = problem.cones[c].row + k;
+      solution.lambda[row] = points[c].length * points[c].force[k];
+      if (pulled_) solution.pull[row] = points[c].length * points[c].pull[k];
+    }
   for (const Mover& mover : movers) solution.v[mover.body].template head<N>() = mover.v;
 }
 

@@ -39,7 +39,8 @@ class NewtonSystem {
     Vec3 u = Vec3::Zero(), du = Vec3::Zero();         ///< without what compliance adds
     Vec3 force = Vec3::Zero();                        ///< Π_K(λ − ρ(u + s))
     Vec3 sum = Vec3::Zero();                          ///< −Σ ρ u of the stages that are over
-    double slip = 0.0;  ///< [m/s] of the stage before, under the law of springs
+    double slip = 0.0;         ///< [m/s] of the stage before, under the law of springs
+    Vec3 pull = Vec3::Zero();  ///< z under the law of springs, as it was or is expected to be
   };
 
   /// Body that moves.
@@ -76,8 +77,12 @@ class NewtonSystem {
   bool areOfSprings() const;
   /// v, and forces as they are in `answer`.
   void take(const Problem& problem, const Solution& answer);
+  /// Where forces of springs are expected: as Solution::pull. NaN: not known.
+  void expect(const Problem& problem, std::span<const double> pull);
   /// Looks for the forces of springs, at first near those of now. @return the residual
   double findSprings(double tolerance);
+  /// The same near those that are expected, if any are, and nowhere else. @return the residual or ∞
+  double expectSprings(double tolerance);
 
   /// Friction cones narrower than they are, until `widen`: forces that stick come to lie inside the
   /// true ones wherever others can take what that leaves, and none on the edge between two pieces.
@@ -140,6 +145,7 @@ class NewtonSystem {
   template <class Find>
   void gather(const Find& find);
   void evaluate();
+  void evaluateAsIs();
   template <class Factor>
   double direction(Factor& factor);
   double slopeAt(double alpha);
@@ -154,11 +160,13 @@ class NewtonSystem {
   Vec3 ofSpring(const Point& point, const Vec3& z, Piece& piece) const;
   Mat3 slopeOfSpring(const Point& point, const Vec3& z) const;
   void loosen();
-  void startFromNow();
+  void startPressed();
   bool climb();
   bool press(int most);
-  double pressOn(double tolerance, int most);
+  double pressOn(double tolerance);
+  double endSprings(bool found, double tolerance);
   void nextPress();
+  void closePress();
   void assemblePressed();
   bool springsFit() const;
 
@@ -214,6 +222,8 @@ class NewtonSystem {
   double factoredRho_ = 0.0, pressedRho_ = 0.0;
   bool guess_ = false;  ///< the first step of all goes by what contacts are expected to do
   bool rubs_ = false;
+  bool expects_ = false;  ///< pulls of some points are known
+  bool pulled_ = false;   ///< pulls are those of the answer
   bool springs_ = false;  ///< the law of springs takes the place of Π_K
 };
 

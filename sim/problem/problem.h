@@ -52,6 +52,7 @@ struct Problem {
 struct Solution {
   std::vector<double> lambda;  ///< per row
   std::vector<Vec6> v;         ///< per body
+  std::vector<double> pull;    ///< per row, or empty: λ by the law of springs before cones cut it
 };
 
 /// Solved: the residual is within tolerance, or as small as rounding lets it be (roundingFloor).
@@ -72,6 +73,9 @@ struct SolveReport {
 struct SolveSettings {
   double tolerance = 1e-12;   ///< on SolveReport::residual
   int maxIterations = 20000;  ///< sweeps or pivots
+  /// Where Solution::pull is expected, per row, NaN where it is not known; or empty. An answer that
+  /// is the only one does not depend on it.
+  std::span<const double> pull = {};
 };
 
 /// A row of the table of solvers. λ in `solution` (if of the right length) is the starting point.

@@ -230,7 +230,8 @@ void Stepping::swing(std::span<const Link> links, double h) {
     build(links, h);
     const SteppingSettings& stepping = model_.def.stepping;
     const SolveReport solved = solver_.solve(
-        work_.problem, {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations},
+        work_.problem,
+        {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
         work_.solution);
     findCrushed(links, solved);
     if (!work_.crushed.empty()) return;
@@ -273,6 +274,8 @@ void Stepping::build(std::span<const Link> links, double h) {
   work_.problem.cones.clear();
   work_.solution.lambda.clear();
   work_.solution.v.clear();
+  work_.solution.pull.clear();
+  work_.pull.clear();
   work_.bodies.clear();
   for (const Link link : links) {
     if (isPair(link)) {
@@ -286,6 +289,7 @@ void Stepping::build(std::span<const Link> links, double h) {
     work_.problem.cones.push_back({.kind = work_.bonds.kinds[link - state_.near.size()],
                                    .row = static_cast<int>(work_.problem.rows.size())});
     addRow(bondOf(link));
+    work_.pull.push_back(unknown()[0]);
   }
 }
 
@@ -302,6 +306,7 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const Contact& contact = touch.contact;
   const ContactPoint& c = contact.point;
   const auto addAlong = [&](const Vec3& d) -> Row& {
+    work_.pull.push_back(touch.pull.dot(d));
     return addRow(pointRow(state_.bodies, contact.a, contact.b, c.p, d, 0.0));
   };
   Cone& cone = work_.problem.cones.emplace_back(
@@ -360,11 +365,12 @@ void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, do
   // Work over the step is λ times the mean of the velocities before and after.
   const Vec6 a = 0.5 * (work_.before[contact.a] + work_.solution.v[normal.a]);
   const Vec6 b = 0.5 * (work_.before[contact.b] + work_.solution.v[normal.b]);
-  Vec3 impulse = Vec3::Zero();
+  Vec3 impulse = Vec3::Zero(), pull = Vec3::Zero();
   for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
     const Row& row = work_.problem.rows[r];
     const double lambda = work_.solution.lambda[r];
     impulse += lambda * row.linear;
+    if (!work_.solution.pull.empty()) pull += work_.solution.pull[r] * row.linear;
     const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
     const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
     (r == cone.row ? books.lostImpact : books.lostFriction) -= lambda * (ofA + ofB);
@@ -374,6 +380,7 @@ void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, do
   if (fixedB) books.external += impulse;
   if (fixedA) books.external -= impulse;
   touch.impulse = impulse;
+  touch.pull = work_.solution.pull.empty() ? unknown() : pull;
   contact.force = impulse / h;
   contact.sliding = contact.friction > 0.0 && slides(touch, normal);
   contact.lasting = !arrives(touch);

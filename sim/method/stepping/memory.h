@@ -2,6 +2,7 @@
 // spares looking twice at what has not changed.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,11 +22,17 @@ struct Lever {
   double separation = 0.0;                        ///< [m]
 };
 
+/// What is not known yet.
+inline Vec3 unknown() {
+  return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
 /// A contact point, and what the last step that solved for it found.
 struct Touch {
   Contact contact;              ///< as found; with the force of the step
   Lever lever;                  ///< when its look was numbered
   Vec3 impulse = Vec3::Zero();  ///< [N·s] on a
+  Vec3 pull = unknown();        ///< [N·s] as Solution::pull
   bool rebounds = false;        ///< when it is struck
   double due = 0.0;             ///< [s] until it is struck or, of free bodies, until they meet
   double approach = 0.0;        ///< [m/s] how fast it came
@@ -91,6 +98,7 @@ struct SteppingWork {
   std::vector<int> root, order, begin;    ///< of islands: forest of bodies; links by island
   std::vector<int> island;                ///< per link: its island; < 0: it joins nothing now
   std::vector<char> open;                 ///< per root: an overlap in its island
+  std::vector<double> pull;               ///< of one island: as SolveSettings::pull
   std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
   std::vector<int> movers;
   Problem problem;

@@ -203,8 +203,7 @@ Lever Stepping::leverOf(const ContactPoint& c, std::pair<int, int> pair) const {
 void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
   thread_local std::vector<Touch> old;
   old.clear();
-  for (const Touch& touch : memory.touches)
-    if (touch.arrivalSpeed > 0.0) old.push_back(touch);
+  old.swap(memory.touches);
   Touch fresh;
   fresh.contact.a = pair.second;
   fresh.contact.b = pair.first;
@@ -218,6 +217,7 @@ void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
     for (const Touch& before : old) {
       if (before.contact.point.feature != work_.found[i].feature) continue;
+      memory.touches[i].pull = before.pull;
       memory.touches[i].arrivalSpeed = before.arrivalSpeed;
       memory.touches[i].arrivalImpulse = before.arrivalImpulse;
     }
