@@ -247,11 +247,12 @@ void NewtonSystem<N>::expect(const Problem& problem, std::span<const double> pul
 
 template <int N>
 double NewtonSystem<N>::expectSprings(double tolerance) {
+  constexpr int kAtOnce = 2;  // factors: where more are needed, the usual way costs no more
   if (!expects_) return kInfinity;
   rho = kStiff * weight;
   for (Point& point : points) ofSpring(point, point.pull, point.piece);
   startPressed();
-  return endSprings(press(kInner), tolerance);
+  return endSprings(press(kAtOnce), tolerance);
 }
 
 template <int N>

@@ -81,6 +81,11 @@ egl_goldens() {
   TUMBLE_GL=egl "$release/tumble" golden -o "$root/golden"
 }
 
+# The page of a run, played by a browser if there is one.
+page() {
+  tests/house/page.sh "$release"
+}
+
 passed=0 failed=0
 # step NAME FUNCTION: runs it and tells how it went; 77 is a step that has nothing to do.
 step() {
@@ -114,6 +119,7 @@ steps=(
   "oracle:references in many digits"
   "soak:random scenes under the audit"
   "egl_goldens:goldens by EGL"
+  "page:pages of runs play in a headless browser"
 )
 for asked in "$@"; do
   [[ " ${steps[*]}" == *" $asked:"* ]] && continue
