@@ -18,10 +18,11 @@ using cut::CutPlane;
 using cut::Surface;
 using cut::Triangle;
 
-constexpr double kRounding = 1e-12;     // of the size: what rounding of corners may come to
-constexpr double kSnap = 2e-6;          // of the size: corners no further from a cut are on it
-constexpr long kMostWork = 20'000'000;  // triangles looked at, in all surfaces together
-constexpr std::size_t kMostSeeds = 48;  // notches of a piece from which planes are drawn
+constexpr double kRounding = 1e-12;         // of the size: what rounding of corners may come to
+constexpr double kSnap = 2e-6;              // of the size: corners no further from a cut are on it
+constexpr long kMostWork = 20'000'000;      // triangles looked at, in all surfaces together
+constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
+constexpr std::size_t kMostSeeds = 48;      // notches of a piece from which planes are drawn
 constexpr int kSlices = 4;
 
 /// An edge of a piece at which it is not convex.
@@ -396,6 +397,11 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
     one.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull)), -solid.points[0]});
     return one;
   }
+  if (solid.faces.size() > kMostFaces)
+    throw NoPieces("the mesh has " + std::to_string(solid.faces.size()) + " faces, and at most " +
+                       std::to_string(kMostFaces) +
+                       " are taken apart; simplify it, or take pieces = \"hull\"",
+                   -1);
   Decomposer decomposer(solid, tolerance);
   return kind == PieceKind::Good ? decomposer.good() : decomposer.slivers();
 }

@@ -188,8 +188,8 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
   for (Vec3& p : solid.points) p -= given[0];
   checkFaces(solid, given);
   checkEdges(solid, given);
+  checkShells(solid);  // first: it names the shell that is inside out
   checkOutside(solid, given);
-  checkShells(solid);
   checkCrossings(solid);
 
   std::vector<std::vector<int>> flat;

@@ -1,4 +1,7 @@
 // The convex pieces of meshes, as a scene file asks for them and as the cache keeps them.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +24,34 @@ Mesh meshOf(const std::string& keys) {
           keys + " }\n",
       "s.toml");
   return std::get<Mesh>(scene.world.bodies.at(0).shape);
+}
+
+// A box from lo to hi as lines of an OBJ file whose points are counted from `first`.
+std::string boxFile(const Vec3& lo, const Vec3& hi, int first, bool inside = false) {
+  std::string points, faces;
+  for (int k = 0; k < 8; ++k)
+    points += fmt::format("v {} {} {}\n", k & 1 ? hi.x() : lo.x(), k & 2 ? hi.y() : lo.y(),
+                          k & 4 ? hi.z() : lo.z());
+  for (std::vector<int> face : {std::vector<int>{0, 4, 6, 2},
+                                {1, 3, 7, 5},
+                                {0, 1, 5, 4},
+                                {2, 6, 7, 3},
+                                {0, 2, 3, 1},
+                                {4, 5, 7, 6}}) {
+    if (inside) std::reverse(face.begin(), face.end());
+    for (int& p : face) p += first;
+    faces += fmt::format("f {}\n", fmt::join(face, " "));
+  }
+  return points + faces;
+}
+
+std::string refusalOf(const std::string& text) {
+  try {
+    parseMesh(text, "m.obj");
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 std::string why(const std::string& keys) {
@@ -52,6 +83,27 @@ TEST_CASE("a scene says how a mesh is taken apart") {
   CHECK(why(", pieces = \"splinters\"").find("good") != std::string::npos);
   CHECK(why(", pieces_tolerance = -1").find("pieces_tolerance") != std::string::npos);
   CHECK(why(", pieces_tolerance = nan").find("pieces_tolerance") != std::string::npos);
+}
+
+// What is wrong, and in which line of the file.
+TEST_CASE("a mesh that is no solid is refused in one line that says where") {
+  const std::string box = boxFile({0, 0, 0}, {1, 1, 1}, 1);
+  CHECK(refusalOf(box).empty());
+  CHECK(refusalOf(box + boxFile({2, 0, 0}, {3, 1, 1}, 9)).empty());
+  const auto says = [](const std::string& text, const std::string& line, const std::string& what) {
+    const std::string found = refusalOf(text);
+    CAPTURE(found);
+    CHECK(found.starts_with("m.obj:" + line + ": "));
+    CHECK(found.find(what) != std::string::npos);
+    CHECK(found.find('\n') == std::string::npos);
+  };
+  says(box.substr(0, box.rfind('f')), "9", "is not closed");
+  says(box + boxFile({0.5, 0.5, -1}, {0.8, 0.8, 2}, 9), "23", "overlaps the shell");
+  says(box + "f 1 2 2\n", "15", "has no length");
+  says("v 0.5 0 0\n" + boxFile({0, 0, 0}, {1, 1, 1}, 2) + "f 2 1 3\n", "16", "has no area");
+  says(boxFile({0, 0, 0}, {1, 1, 1}, 1, true), "9", "inside out");
+  says(box + boxFile({5, 5, 5}, {6, 6, 6}, 9, true), "23", "inside out");
+  says(box + "v 0 nan 0\n", "15:5", "expected a finite number, found 'nan'");
 }
 
 TEST_CASE("pieces as text are the same to the last bit, and a broken text is none") {

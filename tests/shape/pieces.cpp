@@ -226,6 +226,13 @@ TEST_CASE("what takes too many pieces is refused with the place, and a tolerance
   CHECK(pieces.excess <= 0.08);
 }
 
+TEST_CASE("a mesh of more faces than can be taken apart is refused with words, its hull is not") {
+  const Polyhedron solid = scan(101, 0.1);
+  REQUIRE(solid.faces.size() > 20'000);
+  CHECK(refusalOf(solid, 0.1).find("at most 20000 are taken apart") != std::string::npos);
+  CHECK(piecesOf(solid, PieceKind::Hull, 0.1).hulls.size() == 1);
+}
+
 TEST_CASE("slivers are the mesh too, and the hull is one piece that is more") {
   const Polyhedron solid = ell();
   const Pieces slivers = piecesOf(solid, PieceKind::Slivers, 1e-6);
