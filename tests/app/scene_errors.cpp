@@ -306,7 +306,7 @@ TEST_CASE("a wrong world, or none, is named") {
       {"[world]\nmethod = \"rk4\"\n" + body, "2:10",
        "'rk4' is an integrator: set world.method = 'course' and course.integrator = 'rk4'"},
       {"[world]\nimpact = \"bouncy\"\n" + body, "2:10",
-       "valid: reflections, simultaneous, sequential, poisson"},
+       "valid: auto, reflections, crowd, simultaneous, sequential, poisson"},
       {"[world]\nduration = 0\n" + body, "2:12",
        "world.duration: expected a number [s] in (0, 1e+06]"},
       {"[world]\nduration = 1e7\n" + body, "2:12", "found 1e+07"},
