@@ -179,10 +179,37 @@ class Plot {
   bool holds(const Vector2d& point) const { return x_.holds(point.x()) && y_.holds(point.y()); }
   Vector2d at(const Vector2d& point) const { return {x_.at(point.x()), y_.at(point.y())}; }
 
+  // Where the curve is straight, one stroke: many would show their ends as beads.
   void drawLine(const ChartCurve& curve) {
-    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
-      if (holds(curve.points[i]) && holds(curve.points[i + 1]))
-        canvas_.stroke(at(curve.points[i]), at(curve.points[i + 1]), 2.0, curve.colour);
+    const std::vector<Vector2d>& points = curve.points;
+    for (std::size_t from = 0; from + 1 < points.size();) {
+      if (!holds(points[from])) {
+        ++from;
+        continue;
+      }
+      std::size_t to = from + 1;
+      while (to < points.size() && holds(points[to]) && straight(points, from, to)) ++to;
+      if (--to == from) {
+        ++from;
+        continue;
+      }
+      canvas_.stroke(at(points[from]), at(points[to]), 2.0, curve.colour);
+      from = to;
+    }
+  }
+
+  // Whether the points between two lie on the line from one to the other, to a tenth of a pixel.
+  bool straight(const std::vector<Vector2d>& points, std::size_t from, std::size_t to) const {
+    constexpr double kOff = 0.1;
+    const Vector2d start = at(points[from]), along = at(points[to]) - start;
+    const double length = along.norm();
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const Vector2d way = at(points[i]) - start;
+      const double off = std::abs(along.x() * way.y() - along.y() * way.x());
+      const double share = along.dot(way);
+      if (off > kOff * length || share < 0.0 || share > length * length) return false;
+    }
+    return true;
   }
 
   void drawMarks(std::size_t index) {

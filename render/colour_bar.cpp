@@ -28,7 +28,9 @@ void drawColourBar(const ColourBar& bar, Canvas& canvas) {
         std::min(static_cast<std::size_t>(u), std::max<std::size_t>(bar.stops.size(), 2) - 2);
     const Colour &a = bar.stops[stop], &b = bar.stops[std::min(stop + 1, bar.stops.size() - 1)];
     const float t = static_cast<float>(u - static_cast<double>(stop));
-    canvas.fill({left + i * width / columns, top}, {width / columns, height},
+    // Each to the end of the bar, so that no paper shines through between two.
+    const double from = i * width / columns;
+    canvas.fill({left + from, top}, {width - from, height},
                 {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
   }
   const double step = bar.ticks.size() > 1 ? std::abs(bar.ticks[1] - bar.ticks[0]) : 1.0;

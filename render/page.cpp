@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 
 #include "render/targets.h"
 
@@ -13,12 +14,14 @@ constexpr float kTop[3] = {235.0f, 239.0f, 244.0f}, kBottom[3] = {250.0f, 249.0f
 
 Image emptyPage(int width, int height) {
   Image page{width, height, {}, {}};
-  page.rgb.reserve(3u * static_cast<std::size_t>(width) * height);
+  const std::size_t bytes = 3u * static_cast<std::size_t>(width);
+  page.rgb.resize(bytes * height);
   for (int y = 0; y < height; ++y) {
     const Colour colour = pageColour((y + 0.5) / height);
-    std::uint8_t level[3];
-    for (int c = 0; c < 3; ++c) level[c] = static_cast<std::uint8_t>(255.0f * colour[c] + 0.5f);
-    for (int x = 0; x < width; ++x) page.rgb.insert(page.rgb.end(), level, level + 3);
+    std::uint8_t* row = page.rgb.data() + bytes * y;
+    for (int c = 0; c < 3; ++c) row[c] = static_cast<std::uint8_t>(255.0f * colour[c] + 0.5f);
+    for (std::size_t done = 3; done < bytes; done *= 2)
+      std::memcpy(row + done, row, std::min(done, bytes - done));
   }
   return page;
 }
@@ -37,8 +40,11 @@ void cover(Image& page, const Layer& layer) {
     for (int x = 0; x < place.width; ++x, from += 4, to += 3) {
       if (from[3] == 0) continue;
       const unsigned through = 255u - from[3];
-      for (int c = 0; c < 3; ++c)
-        to[c] = static_cast<std::uint8_t>(from[c] + div255(to[c] * through));
+      if (through == 0)
+        std::copy_n(from, 3, to);
+      else
+        for (int c = 0; c < 3; ++c)
+          to[c] = static_cast<std::uint8_t>(from[c] + div255(to[c] * through));
       if (page.alpha.empty()) continue;
       std::uint8_t& alpha = page.alpha[y * page.width + place.x + x];
       alpha = static_cast<std::uint8_t>(from[3] + div255(alpha * through));

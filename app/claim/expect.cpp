@@ -6,38 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "app/claim/formula.h"
-#include "app/claim/quantity.h"
-#include "app/scene/findings.h"
+#include "app/claim/meter.h"
 
 namespace tumble {
 
 namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-
-/// A formula with what it reads.
-class Meter {
- public:
-  Meter(const Scene& scene, const std::string& text) : text_(text), formula_(text) {
-    for (const std::string& name : formula_.names())
-      if (const std::optional<Gauge> gauge = Gauge::named(scene, name)) gauges_.push_back(*gauge);
-    numbers_.resize(gauges_.size());
-  }
-  double operator()(const Sample& sample) {
-    for (std::size_t i = 0; i < gauges_.size(); ++i) numbers_[i] = gauges_[i](sample);
-    return formula_(numbers_);
-  }
-  const std::vector<Gauge>& gauges() const { return gauges_; }
-  /// Whether the formula is one quantity and nothing else.
-  bool isName() const { return formula_.names().size() == 1 && formula_.names().front() == text_; }
-
- private:
-  std::string text_;
-  Formula formula_;
-  std::vector<Gauge> gauges_;
-  std::vector<double> numbers_;
-};
 
 struct Measured {
   double value = kNoNumber;
@@ -90,10 +65,11 @@ Expectation judged(const ExpectDef& expect, const Recording& recording, Meter& m
   const double error = std::isnan(measured.value) ? kNoNumber : errorOf(expect, measured.value);
   one.row = {labelOf(expect), measured.value, expect.target, error, expect.within};
   one.row.relation = expect.relation;
-  if (!meter.isName()) return one;
-  const std::size_t axis = std::string("xyz").find(meter.gauges().front().quantity().name);
+  const Gauge* alone = meter.alone();
+  if (!alone) return one;
+  const std::size_t axis = std::string("xyz").find(alone->quantity().name);
   if (axis == std::string::npos) return one;
-  one.body = meter.gauges().front().body();
+  one.body = alone->body();
   one.axis = static_cast<int>(axis);
   return one;
 }
@@ -105,6 +81,12 @@ Place within(const Scene& scene, const std::string& where, int bytes) {
   Place place = known->second;
   if (place.column > 0) place.column += 1 + bytes;
   return place;
+}
+
+void addFaults(const Scene& scene, const std::string& key, const std::string& where,
+               const std::string& text, bool running, std::vector<Diagnostic>& faults) {
+  for (const Meter::Fault& fault : Meter::faults(scene, text, running))
+    faults.push_back({within(scene, where, fault.at), key + ": " + fault.what});
 }
 
 }  // namespace
@@ -120,22 +102,19 @@ std::vector<Expectation> expectationsOf(const Scene& scene, const Recording& rec
   return all;
 }
 
-std::vector<Diagnostic> faultsOfExpectations(const Scene& scene) {
+std::vector<Diagnostic> faultsOfFormulas(const Scene& scene) {
   std::vector<Diagnostic> faults;
-  for (std::size_t i = 0; i < scene.expects.size(); ++i) {
-    const std::string key = fmt::format("expect.{}.value", i);
-    const std::string where = fmt::format("expect[{}].value", i);
-    const std::string& text = scene.expects[i].value;
-    try {
-      const Formula formula(text);
-      for (const std::string& name : formula.names())
-        if (!Gauge::named(scene, name))
-          faults.push_back(
-              {within(scene, where, static_cast<int>(text.find(name))),
-               key + ": unknown quantity " + inQuotes(name) + hintOfQuantity(scene, name)});
-    } catch (const NotAFormula& error) {
-      faults.push_back({within(scene, where, error.at()), key + ": " + error.what()});
-    }
+  for (std::size_t i = 0; i < scene.expects.size(); ++i)
+    addFaults(scene, fmt::format("expect.{}.value", i), fmt::format("expect[{}].value", i),
+              scene.expects[i].value, false, faults);
+  for (std::size_t g = 0; g < scene.graphs.size(); ++g) {
+    if (const std::string& text = scene.graphs[g].against; !text.empty())
+      addFaults(scene, fmt::format("graph.{}.against", g), fmt::format("graph[{}].against", g),
+                text, true, faults);
+    for (std::size_t i = 0; i < scene.graphs[g].curves.size(); ++i)
+      if (const std::string& text = scene.graphs[g].curves[i].value; !text.empty())
+        addFaults(scene, fmt::format("graph.{}.curves.{}.value", g, i),
+                  fmt::format("graph[{}].curves[{}].value", g, i), text, true, faults);
   }
   return faults;
 }

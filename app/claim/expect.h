@@ -19,8 +19,8 @@ struct Expectation {
 /// them, is left out; one at an instant that the run did not reach fails.
 std::vector<Expectation> expectationsOf(const Scene& scene, const Recording& recording);
 
-/// What is wrong with the formulas of a scene: no formula, or a name that nothing has; each with
-/// its place in the text.
-std::vector<Diagnostic> faultsOfExpectations(const Scene& scene);
+/// What is wrong with the formulas of a scene, in [[expect]] and [[graph]]: no formula, or a name
+/// that nothing has; each with its place in the text.
+std::vector<Diagnostic> faultsOfFormulas(const Scene& scene);
 
 }  // namespace tumble

@@ -32,6 +32,23 @@ std::vector<RigidBody> bodiesAt(const WorldDef& world, const Sample& sample) {
   return bodies;
 }
 
+std::vector<RigidBody> loadedBodiesAt(const WorldDef& world, const Sample& sample) {
+  std::vector<RigidBody> bodies = bodiesAt(world, sample);
+  sumForces(world.gravity, world.forces, bodies);
+  for (const ContactSample& c : sample.contacts) {
+    applyForce(bodies[c.a], c.p, c.force);
+    applyForce(bodies[c.b], c.p, -c.force);
+  }
+  for (const JointForce& joint : sample.joints) {
+    applyForce(bodies[joint.a], joint.p, joint.force);
+    bodies[joint.a].torque += joint.torque;
+    if (joint.b >= static_cast<int>(bodies.size())) continue;
+    applyForce(bodies[joint.b], joint.p, -joint.force);
+    bodies[joint.b].torque -= joint.torque;
+  }
+  return bodies;
+}
+
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body) {
   const double mass = bodyMass(world.bodies[body]);
   const auto holds = [&](const JointDef& joint) { return joint.a == body || joint.b == body; };

@@ -15,6 +15,9 @@ bool moves(const BodyDef& body);
 /// All bodies where a sample has them, moving as there; without forces.
 std::vector<RigidBody> bodiesAt(const WorldDef& world, const Sample& sample);
 
+/// The same with the forces and torques of the world, of contacts and of joints on them.
+std::vector<RigidBody> loadedBodiesAt(const WorldDef& world, const Sample& sample);
+
 /// Acceleration [m/s²] of the centre of mass in free flight: gravity + Σ uniform forces / mass.
 /// Empty if a drag, a spring, a joint or a force off the centre acts, whose motion has no parabola.
 std::optional<Vec3> freeAcceleration(const WorldDef& world, int body);

@@ -53,6 +53,16 @@ double force(const Instant& at) {
   return contactForce(at)[axis];
 }
 
+template <int axis>
+double jointForce(const Instant& at) {
+  double sum = 0.0;
+  for (const JointForce& joint : at.sample.joints) {
+    if (joint.a == at.body) sum += joint.force[axis];
+    if (joint.b == at.body) sum -= joint.force[axis];
+  }
+  return sum;
+}
+
 double least(const Instant& at) {
   double separation = std::numeric_limits<double>::infinity();
   for (const ContactSample& contact : at.sample.contacts)
@@ -99,6 +109,9 @@ const std::vector<Quantity>& bodyQuantities() {
       {"fy", "N", "upward", force<1>},
       {"fz", "N", "", force<2>},
       {"force", "N", "size of that sum", [](const Instant& at) { return contactForce(at).norm(); }},
+      {"jx", "N", "sum of what joints exert on it", jointForce<0>},
+      {"jy", "N", "upward", jointForce<1>},
+      {"jz", "N", "", jointForce<2>},
   };
   return table;
 }

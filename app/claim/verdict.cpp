@@ -35,7 +35,7 @@ Verdict judge(const Scene& scene, const Recording& recording) {
 void requireKnownChecks(const Scene& scene) {
   std::vector<std::string> known;
   for (const Check& check : checks()) known.emplace_back(check.name);
-  std::vector<Diagnostic> diagnostics = faultsOfExpectations(scene);
+  std::vector<Diagnostic> diagnostics = faultsOfFormulas(scene);
   const auto require = [&](const std::string& name, const std::string& key,
                            const std::string& where) {
     if (findCheck(name)) return;

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <map>
 #include <utility>
 
 #include "app/file/html.h"
+#include "app/panel/page.h"
 
 namespace tumble {
 
@@ -14,11 +17,9 @@ namespace {
 
 // Chapters in the order of the lectures; others follow in the order of the alphabet.
 std::pair<int, std::string> lectureOf(const Scene& scene) {
-  constexpr std::array kLectures = {"particles and rigid bodies",
-                                    "rigid bodies",
-                                    "collision",
-                                    "contact",
-                                    "resting contact",
+  constexpr std::array kLectures = {"how it works", "particles and rigid bodies",
+                                    "rigid bodies", "collision",
+                                    "contact",      "resting contact",
                                     "friction"};
   const auto known = std::find(kLectures.begin(), kLectures.end(), scene.chapter);
   return {static_cast<int>(known - kLectures.begin()),
@@ -111,6 +112,51 @@ std::string section(const Exhibit& exhibit) {
   return out + "</div>\n" + claimTable(exhibit.verdict);
 }
 
+// A picture that shows a slide.
+struct Sight {
+  std::string link, text;
+};
+
+// "SD3" of a series and a number, in the order of both.
+std::pair<std::string, int> slideOf(const std::string& name) {
+  const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
+  return {name.substr(0, digits), std::atoi(name.c_str() + digits)};
+}
+
+using Sights = std::map<std::pair<std::string, int>, std::vector<Sight>>;
+
+void addSights(const std::vector<std::string>& slides, const std::string& link,
+               const std::string& text, Sights& sights) {
+  for (const std::string& slide : slides) sights[slideOf(slide)].push_back({link, text});
+}
+
+// Which picture shows which slide of the lectures.
+std::string slideTable(const std::vector<const Exhibit*>& exhibits) {
+  Sights sights;
+  for (const Exhibit* exhibit : exhibits) {
+    const Scene& scene = exhibit->scene;
+    addSights(scene.slides, scene.name + "/still.png", scene.title, sights);
+    for (const PanelDef& panel : scene.panels)
+      addSights(panel.slides, scene.name + "/panels.png", panel.variant.title, sights);
+    const auto plots = plotNames(scene);
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+      const std::size_t chart = i - scene.graphs.size();
+      addSights(i < scene.graphs.size() ? scene.graphs[i].slides : scene.charts[chart].slides,
+                scene.name + "/" + plots[i].first + ".png", plots[i].second, sights);
+    }
+  }
+  if (sights.empty()) return "";
+  std::string out = "<h2 id=\"slides\">Slides and their pictures</h2>\n<table>\n";
+  for (const auto& [slide, shown] : sights) {
+    out += fmt::format("<tr><td>{}{}</td><td>", htmlText(slide.first), slide.second);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      out += fmt::format("{}<a href=\"{}\">{}</a>", i > 0 ? " · " : "", htmlText(shown[i].link),
+                         htmlText(shown[i].text));
+    out += "</td></tr>\n";
+  }
+  return out + "</table>\n";
+}
+
 }  // namespace
 
 std::string galleryPage(const std::vector<Exhibit>& exhibits) {
@@ -130,8 +176,11 @@ std::string galleryPage(const std::vector<Exhibit>& exhibits) {
     out += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", htmlText(scene.name),
                        htmlText(scene.title));
   }
-  out += order.empty() ? "</nav>\n<main>\n" : "</ul></nav>\n<main>\n";
+  out += order.empty() ? "</nav>\n<main>\n"
+                       : "</ul><p><a href=\"#slides\">Slides and their pictures</a></p></nav>\n"
+                         "<main>\n";
   for (const Exhibit* exhibit : order) out += section(*exhibit);
+  out += slideTable(order);
   return out + "</main>\n" + kTail;
 }
 

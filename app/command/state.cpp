@@ -13,14 +13,6 @@ namespace tumble {
 
 namespace {
 
-StartCheck checkedStart(const Scene& scene) {
-  try {
-    return World::checkStart(scene.world);
-  } catch (const Refusal& refusal) {
-    throw SceneError({locate(scene, refusal)});
-  }
-}
-
 void printLayer(const Scene& scene, const StartCheck& check, StateLayer layer) {
   const auto count = std::count_if(check.faults.begin(), check.faults.end(),
                                    [&](const StateFault& fault) { return fault.layer == layer; });

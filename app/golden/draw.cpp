@@ -61,8 +61,26 @@ Recording thinned(const Recording& recording) {
 
 Golden drawWindow(Renderer& renderer) {
   const Scene scene = windowScene();
-  return {
-      std::string(kWindowSubject), {{"page", viewerSnapshot(renderer, scene, 0.5, 960, 540)}}, {}};
+  const Eigen::Vector2f ball(582.0f, 195.0f), forces(149.0f, 523.0f);  // [px]
+  const auto click = [](const Eigen::Vector2f& at) {
+    return std::vector<Deed>{{at}, {at, true}, {at}};
+  };
+  std::vector<Deed> picked = click(ball), shown = click(forces);
+  picked.push_back({.typed = "f"});
+  const struct {
+    const char* name;
+    double share;
+    std::vector<Deed> deeds;
+  } states[] = {{"page", 0.5, {}},
+                {"picked", 0.5, picked},
+                {"forces", 1.0, shown},
+                {"help", 0.0, {{.typed = "h"}}},
+                {"refused", 0.5, {{.dropped = "missing.toml"}}}};
+  Golden golden{std::string(kWindowSubject), {}, {}};
+  for (const auto& state : states)
+    golden.images.push_back(
+        {state.name, viewerSnapshot(renderer, scene, state.share, 960, 540, state.deeds)});
+  return golden;
 }
 
 // The page of panels and charts, and the numbers that every machine finds for the charts.

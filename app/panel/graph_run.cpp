@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/claim/meter.h"
 #include "app/claim/parting.h"
 #include "app/present/palette.h"
 #include "app/record/output.h"
@@ -20,6 +21,7 @@ int bodyNamed(const Scene& scene, const std::string& name) {
 std::string captionOf(const std::string& shows) {
   if (shows == "velocity") return "velocity / (m/s)";
   if (shows == "planes") return "planes sought";
+  if (shows == "pairs") return "pairs of parts asked about";
   if (shows == "force") return "contact force / N";
   if (shows == "joint") return "joint force upward / N";
   return shows == "energy" ? "energy / J" : "height / m";
@@ -49,39 +51,69 @@ double shownOf(const std::string& shows, const Sample& sample, int body) {
 
 namespace {
 
-// Two series: planes sought where those of the sample before are asked first, and where not.
-void addPlaneCounts(const Scene& scene, const std::string& label, std::vector<GraphSeries>& all) {
-  GraphSeries asked{label, {}, {}}, anew{"seeking each anew", {}, {}};
+// Planes sought where those of the sample before are asked first, or where not: one for each pair.
+// Of planes both.
+void addPlaneCounts(const Scene& scene, const GraphDef& graph, const std::string& label,
+                    std::vector<GraphSeries>& all) {
+  const bool pairs = graph.shows == "pairs";
+  GraphSeries asked{label, {}, {}}, anew{pairs ? label : "seeking each anew", {}, {}};
   Coherence coherence(scene);
   run(scene, scene.image.rate, [&](Sample&& sample) {
     coherence.look(sample);
     asked.points.emplace_back(sample.t, static_cast<double>(coherence.searches()));
     anew.points.emplace_back(sample.t, static_cast<double>(coherence.pairs()));
   });
-  all.push_back(std::move(asked));
+  if (!pairs) all.push_back(std::move(asked));
   all.push_back(std::move(anew));
+}
+
+// What a formula comes to, with the certificate as it stands at each sample.
+void addValues(const Scene& scene, const GraphDef& graph, const GraphCurve& curve,
+               std::vector<GraphSeries>& all) {
+  const std::string against = graph.against.empty() ? "t" : graph.against;
+  for (const std::string& text : {against, curve.value})
+    for (const Meter::Fault& fault : Meter::faults(scene, text, true))
+      throw SceneError({{{scene.file}, "[[graph]]: " + fault.what + " in this variant"}});
+  Meter across(scene, against), upward(scene, curve.value);
+  GraphSeries& series = all.emplace_back();
+  series.label = curve.variant.title;
+  World world = makeWorld(scene);
+  const int count = sampleCount(scene, scene.image.rate);
+  for (int k = 0; k < count; ++k) {
+    const double t = k / scene.image.rate;
+    world.advance(t);
+    if (world.report().stopped) break;
+    const Sample sample = world.sample(t);
+    const Certificate& soFar = world.report().certificate;
+    series.points.emplace_back(across(sample, &soFar), upward(sample, &soFar));
+  }
+}
+
+void addShown(const Scene& scene, const GraphDef& graph, const std::string& label,
+              std::vector<GraphSeries>& all) {
+  const int body = bodyNamed(scene, graph.body);
+  GraphSeries& series = all.emplace_back();
+  series.label = label;
+  const Recording recording = run(scene, scene.image.rate, [&](Sample&& sample) {
+    series.points.emplace_back(sample.t, shownOf(graph.shows, sample, body));
+  });
+  for (const Event& event : recording.report.events)
+    if (event.kind == EventKind::Impact && (event.a == body || event.b == body))
+      series.impacts.push_back(event);
 }
 
 }  // namespace
 
 std::vector<GraphSeries> runGraph(const Scene& scene, const GraphDef& graph, const RunDone& done) {
   std::vector<GraphSeries> all;
-  for (const Variant& curve : graph.curves) {
-    const Scene changed = sceneOf(scene, joined(graph.variant, curve));
-    if (graph.shows == "planes") {
-      addPlaneCounts(changed, curve.title, all);
-      done();
-      continue;
-    }
-    const int body = bodyNamed(changed, graph.body);
-    GraphSeries& series = all.emplace_back();
-    series.label = curve.title;
-    const Recording recording = run(changed, changed.image.rate, [&](Sample&& sample) {
-      series.points.emplace_back(sample.t, shownOf(graph.shows, sample, body));
-    });
-    for (const Event& event : recording.report.events)
-      if (event.kind == EventKind::Impact && (event.a == body || event.b == body))
-        series.impacts.push_back(event);
+  for (const GraphCurve& curve : graph.curves) {
+    const Scene changed = sceneOf(scene, joined(graph.variant, curve.variant));
+    if (graph.shows == "planes" || graph.shows == "pairs")
+      addPlaneCounts(changed, graph, curve.variant.title, all);
+    else if (graph.shows == "values")
+      addValues(changed, graph, curve, all);
+    else
+      addShown(changed, graph, curve.variant.title, all);
     done();
   }
   return all;
@@ -101,9 +133,10 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
   Chart plot;
   plot.title = graph.variant.title;
   plot.subtitle = graph.subtitle;
-  plot.x = {"time / s", false};
+  plot.x = {graph.across.empty() ? "time / s" : graph.across, false};
   // What is lost or gained of an energy is seen as a share of it.
-  plot.y = {captionOf(graph.shows), false, graph.shows == "energy"};
+  plot.y = {graph.shows == "values" ? graph.axis : captionOf(graph.shows), false,
+            graph.shows == "energy"};
   for (std::size_t i = 0; i < series.size(); ++i) {
     ChartCurve& curve = plot.curves.emplace_back();
     curve.label = series[i].label;

@@ -1,4 +1,4 @@
-// A graph of a scene: one body against time, in variants, and the plot of them.
+// A graph of a scene: one body, or what formulas come to, against time, in variants, and its plot.
 #pragma once
 
 #include "app/panel/variant_run.h"

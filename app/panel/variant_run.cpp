@@ -4,6 +4,7 @@
 
 #include "app/claim/verdict.h"
 #include "app/present/bodies.h"
+#include "app/present/state_picture.h"
 
 namespace tumble {
 
@@ -28,11 +29,29 @@ bool comparable(const VariantRun& runA, const VariantRun& runB) {
 // The camera that sees the motion of every run that can be compared with this one.
 Framing sharedFraming(const std::deque<VariantRun>& runs, const VariantRun& run) {
   std::vector<Eigen::Vector3d> points;
-  for (const VariantRun& other : runs)
-    if (comparable(run, other))
-      for (const Eigen::Vector3d& point : motionPoints(other.scene, other.recording))
-        points.push_back(point);
-  return framingOf(run.scene, points);
+  double fastest = 0.0;
+  for (const VariantRun& other : runs) {
+    if (!comparable(run, other)) continue;
+    for (const Eigen::Vector3d& point : motionPoints(other.scene, other.recording))
+      points.push_back(point);
+    fastest = std::max(fastest, fastestOf(other.scene, other.recording));
+  }
+  Framing framing = framingOf(run.scene, points);
+  framing.fastest = fastest;
+  return framing;
+}
+
+// The start as it stands, which may be one that no run can begin with.
+void takeState(VariantRun& run) {
+  constexpr double kTop = 40.0;  // [px] of its heading
+  const StartCheck check = checkedStart(run.scene);
+  run.recording.samples = {check.sample};
+  run.recording.rate = run.scene.image.rate;
+  run.still = true;
+  run.wrong = !check.faults.empty();
+  run.picture = [scene = &run.scene, check](const Presenter&) {
+    return statePicture(*scene, check, kTop);
+  };
 }
 
 }  // namespace
@@ -50,6 +69,11 @@ std::deque<VariantRun> runPanels(const Scene& scene, const RunDone& done) {
     run.title = panel.variant.title;
     run.subtitle = panel.subtitle;
     run.scene = sceneOf(scene, panel.variant);
+    if (panel.picture == "state") {
+      takeState(run);
+      done();
+      continue;
+    }
     run.recording = record(run.scene, run.scene.image.rate);
     if (run.recording.samples.empty())
       throw StoppedError("the physics of panel '" + run.title +
@@ -74,6 +98,7 @@ std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPane
     picture.title.clear();
     picture.subtitle.clear();
     panels.push_back({draw(picture), run.title, run.subtitle});
+    if (run.wrong) redden(panels.back().image);
   }
   return panels;
 }
@@ -89,7 +114,8 @@ int panelHeight(const Scene& scene, int width) {
 int columnsOf(std::size_t panels) {
   if (panels <= 3) return static_cast<int>(panels);
   if (panels == 4) return 2;
-  return panels <= 6 || panels == 9 ? 3 : 4;
+  if (panels <= 6 || panels == 9) return 3;
+  return panels % 4 == 1 ? 5 : 4;  // none alone in the last row
 }
 
 }  // namespace tumble

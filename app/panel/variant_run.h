@@ -17,6 +17,7 @@ struct VariantRun {
   Scene scene;
   Recording recording;
   bool still = false;                                ///< one instant, not the whole motion
+  bool wrong = false;                                ///< a state that is not legal: in red
   std::function<Picture(const Presenter&)> picture;  ///< what of the motion is shown
 };
 

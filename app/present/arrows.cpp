@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/claim/free_body.h"
+#include "app/present/named.h"
 #include "app/present/palette.h"
 #include "sim/math/frames.h"
 
@@ -37,11 +38,8 @@ void addNormals(const Sample& sample, double length, Picture& picture) {
     picture.arrows.push_back({contact.p, contact.p + length * contact.n, colour::kInk, 1.3f});
 }
 
-void addVelocities(const Scene& scene, const Recording& recording, const Sample& sample,
-                   double length, Picture& picture) {
-  double fastest = 0.0;
-  for (const Sample& other : recording.samples)
-    for (const BodySample& body : other.bodies) fastest = std::max(fastest, body.v.norm());
+void addVelocities(const Scene& scene, const Sample& sample, double fastest, double length,
+                   Picture& picture) {
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
     const BodySample& body = sample.bodies[i];
     if (!moves(scene.world.bodies[i]) || body.v.norm() < 0.01 * fastest) continue;
@@ -56,12 +54,13 @@ namespace {
 /// A force [N] on a body, whose arrow ends at `tip`.
 struct Push {
   Vec3 tip, force;
+  std::size_t body;
 };
 
 // An arrow towards the centre of mass ends on the body's surface.
-Push pushAtCentre(const BodyDef& def, const BodySample& body, const Vec3& force) {
+Push pushAtCentre(const BodyDef& def, const BodySample& body, const Vec3& force, std::size_t i) {
   const Vec3 along = force.normalized();
-  return {body.x - reach(def.shape, body.q, along) * along, force};
+  return {body.x - reach(def.shape, body.q, along) * along, force, i};
 }
 
 std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
@@ -71,19 +70,57 @@ std::vector<Push> pushes(const Scene& scene, const Sample& sample) {
     if (const UniformWind* wind = std::get_if<UniformWind>(&force)) {
       for (std::size_t i = 0; i < bodies.size(); ++i)
         if (moves(bodies[i]) && (wind->body == kNoBody || wind->body == static_cast<int>(i)))
-          found.push_back(pushAtCentre(bodies[i], sample.bodies[i], wind->force));
+          found.push_back(pushAtCentre(bodies[i], sample.bodies[i], wind->force, i));
     } else if (const PointForce* point = std::get_if<PointForce>(&force)) {
       const BodySample& body = sample.bodies[point->body];
-      found.push_back({toWorld({body.x, body.q}, point->point_B), point->force});
+      found.push_back({toWorld({body.x, body.q}, point->point_B), point->force,
+                       static_cast<std::size_t>(point->body)});
     }
   }
   return found;
 }
 
+// "f₁": the name of the k-th force.
+std::string forceName(std::size_t k) {
+  constexpr const char* kDigits[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+  std::string name;
+  for (const char digit : std::to_string(k + 1)) name += kDigits[digit - '0'];
+  return "f" + name;
+}
+
+// Names at the tails of forces, and on each body F = Σ f and τ = Σ (p − x) × f.
+void addResultants(const std::vector<Push>& found, const Sample& sample, double metres,
+                   double length, Picture& picture) {
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    Label label;
+    label.anchor = found[k].tip - metres * found[k].force;
+    const bool upward = found[k].force.y() > 0.7 * found[k].force.norm();
+    label.offset = {0.0, upward ? 17.0 : -7.0};
+    label.align = Align::Centre;
+    label.text = forceName(k);
+    label.size = 16.0f;
+    label.italic = true;
+    label.colour = colour::kForce;
+    picture.labels.push_back(label);
+  }
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
+    for (const Push& push : found) {
+      if (push.body != i) continue;
+      sum += push.force;
+      torque += (push.tip - sample.bodies[i].x).cross(push.force);
+    }
+    addNamedArrow(sample.bodies[i].x, metres * sum, colour::kInk, "F = Σ f", picture);
+    if (torque.norm() > 1e-9 * sum.norm())
+      addNamedArrow(sample.bodies[i].x, 1.5 * length * torque.normalized(), colour::kAngular,
+                    "τ = Σ (p − x) × f", picture, true);
+  }
+}
+
 }  // namespace
 
 void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture,
-               double scale) {
+               double scale, bool resultant) {
   const std::vector<Push> found = pushes(scene, sample);
   double largest = 0.0;
   for (const Push& push : found) largest = std::max(largest, push.force.norm());
@@ -92,6 +129,7 @@ void addForces(const Scene& scene, const Sample& sample, double length, Picture&
   for (const Push& push : found)
     picture.arrows.push_back(
         {push.tip - metres * push.force, push.tip, colour::kForce, scale > 0.0 ? 2.6f : 1.6f});
+  if (resultant) addResultants(found, sample, metres, length, picture);
 }
 
 }  // namespace tumble

@@ -18,14 +18,15 @@ void addContactForces(const Sample& sample, double fmax, double length, Picture&
 /// Contact normals, `length` [m] long.
 void addNormals(const Sample& sample, double length, Picture& picture);
 
-/// Velocities of the centres of mass, the fastest of the run drawn `length` [m] long.
-void addVelocities(const Scene& scene, const Recording& recording, const Sample& sample,
-                   double length, Picture& picture);
+/// Velocities of the centres of mass, one of `fastest` [m/s] drawn `length` [m] long.
+void addVelocities(const Scene& scene, const Sample& sample, double fastest, double length,
+                   Picture& picture);
 
 /// Uniform and point forces, the largest drawn `length` [m] long, or all by a scale [m/N] that is
-/// not 0. They blow onto the bodies.
+/// not 0. They blow onto the bodies. If asked for, they have names, and each body its sum and
+/// torque.
 void addForces(const Scene& scene, const Sample& sample, double length, Picture& picture,
-               double scale = 0.0);
+               double scale = 0.0, bool resultant = false);
 
 /// A bar for each pair of bodies that touch in the tallest group of touching bodies: the sum of the
 /// pair's contact forces in newtons, as long as it is large, level with the contact.

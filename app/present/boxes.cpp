@@ -10,7 +10,8 @@ namespace tumble {
 namespace {
 
 // The box, carried from its own axes into the world by x + R p.
-void addBox(const Aabb& box, const Vec3& x, const Mat3& R, const Colour& colour, Picture& picture) {
+void addBox(const Aabb& box, const Vec3& x, const Mat3& R, const Colour& colour, float width,
+            Picture& picture) {
   const auto corner = [&](bool right, bool up, bool near) -> Eigen::Vector3d {
     return x + R * Vec3(right ? box.hi.x() : box.lo.x(), up ? box.hi.y() : box.lo.y(),
                         near ? box.hi.z() : box.lo.z());
@@ -18,7 +19,7 @@ void addBox(const Aabb& box, const Vec3& x, const Mat3& R, const Colour& colour,
   // The ring below, the ring above, and three of the four posts between them.
   Polyline rings, post;
   rings.colour = post.colour = colour;
-  rings.width = post.width = 1.0f;
+  rings.width = post.width = width;
   for (const bool y : {false, true})
     for (const auto& [across, z] :
          {std::pair(false, false), {true, false}, {true, true}, {false, true}, {false, false}})
@@ -37,7 +38,7 @@ void addBoundingBoxes(const Scene& scene, const Sample& sample, Picture& picture
     const BodyDef& body = scene.world.bodies[i];
     if (!moves(body)) continue;
     addBox(boundingBox(body.shape, {sample.bodies[i].x, sample.bodies[i].q}), Vec3::Zero(),
-           Mat3::Identity(), colour::kQuiet, picture);
+           Mat3::Identity(), colour::kQuiet, 1.0f, picture);
   }
 }
 
@@ -46,7 +47,8 @@ void addBodyBoxes(const Scene& scene, const Sample& sample, Picture& picture) {
     const BodyDef& body = scene.world.bodies[i];
     if (!moves(body)) continue;
     const Aabb box = boundingBox(body.shape, {Vec3::Zero(), Quat::Identity()});
-    addBox(box, sample.bodies[i].x, sample.bodies[i].q.toRotationMatrix(), colour::kForce, picture);
+    addBox(box, sample.bodies[i].x, sample.bodies[i].q.toRotationMatrix(), colour::kForce, 2.0f,
+           picture);
   }
 }
 
@@ -66,7 +68,7 @@ void addTreeBoxes(const Scene& scene, const Sample& sample, int level, Picture& 
     const BoxTree tree = treeOf(scene.world.bodies[i].shape);
     for (const BoxTree::Node& node : tree.nodes())
       if (node.level == level || (node.item >= 0 && node.level < level))
-        addBox(node.box, body.x, body.q.toRotationMatrix(), colour::kForce, picture);
+        addBox(node.box, body.x, body.q.toRotationMatrix(), colour::kForce, 1.0f, picture);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/bodies.h"
+#include "app/present/named.h"
 #include "app/present/palette.h"
 #include "sim/body/principal_axes.h"
 
@@ -81,29 +82,6 @@ std::vector<std::vector<Vec3>> otherCurves(const Vec3& I) {
   return curves;
 }
 
-// The name stands to the right of the tip, above one that points to the left, that of ω to the
-// left: L and ω may point the same way.
-void addArrow(const Vec3& from, const Vec3& vector, const Colour& colour, const std::string& name,
-              Picture& picture) {
-  if (vector.norm() < 1e-9) return;
-  picture.arrows.push_back({from, from + vector, colour, 1.9f});
-  Label label;
-  label.anchor = from + vector;
-  const bool left = name == "ω";
-  const Vec3 right = (picture.camera.target - picture.camera.eye).cross(Vec3::UnitY());
-  const bool turned = right.dot(vector) < 0.0;
-  if (left)
-    label.offset = {-8.0, 0.0};
-  else
-    label.offset = turned ? Eigen::Vector2d(0.0, -9.0) : Eigen::Vector2d(8.0, 0.0);
-  label.align = left ? Align::Right : Align::Left;
-  label.text = name;
-  label.size = 16.0f;
-  label.italic = true;
-  label.colour = colour;
-  picture.labels.push_back(label);
-}
-
 }  // namespace
 
 std::optional<Instance> inertiaEllipsoid(const BodyDef& body, const BodySample& sample) {
@@ -154,7 +132,7 @@ void addPolhodes(const Scene& scene, const Recording& recording, const Sample& s
     polhode.colour = colour::kForce;
     polhode.width = 2.4f;
     picture.lines.push_back(std::move(polhode));
-    addArrow(body.x, metres * body.omega, colour::kAngular, "ω", picture);
+    addNamedArrow(body.x, metres * body.omega, colour::kAngular, "ω", picture, true);
   }
 }
 
@@ -182,9 +160,11 @@ void addMomenta(const Scene& scene, const Recording& recording, const Sample& sa
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!moves(bodies[i])) continue;
     const BodySample& body = sample.bodies[i];
-    addArrow(body.x, share(P) * massOf(bodies[i]).mass * body.v, colour::kVelocity, "P", picture);
-    addArrow(body.x, share(L) * angular(sample, i), colour::kInk, "L", picture);
-    addArrow(body.x, share(omega) * body.omega, colour::kAngular, "ω", picture);
+    addNamedArrow(body.x, share(P) * massOf(bodies[i]).mass * body.v, colour::kVelocity, "P",
+                  picture);
+    addNamedArrow(body.x, share(L) * angular(sample, i), colour::kInk, "L", picture);
+    // L and ω may point the same way.
+    addNamedArrow(body.x, share(omega) * body.omega, colour::kAngular, "ω", picture, true);
   }
 }
 

@@ -27,4 +27,9 @@ void addPolhodes(const Scene& scene, const Recording& recording, const Sample& s
 void addMomenta(const Scene& scene, const Recording& recording, const Sample& sample,
                 Picture& picture);
 
+/// Numbers of the inertia tensor of the first body that turns, on a page of that many pixels:
+///   I = R Ibody Rᵀ   [kg m²], below Ibody.   Slides SF23–SF24.
+void addTensors(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,
+                Picture& picture);
+
 }  // namespace tumble

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/claim/free_body.h"
+#include "app/present/digits.h"
 #include "app/present/palette.h"
 #include "sim/contact/rows.h"
 #include "sim/problem/delassus.h"
@@ -149,7 +150,7 @@ void addDot(const Axes& axes, const PairState& state, Picture& picture) {
   const bool parts = state.acceleration > 1e-6 * axes.acceleration;
   if (pushes)
     addText({at.x() + 14.0, std::min(at.y() + 5.0, axes.origin.y() - 7.0)},
-            fmt::format("{:.4g} N", state.force), 14.0f, Align::Left, colour::kForce, picture);
+            fourDigits(state.force) + " N", 14.0f, Align::Left, colour::kForce, picture);
   else
     addText(at + Vector2d(parts ? 0.0 : 14.0, -14.0),
             parts ? fmt::format("{:.3g} m/s²", state.acceleration) : "neither", 14.0f,
@@ -170,19 +171,7 @@ MatX contactMatrix(const Scene& scene, const Sample& sample) {
 }
 
 std::vector<double> contactAccelerations(const Scene& scene, const Sample& sample) {
-  std::vector<RigidBody> bodies = bodiesAt(scene.world, sample);
-  sumForces(scene.world.gravity, scene.world.forces, bodies);
-  for (const ContactSample& c : sample.contacts) {
-    applyForce(bodies[c.a], c.p, c.force);
-    applyForce(bodies[c.b], c.p, -c.force);
-  }
-  for (const JointForce& joint : sample.joints) {
-    applyForce(bodies[joint.a], joint.p, joint.force);
-    bodies[joint.a].torque += joint.torque;
-    if (joint.b >= static_cast<int>(bodies.size())) continue;
-    applyForce(bodies[joint.b], joint.p, -joint.force);
-    bodies[joint.b].torque -= joint.torque;
-  }
+  const std::vector<RigidBody> bodies = loadedBodiesAt(scene.world, sample);
   std::vector<double> found;
   for (const ContactSample& c : sample.contacts)
     found.push_back(

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/claim/free_body.h"
+#include "app/present/digits.h"
 #include "app/present/palette.h"
 #include "sim/math/frames.h"
 #include "sim/math/rotation.h"
@@ -89,7 +90,7 @@ void addLabel(const Vec3& p, const Eigen::Vector2d& offset, Align align, const s
 
 // "98.1 N", with a minus as printers have it.
 std::string newtons(double force) {
-  return fmt::format("{}{:.5g} N", force < 0.0 ? "−" : "", std::abs(force));
+  return (force == 0.0 ? "0" : fourDigits(force)) + " N";
 }
 
 // Joints between each body and the world, or what never moves; where none lead there, between it

@@ -8,6 +8,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/arrows.h"
+#include "app/present/digits.h"
 #include "app/present/palette.h"
 #include "render/camera.h"
 
@@ -145,7 +146,7 @@ void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vecto
     picture.pageBars.push_back({rungs[k].leader,
                                 {x, rows[k]},
                                 length * rungs[k].force / largest,
-                                fmt::format("{:.4g} N", rungs[k].force),
+                                fourDigits(rungs[k].force) + " N",
                                 colour::kForce});
   addCaption(x, std::max(rows.front() - 44.0, 20.0), every, page.x(), picture);
 }

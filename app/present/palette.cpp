@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "app/claim/free_body.h"
@@ -46,6 +47,14 @@ double massIfMoving(const WorldDef& world, int body) {
   return moves(world.bodies[body]) ? bodyMass(world.bodies[body]) : 0.0;
 }
 
+// Half bricks that end a course are bricks like the others.
+bool wholesAndHalves(const std::vector<double>& masses, double low, double high) {
+  const double tiny = 1e-9 * high;
+  return std::abs(high - 2.0 * low) < tiny &&
+         std::all_of(masses.begin(), masses.end(),
+                     [&](double mass) { return mass - low < tiny || high - mass < tiny; });
+}
+
 // Where each body of an array stands in [0, 1] by the first quantity that varies within it.
 std::map<std::string, double> placesInArrays(const WorldDef& world) {
   std::map<std::string, std::vector<int>> arrays;
@@ -60,6 +69,7 @@ std::map<std::string, double> placesInArrays(const WorldDef& world) {
       for (const int copy : copies) values.push_back(quantity(world, copy));
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       if (*high - *low <= 1e-9 * *high) continue;
+      if (quantity == &massIfMoving && wholesAndHalves(values, *low, *high)) continue;
       for (std::size_t k = 0; k < copies.size(); ++k)
         places[world.bodies[copies[k]].name] = (values[k] - *low) / (*high - *low);
       break;

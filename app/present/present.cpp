@@ -9,6 +9,7 @@
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
 #include "app/present/boxes.h"
+#include "app/present/diagram.h"
 #include "app/present/facets.h"
 #include "app/present/inertia.h"
 #include "app/present/insets.h"
@@ -16,42 +17,18 @@
 #include "app/present/labels.h"
 #include "app/present/marks.h"
 #include "app/present/missteps.h"
+#include "app/present/motion.h"
 #include "app/present/palette.h"
 #include "app/present/paths.h"
 #include "app/present/planes.h"
 #include "app/present/samples.h"
+#include "app/present/touch.h"
 #include "render/axis.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
 
 namespace {
-
-double aspectOf(const Scene& scene) {
-  return static_cast<double>(scene.image.width) / static_cast<double>(scene.image.height);
-}
-
-// Room for the title above, and for what stands beside the bodies.
-Margins marginsOf(const Scene& scene) {
-  bool named = false;
-  for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
-    named = named || !labelOf(scene, i).empty();
-  Margins margins{.left = 0.06, .right = named ? 0.10 : 0.06, .top = 0.14, .bottom = 0.14};
-  if (scene.show.joint_forces)
-    margins = {.left = 0.13, .right = 0.06, .top = 0.24, .bottom = 0.12};
-  else if (scene.show.contact_forces)
-    margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
-  return margins;
-}
-
-// The largest speed [m/s] of the run; 1 if nothing moves.
-double fastestOf(const Scene& scene, const Recording& recording) {
-  double fastest = 0.0;
-  for (const Sample& sample : recording.samples)
-    for (std::size_t i = 0; i < sample.bodies.size(); ++i)
-      if (moves(scene.world.bodies[i])) fastest = std::max(fastest, sample.bodies[i].v.norm());
-  return fastest > 0.0 ? fastest : 1.0;
-}
 
 ColourBar speedBar(double fastest) {
   ColourBar bar{"speed / m/s", {cividisStops().begin(), cividisStops().end()}, 0.0, fastest, {}};
@@ -75,6 +52,32 @@ std::vector<bool> turning(const Recording& recording) {
 
 }  // namespace
 
+double aspectOf(const Scene& scene) {
+  return static_cast<double>(scene.image.width) / static_cast<double>(scene.image.height);
+}
+
+Margins marginsOf(const Scene& scene) {
+  bool named = false;
+  for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
+    named = named || !labelOf(scene, i).empty();
+  Margins margins{.left = 0.06, .right = named ? 0.10 : 0.06, .top = 0.14, .bottom = 0.14};
+  if (scene.show.joint_forces)
+    margins = {.left = 0.13, .right = 0.06, .top = 0.24, .bottom = 0.12};
+  else if (scene.show.contact_forces)
+    margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
+  if (scene.show.tensors) margins.right = 0.32;
+  margins.bottom += diagramShare(scene, {720.0 * aspectOf(scene), 720.0});
+  return margins;
+}
+
+double fastestOf(const Scene& scene, const Recording& recording) {
+  double fastest = 0.0;
+  for (const Sample& sample : recording.samples)
+    for (std::size_t i = 0; i < sample.bodies.size(); ++i)
+      if (moves(scene.world.bodies[i])) fastest = std::max(fastest, sample.bodies[i].v.norm());
+  return fastest > 0.0 ? fastest : 1.0;
+}
+
 Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
   const CameraView& view = scene.camera;
   Framing framing;
@@ -94,7 +97,9 @@ Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
 }
 
 Presenter::Presenter(const Scene& scene, const Recording& recording)
-    : Presenter(scene, recording, framingOf(scene, motionPoints(scene, recording))) {}
+    : Presenter(scene, recording, framingOf(scene, motionPoints(scene, recording))) {
+  alone_ = true;
+}
 
 Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
     : scene_(scene),
@@ -103,7 +108,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
       turns_(turning(recording)),
       framing_(framing) {
   facets_ = facetsOfBodies(scene.world.bodies);
-  if (scene.show.speed) fastest_ = fastestOf(scene, recording);
+  fastest_ = framing.fastest > 0.0 ? framing.fastest : fastestOf(scene, recording);
   expectations_ = expectationsOf(scene, recording);
   follow();
   if (!scene.show.theory) return;
@@ -162,28 +167,6 @@ Picture Presenter::still(double t) const {
   return image(static_cast<int>(std::clamp<long>(k, 0, count() - 1)));
 }
 
-Picture Presenter::strobe() const {
-  const Sample& last = recording_.samples.back();
-  Picture picture = blank(framing_);
-  const bool byTime = movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed;
-  addGhosts(byTime, picture);
-  addBodies(last, byTime, picture);
-  addJoints(scene_, last, framing_.radius, picture);
-  if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
-  if (scene_.show.planes) addPlanes(scene_, recording_, count() - 1, picture);
-  addTheory(picture);
-  addLabels(scene_, last, picture);
-  addAnnotations(last, picture);
-  // Ghosts of the start alone are no strobe.
-  const std::string what =
-      scene_.show.strobe < last.t
-          ? fmt::format("Strobe every {:g} s over {:g} s.", scene_.show.strobe, last.t)
-          : fmt::format("Start, and end after {:g} s.", last.t);
-  picture.subtitle += (picture.subtitle.empty() ? "" : "  ") + what;
-  finish(picture);
-  return picture;
-}
-
 // Page, floor and camera, without anything on them.
 Picture Presenter::blank(const Framing& framing) const {
   Picture picture;
@@ -225,37 +208,6 @@ void Presenter::addBodies(const Sample& sample, bool byTime, Picture& picture) c
     if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
     picture.instances.push_back(instance);
   }
-}
-
-// Bodies are coloured by time, or keep their colours; all are paler the longer ago.
-void Presenter::addGhosts(bool byTime, Picture& picture) const {
-  const bool single = movingCount(scene_) == 1;
-  const double end = recording_.samples.back().t;
-  const long every = std::max(1L, std::lround(scene_.show.strobe * recording_.rate));
-  for (std::size_t k = 0; k + 1 < recording_.samples.size(); k += static_cast<std::size_t>(every)) {
-    const Sample& sample = recording_.samples[k];
-    const double u = end > 0.0 ? sample.t / end : 1.0;
-    for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-      const BodyDef& body = scene_.world.bodies[i];
-      if (!moves(body)) continue;
-      const Colour colour = byTime ? ramp(timeStops(), u) : colourOf(sample, i);
-      Instance ghost =
-          instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
-                     3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
-      ghost.back = backOf(scene_, i);
-      ghost.banded = turns_[i];
-      ghost.finish = Finish::Ghost;
-      ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
-      picture.instances.push_back(ghost);
-    }
-    if (scene_.show.forces && (k / static_cast<std::size_t>(every)) % 5 == 0)
-      addForces(scene_, sample, typicalHeight(scene_), picture);
-  }
-  if (!byTime) return;
-  ColourBar bar{"time / s", {timeStops().begin(), timeStops().end()}, 0.0, end, {}};
-  const double tick = end > 20.0 ? 10.0 : end > 8.0 ? 2.0 : end > 1.5 ? 1.0 : 0.2;
-  for (int n = 0; n * tick <= end; ++n) bar.ticks.push_back(n * tick);
-  picture.bar = bar;
 }
 
 Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {
@@ -344,10 +296,28 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.polhode) addPolhodes(scene_, recording_, sample, picture);
   if (show.momenta) addMomenta(scene_, recording_, sample, picture);
   if (show.normals) addNormals(sample, length, picture);
-  if (show.velocities) addVelocities(scene_, recording_, sample, 2.0 * height, picture);
-  if (show.forces) addForces(scene_, sample, height, picture, show.force_scale);
+  if (show.velocities) addVelocities(scene_, sample, fastest_, 2.0 * height, picture);
+  if (show.forces) addForces(scene_, sample, height, picture, show.force_scale, show.resultant);
   if (show.missteps) addMissteps(scene_, recording_, sample.t, picture);
+  addLessons(sample, picture);
   if (show.impacts) addImpacts(recording_, sample.t, aspectOf(scene_), picture);
+}
+
+// What the lectures draw to explain.
+void Presenter::addLessons(const Sample& sample, Picture& picture) const {
+  const ShowFlags& show = scene_.show;
+  const double height = typicalHeight(scene_), length = 0.35 * framing_.radius;
+  if (show.field) addFields(scene_, sample, picture);
+  if (show.motion) addMotion(scene_, recording_, sample, length, picture);
+  if (show.axes) addAxes(scene_, sample, length, picture);
+  if (show.centres) addCentres(scene_, sample, 0.03 * framing_.radius, picture);
+  if (show.contact_velocities) addContactVelocities(scene_, sample, height, picture);
+  if (show.impulses) addImpulses(recording_, sample.t, 1.2 * height, picture);
+  if (show.springs) addSprings(scene_, sample, height, picture);
+  if (show.tensors) addTensors(scene_, sample, framing_.page, picture);
+  if (show.diagram == "state") addStateDiagram(scene_, sample, framing_.page, picture);
+  if (show.diagram == "solver") addSolverDiagram(scene_, framing_.page, picture);
+  if (show.diagram == "flow") addFlowDiagram(recording_, sample, framing_.page, picture);
 }
 
 void stripForPanel(Picture& picture) {

@@ -20,7 +20,16 @@ struct Framing {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 1.0;                               ///< [m] of all motion about the centre
   Eigen::Vector2d page = {1280.0, 720.0};            ///< [px] that text and flat shapes stand on
+  double fastest = 0.0;  ///< [m/s] of the longest velocity and the last colour; 0: of the run
 };
+
+/// The largest speed [m/s] of the run; 1 if nothing moves.
+double fastestOf(const Scene& scene, const Recording& recording);
+
+/// Width over height of the scene's images.
+double aspectOf(const Scene& scene);
+/// Room for the title above, and for what stands beside and below the bodies.
+Margins marginsOf(const Scene& scene);
 
 /// The scene's own camera, or one that the points of the motion fill.
 Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points);
@@ -47,6 +56,8 @@ class Presenter {
   Picture blank(const Framing& framing) const;
   void follow();
   Framing framingAt(const Sample& sample) const;
+  Framing framingOfStrobe() const;
+  std::vector<std::size_t> ghosts() const;
   void addExpectations(Picture& picture) const;
   Polyline expectedLine(const Expectation& one) const;
   void finish(Picture& picture) const;
@@ -57,6 +68,7 @@ class Presenter {
   double forceScale(double length) const;
   void addTheory(Picture& picture) const;
   void addAnnotations(const Sample& sample, Picture& picture) const;
+  void addLessons(const Sample& sample, Picture& picture) const;
 
   const Scene& scene_;
   const Recording& recording_;
@@ -66,6 +78,7 @@ class Presenter {
   std::vector<Curve> theory_;
   std::vector<Expectation> expectations_;
   Framing framing_;
+  bool alone_ = false;           ///< framed for this run alone
   std::optional<int> followed_;  ///< the body that stays where it is on the image
   Framing following_;            ///< of it at the start
   double fastest_ = 1.0;  ///< [m/s] speed of the last colour, if bodies are coloured by speed

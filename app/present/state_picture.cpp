@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "app/claim/free_body.h"
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
+#include "app/present/named.h"
 #include "app/present/palette.h"
 #include "app/present/present.h"
 
@@ -52,7 +54,26 @@ void addRing(const StateFault& fault, Picture& picture) {
   picture.marks.push_back({fault.p, {layerName(fault.layer)}, colour::kForce});
 }
 
+// Weights on the scale of the contact forces, which they hold in balance, and the names of these.
+void addWeights(const Scene& scene, const Recording& recording, Picture& picture) {
+  const double metres = 1.3 * typicalHeight(scene) / largestContactForce(recording);
+  for (const ContactSample& contact : recording.samples.front().contacts)
+    addNamedArrow(contact.p, metres * contact.force, colour::kForce, "f n", picture);
+  for (std::size_t i = 0; i < scene.world.bodies.size(); ++i)
+    if (const BodyDef& body = scene.world.bodies[i]; moves(body))
+      addNamedArrow(recording.samples.front().bodies[i].x,
+                    metres * bodyMass(body) * scene.world.gravity, colour::kInk, "m g", picture);
+}
+
 }  // namespace
+
+StartCheck checkedStart(const Scene& scene) {
+  try {
+    return World::checkStart(scene.world);
+  } catch (const Refusal& refusal) {
+    throw SceneError({locate(scene, refusal)});
+  }
+}
 
 std::string faultText(const Scene& scene, const StateFault& fault) {
   const std::string &a = scene.world.bodies[fault.a].name, &b = scene.world.bodies[fault.b].name;
@@ -63,20 +84,24 @@ std::string faultText(const Scene& scene, const StateFault& fault) {
   return fmt::format("\"{}\" accelerates into \"{}\" at {:.4g} m/s²", a, b, -fault.amount);
 }
 
-Picture statePicture(const Scene& scene, const StartCheck& check) {
+Picture statePicture(const Scene& scene, const StartCheck& check, double top) {
   Recording recording;
   recording.samples = {check.sample};
   recording.rate = scene.image.rate;
   Scene plain = scene;
   plain.subtitle = "The state at its start.";
   plain.checks.clear();  // claims are about motions
-  plain.show.contact_forces = check.faults.empty() && check.resting > 0;
+  const bool held = check.faults.empty() && check.resting > 0;
+  plain.show.contact_forces = false;
   const std::vector<Eigen::Vector3d> points = withRoom(motionPoints(plain, recording));
   Picture picture = Presenter(plain, recording, framingOf(plain, points)).image(0);
-  addVelocities(plain, recording, check.sample, 0.6 * typicalHeight(plain), picture);
-  picture.labels.push_back(pageLabel(104.0, heading(check.faults), 20.0f,
+  if (!plain.show.contact_velocities)
+    addVelocities(plain, check.sample, fastestOf(plain, recording), 0.6 * typicalHeight(plain),
+                  picture);
+  if (held) addWeights(plain, recording, picture);
+  picture.labels.push_back(pageLabel(top, heading(check.faults), 20.0f,
                                      check.faults.empty() ? colour::kInk : colour::kForce));
-  double y = 128.0;
+  double y = top + 24.0;
   for (std::size_t i = 0; i < std::min(check.faults.size(), kMostRings); ++i, y += 22.0) {
     Label line = pageLabel(y, faultText(scene, check.faults[i]), 14.0f, colour::kInk);
     line.bold = false;

@@ -10,12 +10,16 @@
 
 namespace tumble {
 
+/// The start of the scene's world and what is wrong with it.
+/// @throws SceneError for a world that is refused for anything but its state
+StartCheck checkedStart(const Scene& scene);
+
 /// "\"ball\" is 50 mm inside \"floor\"": one sentence for a fault.
 std::string faultText(const Scene& scene, const StateFault& fault);
 
 /// The bodies as they start, rings where a layer of the state is wrong, and the name of the first
-/// such layer.
-Picture statePicture(const Scene& scene, const StartCheck& check);
+/// such layer, `top` [px] below the page's edge.
+Picture statePicture(const Scene& scene, const StartCheck& check, double top = 104.0);
 
 /// Turns the page of a state that is not legal red.
 void redden(Image& image);

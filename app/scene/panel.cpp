@@ -97,6 +97,26 @@ void readCurves(Section& chart, const std::vector<std::string>& parts, ChartDef&
   }
 }
 
+void readGraphCurves(Section& section, const std::string& where,
+                     const std::vector<std::string>& parts, GraphDef& graph) {
+  const Array& curves = section.tables("curves");
+  if (curves.empty() || curves.size() > kMostPanels)
+    section.complain("curves", "expected 1 to 100 tables like { label = \"k = 100\", set = {…} }");
+  for (const Node& node : curves) {
+    const std::string index = std::to_string(graph.curves.size());
+    GraphCurve& curve = graph.curves.emplace_back();
+    Section one(node, section.path("curves." + index), section.findings(),
+                where + ".curves[" + index + "]");
+    readVariant(one, "label", parts, curve.variant);
+    one.read("value", curve.value);
+    if (curve.value.empty() == (graph.shows == "values"))
+      one.complain("value", graph.shows == "values"
+                                ? "expected a formula, for example \"ball.py\" or \"energy\""
+                                : "formulas are drawn by shows = \"values\"");
+    one.finish();
+  }
+}
+
 // A force belongs to the bodies that it names; one of an array counts for its array.
 bool namesOneOf(const Node& force, const std::vector<std::string>& gone) {
   const Table* table = force.as<Table>();
@@ -109,6 +129,16 @@ bool namesOneOf(const Node& force, const std::vector<std::string>& gone) {
       if (*name == part || name->starts_with(part + ".")) return true;
   }
   return false;
+}
+
+// A claim about a body goes with it.
+bool asksForOneOf(const Node& expect, const std::vector<std::string>& gone) {
+  const Table* table = expect.as<Table>();
+  const Entry* value = table ? table->find("value") : nullptr;
+  const std::string* formula = value ? value->node.as<std::string>() : nullptr;
+  return formula && std::any_of(gone.begin(), gone.end(), [&](const std::string& part) {
+           return formula->find(part + ".") != std::string::npos;
+         });
 }
 
 const std::string* nameOf(const Node& node) {
@@ -137,6 +167,8 @@ void keepBodies(const std::vector<std::string>& kept, Node& tree) {
   for (const char* kind : {"force", "joint"})
     if (Array* forces = elements(tree, kind))
       std::erase_if(*forces, [&](const Node& force) { return namesOneOf(force, gone); });
+  if (Array* expects = elements(tree, "expect"))
+    std::erase_if(*expects, [&](const Node& expect) { return asksForOneOf(expect, gone); });
 }
 
 }  // namespace
@@ -180,8 +212,9 @@ void readPanels(Section& root, const std::vector<std::string>& parts, Scene& sce
     Section section(node, "panel." + std::to_string(scene.panels.size() - 1), root.findings());
     readVariant(section, "title", parts, panel.variant);
     readLine(section, "subtitle", panel.subtitle);
-    section.read("picture", panel.picture, {"strobe", "still"});
+    section.read("picture", panel.picture, {"strobe", "still", "state"});
     section.read("at", panel.at, notNegative("s"));
+    section.read("slides", panel.slides);
     if (section.find("at") && panel.picture != "still")
       section.complain("at", "only a still is taken at an instant; add picture = \"still\"");
     section.finish();
@@ -191,27 +224,24 @@ void readPanels(Section& root, const std::vector<std::string>& parts, Scene& sce
 void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& scene) {
   for (const Node& node : root.tables("graph")) {
     if (scene.graphs.size() == kMostPanels) return root.complain("graph", "at most 100 graphs");
+    const std::string index = std::to_string(scene.graphs.size());
     GraphDef& graph = scene.graphs.emplace_back();
-    Section section(node, "graph." + std::to_string(scene.graphs.size() - 1), root.findings());
+    Section section(node, "graph." + index, root.findings(), "graph[" + index + "]");
     readVariant(section, "title", parts, graph.variant);
     readLine(section, "subtitle", graph.subtitle);
     section.read("body", graph.body);
     section.read("shows", graph.shows,
-                 {"height", "velocity", "force", "joint", "energy", "planes"});
+                 {"height", "velocity", "force", "joint", "energy", "planes", "pairs", "values"});
+    readLine(section, "axis", graph.axis);
+    readLine(section, "against", graph.against);
+    readLine(section, "across", graph.across);
+    section.read("slides", graph.slides);
     const auto named = [&](const BodyDef& body) { return body.name == graph.body; };
-    if (graph.shows != "planes" &&
-        std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
+    const bool ofBody =
+        graph.shows != "planes" && graph.shows != "pairs" && graph.shows != "values";
+    if (ofBody && std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
       section.complain("body", "expected the name of a body, found " + inQuotes(graph.body));
-    const Array& curves = section.tables("curves");
-    if (curves.empty() || curves.size() > kMostPanels)
-      section.complain("curves",
-                       "expected 1 to 100 tables like { label = \"k = 100\", set = {…} }");
-    for (const Node& curve : curves) {
-      Section one(curve, section.path("curves." + std::to_string(graph.curves.size())),
-                  section.findings());
-      readVariant(one, "label", parts, graph.curves.emplace_back());
-      one.finish();
-    }
+    readGraphCurves(section, "graph[" + index + "]", parts, graph);
     section.finish();
   }
 }
@@ -231,6 +261,7 @@ void readCharts(Section& root, const std::vector<std::string>& parts, Scene& sce
     readParameter(section, "along", "course.step", chart.along);
     section.read("cost", chart.cost, {"evaluations", "cpu", "value"});
     section.read("floor", chart.floor, positive({}));
+    section.read("slides", chart.slides);
     readCurves(section, parts, chart);
     section.finish();
   }

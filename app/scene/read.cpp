@@ -83,8 +83,9 @@ class Trial {
                                          *duration, panel.at));
     }
     for (const GraphDef& graph : scene.graphs)
-      for (const Variant& curve : graph.curves)
-        tryVariant(joined(graph.variant, curve), "[[graph]] " + tumble::inQuotes(curve.title));
+      for (const GraphCurve& curve : graph.curves)
+        tryVariant(joined(graph.variant, curve.variant),
+                   "[[graph]] " + tumble::inQuotes(curve.variant.title));
     for (const ChartDef& chart : scene.charts)
       for (const CurveDef& curve : chart.curves) {
         Variant variant = joined(chart.variant, curve.variant);

@@ -92,7 +92,18 @@ struct ShowFlags {
   bool speed = false;      ///< bodies coloured by their speed
   bool momenta = false;    ///< arrows of linear and angular momentum and angular velocity
   bool missteps = false;   ///< poses that the plan of the course did not let stand, in red
-  double strobe = 0.1;     ///< [s] between ghosts of a strobe image
+  bool motion = false;     ///< named arrows x, v and F of bodies
+  bool field = false;      ///< arrows of a circular field's derivative about the body in it
+  bool axes = false;       ///< axes of the world, and of bodies as they turn
+  bool tensors = false;    ///< inertia tensors of the first body, in its frame and in the world's
+  bool centres = false;  ///< a cross at each centre of mass, with r to the points it is weighed by
+  bool resultant = false;           ///< with forces: their names, their sum and its torque
+  bool contact_velocities = false;  ///< named arrows of n and of the point velocity at contacts
+  bool impulses = false;            ///< arrows j n at impacts, and velocities before and after
+  bool springs = false;             ///< coils where springs of the contact model push
+  std::string diagram;              ///< state | solver | flow, on the page below, or ""
+  std::vector<std::string> slots;   ///< what the diagram of the state knows of it: "x", "?", …
+  double strobe = 0.1;              ///< [s] between ghosts of a strobe image
 };
 
 enum class Relation { Equal, AtMost, AtLeast };
@@ -113,6 +124,7 @@ struct Scene {
   std::vector<std::string> overrides;  ///< "key.path=value" that it was read with
   std::string title, subtitle, chapter, claim;
   std::vector<std::string> checks;
+  std::vector<std::string> slides;  ///< of the lectures that its strobe and still show
   WorldDef world;
   std::uint64_t seed = 42;
   std::vector<std::optional<Rgb>> colours;  ///< per body; empty = by palette

@@ -71,6 +71,7 @@ void readTexts(Section& root, Scene& scene) {
   root.read("chapter", scene.chapter);
   root.read("claim", scene.claim);
   root.read("checks", scene.checks);
+  root.read("slides", scene.slides);
   const Node* checks = root.find("checks");
   const Array* names = checks ? checks->as<Array>() : nullptr;
   for (std::size_t i = 0; names && i < names->size(); ++i)
@@ -224,6 +225,19 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("speed", show.speed);
   section.read("momenta", show.momenta);
   section.read("missteps", show.missteps);
+  section.read("motion", show.motion);
+  section.read("field", show.field);
+  section.read("axes", show.axes);
+  section.read("tensors", show.tensors);
+  section.read("centres", show.centres);
+  section.read("resultant", show.resultant);
+  section.read("contact_velocities", show.contact_velocities);
+  section.read("impulses", show.impulses);
+  section.read("springs", show.springs);
+  std::string diagram = show.diagram.empty() ? "none" : show.diagram;
+  section.read("diagram", diagram, {"none", "state", "solver", "flow"});
+  show.diagram = diagram == "none" ? "" : diagram;
+  section.read("slots", show.slots);
   section.read("strobe", show.strobe, positive("s"));
   section.finish();
 }

@@ -37,9 +37,10 @@ struct Sweep {
 /// A [[panel]]: one picture of a page.
 struct PanelDef {
   Variant variant;
-  std::string subtitle;            ///< one line below its title
-  std::string picture = "strobe";  ///< strobe | still
-  double at = 0.0;                 ///< [s] of a still
+  std::string subtitle;             ///< one line below its title
+  std::string picture = "strobe";   ///< strobe | still | state
+  double at = 0.0;                  ///< [s] of a still
+  std::vector<std::string> slides;  ///< of the lectures that it shows
   Spot spot;
 };
 
@@ -58,16 +59,28 @@ struct ChartDef {
   Sweep along;
   std::string cost = "evaluations";  ///< evaluations | cpu | value, of the key itself
   std::optional<double> floor;       ///< the error that rounding leaves
+  std::vector<std::string> slides;   ///< of the lectures that it shows
   std::vector<CurveDef> curves;
 };
 
-/// A [[graph]]: what one body does, against time, in variants of the scene.
+/// One curve of a graph.
+struct GraphCurve {
+  Variant variant;
+  std::string value;  ///< a formula over quantities of the run, or ""
+};
+
+/// A [[graph]]: what one body does, or what formulas come to, against time, in variants of the
+/// scene.
 struct GraphDef {
   Variant variant;  ///< of all its runs
   std::string subtitle;
-  std::string body;              ///< its name; of planes none
-  std::string shows = "height";  ///< height | velocity | force | joint | energy | planes
-  std::vector<Variant> curves;
+  std::string body;  ///< its name; of planes and formulas none
+  /// height | velocity | force | joint | energy | planes | pairs | values
+  std::string shows = "height";
+  std::string axis;             ///< caption of the upright axis of values
+  std::string against, across;  ///< of values: a formula that is no time, and its caption; or ""
+  std::vector<std::string> slides;  ///< of the lectures that it shows
+  std::vector<GraphCurve> curves;
 };
 
 }  // namespace tumble

@@ -6,7 +6,19 @@
 
 namespace tumble {
 
-Image viewerSnapshot(Renderer& renderer, const Scene& scene, double share, int width, int height) {
+namespace {
+
+void perform(const Deed& deed, ImGuiIO& io, Viewer& viewer) {
+  io.MousePos = {deed.pointer.x(), deed.pointer.y()};
+  io.MouseDown[0] = deed.pressed;
+  io.AddInputCharactersUTF8(deed.typed.c_str());
+  if (!deed.dropped.empty()) viewer.load(deed.dropped);
+}
+
+}  // namespace
+
+Image viewerSnapshot(Renderer& renderer, const Scene& scene, double share, int width, int height,
+                     std::span<const Deed> deeds) {
   const UiContext ui(dataFolder("fonts"));
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
@@ -15,12 +27,20 @@ Image viewerSnapshot(Renderer& renderer, const Scene& scene, double share, int w
   Viewer viewer(renderer, {{scene.name, scene.title, scene.chapter, scene.file}});
   viewer.open(scene);
   viewer.playback().seek(share * viewer.playback().end());
-  // ImGui settles its layout while it draws the first page.
-  for (int pages = 0; pages < 2; ++pages) {
+  const auto page = [&] {
     ImGui::NewFrame();
     viewer.page();
     ImGui::Render();
+  };
+  // ImGui settles its layout while it draws the first page, and what is new while it draws the
+  // next.
+  page();
+  for (const Deed& deed : deeds) {
+    perform(deed, io, viewer);
+    page();
   }
+  if (!deeds.empty()) perform({}, io, viewer);
+  page();
   return uiRenderer.drawToImage(*ImGui::GetDrawData());
 }
 

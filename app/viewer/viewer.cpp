@@ -152,6 +152,12 @@ Camera Viewer::camera() const {
 }
 
 void Viewer::draw(int width, int height) {
+  // What stands on the page stands on this one.
+  if (scene_->image.width != width || scene_->image.height != height) {
+    scene_->image.width = width;
+    scene_->image.height = height;
+    presenter_.emplace(*scene_, *recording_);
+  }
   if (following_ && picked_)
     orbit_.target = recording_->samples[playback_.sample()].bodies[*picked_].x;
   const Camera from = camera();

@@ -119,7 +119,7 @@ TEST_CASE("the ladder of a tall tower fits on every page") {
     picture.camera = {.eye = {5.0, 30.0, 200.0}, .target = {5.0, 25.0, 0.0}, .fov = 24.0};
     addForceLadder(scene, recording.samples.front(), page, picture);
     REQUIRE(picture.pageBars.size() >= 4);
-    CHECK(picture.pageBars.back().text == "981 N");
+    CHECK(picture.pageBars.back().text == "981.0 N");
     double above = -1e9;
     for (const PageBar& row : picture.pageBars) {
       CAPTURE(page.transpose(), row.base.transpose(), row.length, row.text);

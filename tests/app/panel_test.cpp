@@ -205,6 +205,8 @@ TEST_CASE("the page and every chart become files, drawn once") {
 TEST_CASE("sheets have few columns of large pictures") {
   const int columns[] = {1, 2, 3, 2, 3, 3, 4, 4, 3, 4, 4, 4};
   for (std::size_t n = 1; n <= 12; ++n) CHECK(columnsOf(n) == columns[n - 1]);
+  CHECK(columnsOf(13) == 5);  // in four columns the last would stand alone
+  CHECK(columnsOf(16) == 4);
 }
 
 TEST_CASE("a chart of a check that is none is refused at its place") {

@@ -112,7 +112,7 @@ TEST_CASE("wind and velocity arrows point along, end on the body and grow with w
   recording.samples = {sample, sample};
   recording.samples[1].bodies[1].v = {0.0, 6.0, 0.0};
   Picture picture;
-  addVelocities(scene, recording, sample, 1.0, picture);
+  addVelocities(scene, sample, fastestOf(scene, recording), 1.0, picture);
   REQUIRE(picture.arrows.size() == 1);
   CHECK((picture.arrows[0].base - Vec3(0.2, 0.0, 0.0)).norm() < 1e-15);
   CHECK((picture.arrows[0].tip - Vec3(0.7, 0.0, 0.0)).norm() < 1e-15);
@@ -231,9 +231,9 @@ body = { shape = { box = [0.5, 0.5, 0.5] }, mass = 1.0 }
   picture.camera = {.eye = {2.0, 1.0, 8.0}, .target = {2.0, 1.0, 0.0}, .fov = 24.0};
   addForceLadder(scene, sample, {1280.0, 720.0}, picture);
   REQUIRE(picture.pageBars.size() == 3);
-  CHECK(picture.pageBars[0].text == "10 N");
-  CHECK(picture.pageBars[1].text == "20 N");
-  CHECK(picture.pageBars[2].text == "30 N");
+  CHECK(picture.pageBars[0].text == "10.00 N");
+  CHECK(picture.pageBars[1].text == "20.00 N");
+  CHECK(picture.pageBars[2].text == "30.00 N");
   for (std::size_t k = 0; k < 3; ++k) {
     CHECK(picture.pageBars[k].length == Approx(220.0 * (k + 1.0) / 3.0));
     CHECK(picture.pageBars[k].leader->x() == 2.25);

@@ -1,0 +1,60 @@
+#include "app/claim/meter.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "app/scene/findings.h"
+
+namespace tumble {
+
+namespace {
+
+const CertificateField* findField(const std::string& name) {
+  const auto field = std::find_if(std::begin(kCertificateFields), std::end(kCertificateFields),
+                                  [&](const CertificateField& one) { return one.key == name; });
+  return field == std::end(kCertificateFields) ? nullptr : &*field;
+}
+
+double valueOf(const CertificateField& field, const Certificate& certificate) {
+  return std::visit([&](const auto number) { return static_cast<double>(certificate.*number); },
+                    field.number);
+}
+
+}  // namespace
+
+std::vector<Meter::Fault> Meter::faults(const Scene& scene, const std::string& text, bool running) {
+  std::vector<Fault> found;
+  try {
+    const Formula formula(text);
+    for (const std::string& name : formula.names())
+      if (!Gauge::named(scene, name) && !(running && findField(name)))
+        found.push_back({"unknown quantity " + inQuotes(name) + hintOfQuantity(scene, name),
+                         static_cast<int>(text.find(name))});
+  } catch (const NotAFormula& error) {
+    found.push_back({error.what(), error.at()});
+  }
+  return found;
+}
+
+Meter::Meter(const Scene& scene, const std::string& text) : text_(text), formula_(text) {
+  for (const std::string& name : formula_.names())
+    sources_.push_back({Gauge::named(scene, name), findField(name)});
+  numbers_.resize(sources_.size());
+}
+
+double Meter::operator()(const Sample& sample, const Certificate* soFar) {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
+    numbers_[i] = source.gauge            ? (*source.gauge)(sample)
+                  : soFar && source.field ? valueOf(*source.field, *soFar)
+                                          : std::numeric_limits<double>::quiet_NaN();
+  }
+  return formula_(numbers_);
+}
+
+const Gauge* Meter::alone() const {
+  const bool one = sources_.size() == 1 && formula_.names().front() == text_;
+  return one && sources_.front().gauge ? &*sources_.front().gauge : nullptr;
+}
+
+}  // namespace tumble

@@ -1,0 +1,106 @@
+// The whole motion on one picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/claim/free_body.h"
+#include "app/present/arrows.h"
+#include "app/present/bodies.h"
+#include "app/present/joints.h"
+#include "app/present/labels.h"
+#include "app/present/palette.h"
+#include "app/present/paths.h"
+#include "app/present/planes.h"
+#include "app/present/present.h"
+
+namespace tumble {
+
+Picture Presenter::strobe() const {
+  const Sample& last = recording_.samples.back();
+  Picture picture = blank(framingOfStrobe());
+  const bool byTime = movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed;
+  addGhosts(byTime, picture);
+  addBodies(last, byTime, picture);
+  addJoints(scene_, last, framing_.radius, picture);
+  if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
+  if (scene_.show.planes) addPlanes(scene_, recording_, count() - 1, picture);
+  addTheory(picture);
+  addLabels(scene_, last, picture);
+  addAnnotations(last, picture);
+  // Ghosts of the start alone are no strobe.
+  const std::string what =
+      scene_.show.strobe < last.t
+          ? fmt::format("Strobe every {:g} s over {:g} s.", scene_.show.strobe, last.t)
+          : fmt::format("Start, and end after {:g} s.", last.t);
+  picture.subtitle += (picture.subtitle.empty() ? "" : "  ") + what;
+  finish(picture);
+  return picture;
+}
+
+// The samples that a strobe shows besides the last.
+std::vector<std::size_t> Presenter::ghosts() const {
+  const long every = std::max(1L, std::lround(scene_.show.strobe * recording_.rate));
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k + 1 < recording_.samples.size(); k += static_cast<std::size_t>(every))
+    shown.push_back(k);
+  return shown;
+}
+
+// A camera that the scene places may see too little of where bodies were: then it steps back.
+Framing Presenter::framingOfStrobe() const {
+  constexpr double kTitle = 80.0;  // [px] kept free
+  const CameraView& view = scene_.camera;
+  if (!alone_ || !view.eye || !view.target) return framing_;
+  Recording seen;
+  for (const std::size_t k : ghosts()) seen.samples.push_back(recording_.samples[k]);
+  seen.samples.push_back(recording_.samples.back());
+  const std::vector<Eigen::Vector3d> points = motionPoints(scene_, seen);
+  const Projection projection(framing_.camera, framing_.page.x(), framing_.page.y());
+  const auto shown = [&](const Eigen::Vector3d& point) {
+    const std::optional<Eigen::Vector3d> place = projection.project(point);
+    return place && place->x() > 0.0 && place->x() < framing_.page.x() && place->y() > kTitle &&
+           place->y() < framing_.page.y();
+  };
+  if (std::all_of(points.begin(), points.end(), shown)) return framing_;
+  const Vec3 sight = *view.eye - *view.target;
+  const double degrees = 180.0 / std::numbers::pi;
+  Framing framing = framing_;
+  framing.camera = frame(points, degrees * std::atan2(sight.x(), sight.z()),
+                         degrees * std::asin(sight.y() / sight.norm()), view.fov, aspectOf(scene_),
+                         marginsOf(scene_));
+  return framing;
+}
+
+// Bodies are coloured by time, or keep their colours; all are paler the longer ago.
+void Presenter::addGhosts(bool byTime, Picture& picture) const {
+  const bool single = movingCount(scene_) == 1;
+  const double end = recording_.samples.back().t;
+  const std::vector<std::size_t> shown = ghosts();
+  for (std::size_t n = 0; n < shown.size(); ++n) {
+    const Sample& sample = recording_.samples[shown[n]];
+    const double u = end > 0.0 ? sample.t / end : 1.0;
+    for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+      const BodyDef& body = scene_.world.bodies[i];
+      if (!moves(body)) continue;
+      const Colour colour = byTime ? ramp(timeStops(), u) : colourOf(sample, i);
+      Instance ghost =
+          instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
+                     3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
+      ghost.back = backOf(scene_, i);
+      ghost.banded = turns_[i];
+      ghost.finish = Finish::Ghost;
+      ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
+      picture.instances.push_back(ghost);
+    }
+    if (scene_.show.forces && n % 5 == 0) addForces(scene_, sample, typicalHeight(scene_), picture);
+  }
+  if (!byTime) return;
+  ColourBar bar{"time / s", {timeStops().begin(), timeStops().end()}, 0.0, end, {}};
+  const double tick = end > 20.0 ? 10.0 : end > 8.0 ? 2.0 : end > 1.5 ? 1.0 : 0.2;
+  for (int n = 0; n * tick <= end; ++n) bar.ticks.push_back(n * tick);
+  picture.bar = bar;
+}
+
+}  // namespace tumble
