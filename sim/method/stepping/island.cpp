@@ -241,9 +241,13 @@ void Stepping::swing(std::span<const Link> links, double h) {
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     share(links, memory, h);
   }
+  constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    work_.after[work_.movers[i]] = memory.movers[i].v;
-    work_.touched[work_.movers[i]] = memory.movers[i].v != memory.movers[i].vStar;
+    const Vec6 &v = memory.movers[i].v, &star = memory.movers[i].vStar;
+    const bool touched =
+        (v - star).lpNorm<Eigen::Infinity>() > kNothing * star.lpNorm<Eigen::Infinity>();
+    work_.after[work_.movers[i]] = touched ? v : star;
+    work_.touched[work_.movers[i]] = touched;
   }
 }
 
