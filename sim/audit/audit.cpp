@@ -168,6 +168,21 @@ void Audit::findDisagreements(Report& report) const {
        kOverlapShare * nearness_.least());
   hold("gap of joints / m", books.audit_joint_gap, 2.0 * books.max_joint_gap,
        kOverlapShare * nearness_.least());
+  tellWeakness(report);
+}
+
+/// What no disagreement shows: steps that the audit could not judge, and a balance that is open.
+void Audit::tellWeakness(Report& report) const {
+  constexpr double kOpen = 0.01;
+  const Certificate& books = report.certificate;
+  if (2 * untold_ > seen_)
+    report.note(("the audit could not judge the energy of " + std::to_string(untold_) + " of " +
+                 std::to_string(seen_) + " steps")
+                    .c_str());
+  if (!(books.energy_balance_error <= kOpen))
+    report.note(("the balance of energy is open by " + shortNumber(books.energy_balance_error) +
+                 " of the largest kinetic energy: smaller steps would close it")
+                    .c_str());
 }
 
 }  // namespace tumble

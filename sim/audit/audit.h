@@ -45,6 +45,7 @@ class Audit {
     bool unlike = false;             ///< by several that move unlike
     bool springy = false;            ///< contacts in it are springs
     bool lost = false;               ///< loads along the way are unknown
+    bool swings = false;             ///< springs in it swing faster than the way is known
     double mass = 0.0, gain = 0.0;   ///< [kg], [J] Δ(T + V) − work of loads
     Vec3 P = Vec3::Zero(), L = Vec3::Zero();  ///< [N s], [N m s] not explained by loads
     Vec3 X0 = Vec3::Zero(), X1 = Vec3::Zero(), P0 = Vec3::Zero(), P1 = Vec3::Zero();
@@ -62,6 +63,7 @@ class Audit {
   void addWays();
 
   // balance.cpp
+  void findSwings();
   void group(const std::vector<Nearness::Pair>& touched);
   void join(int a, int b);
   void holdBy(int body, int fixed);
@@ -76,6 +78,7 @@ class Audit {
   void meet(int a, int b);
 
   void findDisagreements(Report& report) const;
+  void tellWeakness(Report& report) const;
   bool moves(int body) const { return !bodies_[body].fixed(); }
   double potentialOf(int body, std::span<const Recorded> states) const;
   RigidBody fixedAt(int body, double t) const;

@@ -100,6 +100,22 @@ double Audit::sameWorkOf(int i) const {
   return sum;
 }
 
+/// The way between two ends is a cubic: of a spring that swings faster, or of a damper that stops
+/// what it moves within it, neither impulse nor loss is known.
+void Audit::findSwings() {
+  constexpr double kSwing = 0.3, kLoss = 0.1;  // h² k/m and h c/m
+  for (const Force& force : model_.def.forces) {
+    const auto* spring = std::get_if<Spring>(&force);
+    if (!spring) continue;
+    for (const int i : {spring->a, spring->b}) {
+      if (i == kNoBody || !moves(i)) continue;
+      Group& g = groups_[rootOf(i)];
+      g.swings = g.swings || h_ * h_ * spring->stiffness * bodies_[i].invM > kSwing;
+      g.lost = g.lost || h_ * spring->damping * bodies_[i].invM > kLoss;
+    }
+  }
+}
+
 /// ∫F dt, ∫τ dt and work of the loads, by three Gauss nodes.
 void Audit::addLoads() {
   constexpr double kNode = 0.1127016653792583, kEnds = 5.0 / 18.0, kMiddle = 8.0 / 18.0;
@@ -113,6 +129,7 @@ void Audit::addLoads() {
       if (moves(i)) work_[i] = sameWorkOf(i);
     return;
   }
+  findSwings();
   std::vector<BodyPath>& paths = paths_;
   paths.clear();
   for (std::size_t i = 0; i < n; ++i) {
@@ -234,7 +251,7 @@ void Audit::settle() {
       told = told && known;
       if (known) book(root, led ? workOfFixed(root) : 0.0);
     }
-    if (g.held || g.lost || (many_ && !winds_)) continue;
+    if (g.held || g.lost || g.swings || (many_ && !winds_)) continue;
     driftP_[i] += bodies_[i].M / g.mass * g.P;
     driftL_[i] += bodies_[i].M / g.mass * g.L;
   }
