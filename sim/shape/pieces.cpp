@@ -335,7 +335,10 @@ class Decomposer {
     const double whole = cut::sixfoldVolume(points_, whole_) / 6.0;
     if (std::abs(sum - whole) <= 2.0 * slack() * area) return;
     throw NoPieces(
-        "its pieces do not add up to its volume; does the surface touch or cross itself?", -1);
+        "its pieces do not add up to its volume; does the surface touch or cross itself, or "
+        "enclose "
+        "a cavity?",
+        -1);
   }
 
   Surface surfaceOf(const Polyhedron& solid) {
