@@ -189,20 +189,28 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
   checkFaces(solid, given);
   checkEdges(solid, given);
   checkShells(solid);  // first: it names the shell that is inside out
-  checkOutside(solid, given);
   checkCrossings(solid);
 
   std::vector<std::vector<int>> flat;
-  for (std::vector<int>& face : solid.faces) {
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    std::vector<int>& face = solid.faces[f];
     if (isFlat(solid, face)) {
       flat.push_back(std::move(face));
       continue;
     }
     std::vector<std::array<int, 3>> triangles;
     cutIntoTriangles(solid, face, triangles);
-    for (const auto& [a, b, c] : triangles) flat.push_back({a, b, c});
+    for (const auto& [a, b, c] : triangles) {
+      flat.push_back({a, b, c});
+      if (areaVector(solid, flat.back()).isZero(0.0))
+        throw NotASolid(
+            "face " + std::to_string(f + 1) +
+                " is not flat, and one of the triangles that it is cut into has no area",
+            static_cast<int>(f));
+    }
   }
   solid.faces = std::move(flat);
+  checkOutside(solid, given);  // a face that is bent holds what its triangles hold
   findEdges(solid);
   return solid;
 }

@@ -28,7 +28,7 @@ bits() {
 fuzz() {
   local found=$root/found-$1
   mkdir -p "$found"
-  "$clang/tests/fuzz/$1_fuzz" -max_total_time=60 -timeout=20 -rss_limit_mb=2048 -max_len=8192 \
+  "$clang/tests/fuzz/$1_fuzz" -max_total_time=60 -timeout=20 -error_exitcode=1 -rss_limit_mb=2048 -max_len=8192 \
     -print_final_stats=1 "${@:3}" -artifact_prefix="$found/" "$found" "$2"
 }
 fuzz_scenes() { fuzz scene tests/fuzz/corpus -dict=tests/fuzz/scene.dict; }

@@ -148,3 +148,15 @@ TEST_CASE("faces that are not flat are cut, flat ones are kept") {
   bent.points[7] += Vec3(1e-6, 0.0, 0.0);
   CHECK(bent.made().faces.size() == 7);  // of the three faces at that corner only x = 1 bends
 }
+
+// A corner that lies on the line of two others leaves a triangle without area where a face that is
+// bent elsewhere is cut, which has no normal.
+TEST_CASE("a bent face that leaves a triangle without area is refused") {
+  const std::vector<Vec3> points{{0, 0, -0.5}, {2, 0, -0.5}, {2, 1, -0.5},    {1, 1, -0.5},
+                                 {1, 2, -0.5}, {0, 2, -0.5}, {0, 0, 0.5},     {2, 0, 0.5},
+                                 {2, 1, 0.5},  {1, 0, 0.5},  {1, 20.52, 1.0}, {1, 1, 0.5}};
+  const std::vector<std::vector<int>> faces{{0, 1, 7, 6},         {1, 2, 8, 7},      {2, 3, 9, 8},
+                                            {3, 4, 10, 9},        {4, 5, 11, 10},    {5, 0, 6, 11},
+                                            {6, 7, 8, 9, 10, 11}, {5, 4, 3, 2, 1, 0}};
+  CHECK(says(refusal({points, faces}), "face 7 is not flat, and one of the triangles"));
+}
