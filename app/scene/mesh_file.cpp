@@ -1,11 +1,6 @@
 #include "app/scene/mesh_file.h"
 
-#define TINYOBJLOADER_IMPLEMENTATION
-#define TINYOBJLOADER_USE_DOUBLE
-#include <tiny_obj_loader.h>
-
 #include <filesystem>
-#include <sstream>
 
 #include "app/file/data.h"
 #include "app/file/file.h"
@@ -19,39 +14,10 @@ namespace {
 
 constexpr std::size_t kMostPoints = 1'000'000;
 
-struct Raw {
-  std::vector<Vec3> points;
-  std::vector<std::vector<int>> faces;
-};
-
-void addPoint(void* raw, double x, double y, double z, double) {
-  static_cast<Raw*>(raw)->points.emplace_back(x, y, z);
-}
-
-// A file counts points from 1.
-void addFace(void* target, tinyobj::index_t* indices, int count) {
-  Raw& raw = *static_cast<Raw*>(target);
-  std::vector<int> face;
-  for (int k = 0; k < count; ++k) face.push_back(indices[k].vertex_index - 1);
-  raw.faces.push_back(std::move(face));
-}
-
-// Line, counted from 1, on which face number `face` of a cleaned text stands; 0 for none.
-int lineOf(const std::string& text, int face) {
-  std::istringstream lines(text);
-  std::string line;
-  int number = 0, seen = -1;
-  while (std::getline(lines, line)) {
-    ++number;
-    if (line.starts_with("f ") && ++seen == face) return number;
-  }
-  return 0;
-}
-
-// The checked text of a file, or why it is refused.
-std::string cleaned(const std::string& text, const std::string& file) {
+// What a file says, or why it is refused.
+ObjFile read(const std::string& text, const std::string& file) {
   try {
-    return cleanObj(text, file);
+    return readObj(text, file);
   } catch (const ObjError& reason) {
     throw MeshError(reason.what());
   }
@@ -66,23 +32,17 @@ std::string kindOf(fs::file_type type) {
 
 }  // namespace
 
-std::shared_ptr<const Polyhedron> parseMesh(const std::string& given, const std::string& file) {
-  const std::string text = cleaned(given, file);
-  Raw raw;
-  tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = addPoint;
-  callbacks.index_cb = addFace;
-  std::istringstream in(text);
-  std::string warnings, errors;
-  if (!tinyobj::LoadObjWithCallback(in, callbacks, &raw, nullptr, &warnings, &errors))
-    throw MeshError(file + ": not an OBJ file: " + errors);
-  if (raw.points.size() > kMostPoints) throw MeshError(file + ": more than a million points");
+std::shared_ptr<const Polyhedron> parseMesh(const std::string& text, const std::string& file) {
+  ObjFile obj = read(text, file);
+  if (obj.points.size() > kMostPoints) throw MeshError(file + ": more than a million points");
   try {
     return std::make_shared<const Polyhedron>(
-        makePolyhedron(std::move(raw.points), std::move(raw.faces)));
+        makePolyhedron(std::move(obj.points), std::move(obj.faces)));
   } catch (const NotASolid& reason) {
-    const int line = reason.face() < 0 ? 0 : lineOf(text, reason.face());
-    throw MeshError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + reason.what());
+    const int face = reason.face();
+    const std::string line =
+        face < 0 ? "" : ":" + std::to_string(obj.lines[static_cast<std::size_t>(face)]);
+    throw MeshError(file + line + ": " + reason.what());
   }
 }
 

@@ -17,7 +17,7 @@ class MeshError : public std::runtime_error {
 /// Reads points (`v x y z` [m]) and faces (`f 1 2 3 …`) of an OBJ file, all groups as one solid;
 /// other statements of the format are passed over.
 /// @throws MeshError with file, line and column for a word that is none of the format's
-/// (`cleanObj`),
+/// (`readObj`),
 ///                   with file and line if the file cannot be read or bounds no solid.
 std::shared_ptr<const Polyhedron> readMesh(const std::string& path);
 

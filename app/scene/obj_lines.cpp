@@ -52,7 +52,6 @@ class Words {
     }
     return true;
   }
-  int line() const { return line_; }
 
  private:
   static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -95,9 +94,9 @@ bool whole(std::string_view text, Number& number) {
   return !text.empty() && result.ec == std::errc() && result.ptr == end;
 }
 
-class Cleaner {
+class ObjReader {
  public:
-  explicit Cleaner(const std::string& file) : file_(file) {}
+  explicit ObjReader(const std::string& file) : file_(file) {}
 
   void take(const std::vector<Word>& words) {
     const std::string_view key = words[0].text;
@@ -106,12 +105,7 @@ class Cleaner {
     if (std::find(std::begin(kPassedOver), std::end(kPassedOver), key) == std::end(kPassedOver))
       refuse(words[0], "v, f or another keyword of OBJ files");
   }
-  // Ends lines of the text until `line` begins.
-  void endLines(int line) {
-    text_.append(static_cast<std::size_t>(line - line_), '\n');
-    line_ = line;
-  }
-  std::string text() && { return std::move(text_); }
+  ObjFile taken() && { return std::move(taken_); }
 
  private:
   [[noreturn]] void refuse(const Word& word, const std::string& expected,
@@ -126,22 +120,24 @@ class Cleaner {
   }
 
   void takePoint(const std::vector<Word>& words) {
+    Vec3 p = Vec3::Zero();
     for (std::size_t k = 1; k < words.size(); ++k) {
       double number = 0.0;
       if (!whole(words[k].text, number) || !std::isfinite(number))
         refuse(words[k], "a finite number");
+      if (k < 4) p[static_cast<Eigen::Index>(k) - 1] = number;
     }
     needThree(words, "numbers");
-    text_ += 'v';
-    for (std::size_t k = 1; k < 4; ++k) (text_ += ' ') += words[k].text;
-    ++points_;
+    taken_.points.push_back(p);
   }
 
   void takeFace(const std::vector<Word>& words) {
     needThree(words, "points");
-    text_ += 'f';
+    std::vector<int> face;
     for (std::size_t k = 1; k < words.size(); ++k)
-      (text_ += ' ') += std::to_string(point(words[k]));
+      face.push_back(static_cast<int>(point(words[k])) - 1);
+    taken_.faces.push_back(std::move(face));
+    taken_.lines.push_back(words[0].line);
   }
 
   // The point, counted from 1, of a reference n, n/t, n//u or n/t/u.
@@ -159,33 +155,27 @@ class Cleaner {
   }
 
   long long checked(const Word& word, long long n) const {
-    if (n >= 1 && n <= points_) return n;
-    if (n <= -1 && n >= -points_) return points_ + n + 1;
-    const std::string most = std::to_string(points_);
-    refuse(word, points_ == 0 ? "points above the first face"
-                              : "a point from 1 to " + most + ", or from -1 back to -" + most);
+    const long long count = static_cast<long long>(taken_.points.size());
+    if (n >= 1 && n <= count) return n;
+    if (n <= -1 && n >= -count) return count + n + 1;
+    const std::string most = std::to_string(count);
+    refuse(word, count == 0 ? "points above the first face"
+                            : "a point from 1 to " + most + ", or from -1 back to -" + most);
   }
 
   const std::string& file_;
-  std::string text_;
-  int line_ = 1;
-  long long points_ = 0;
+  ObjFile taken_;
 };
 
 }  // namespace
 
-std::string cleanObj(std::string_view text, const std::string& file) {
+ObjFile readObj(std::string_view text, const std::string& file) {
   Words lines(text);
-  Cleaner cleaner(file);
+  ObjReader reader(file);
   std::vector<Word> words;
-  while (lines.next(words)) {
-    if (!words.empty()) {
-      cleaner.endLines(words[0].line);
-      cleaner.take(words);
-    }
-    cleaner.endLines(lines.line());
-  }
-  return std::move(cleaner).text() + '\n';
+  while (lines.next(words))
+    if (!words.empty()) reader.take(words);
+  return std::move(reader).taken();
 }
 
 }  // namespace tumble

@@ -62,6 +62,8 @@ int signOf(const Whole& x) {
 
 /// Far more than rounding may change a height or a turn by.
 constexpr double kSure = 1e-9;
+/// Corners in line, each rounded, turn by no more, of their size times the lengths between them.
+constexpr double kNoise = 4e-15;
 
 const Vec3& at(const Points& points, int p) {
   return points.at[static_cast<std::size_t>(p)];
@@ -208,8 +210,10 @@ double turn(const Points& points, int a, int b, int c, int axis, bool exact) {
   const Vec3 &p = at(points, a), &q = at(points, b), &r = at(points, c);
   const double left = (q[u] - p[u]) * (r[v] - p[v]), right = (q[v] - p[v]) * (r[u] - p[u]);
   const double size = p.norm() + q.norm() + r.norm();
+  const double noise = kNoise * size * ((q - p).lpNorm<1>() + (r - p).lpNorm<1>());
   const double doubt = kSure * (std::abs(left) + std::abs(right) + kSure * size * size);
-  if (!exact || std::abs(left - right) > doubt) return left - right;
+  if (!exact) return std::abs(left - right) <= noise ? 0.0 : left - right;
+  if (std::abs(left - right) > doubt) return left - right;
   ++points.looks;
   const auto of = [](const Fraction3& x, int axis) -> const Whole& {
     return axis == 0 ? x.x : axis == 1 ? x.y : x.z;

@@ -55,7 +55,8 @@ std::vector<Surface> pieces(const Points& points, const Surface& surface);
 Surface fill(const Points& points, const std::vector<std::array<int, 2>>& edges, const Vec3& n,
              bool exact);
 
-/// Twice the signed area of a triangle seen along −axis, or its sign if that is in doubt.
+/// Twice the signed area of a triangle seen along −axis, or its sign if that is in doubt. Unless it
+/// is asked for exactly, what rounding of the corners may make of a line is 0.
 double turn(const Points& points, int a, int b, int c, int axis, bool exact);
 
 }  // namespace tumble::cut

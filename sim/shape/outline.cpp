@@ -82,4 +82,11 @@ Outline outlineOf(const Shape& shape, const Pose& pose) {
   return out;
 }
 
+std::vector<Convex> outlinedParts(const Shape& shape) {
+  std::vector<Convex> parts;
+  for (const PosedPart& part : convexParts(shape))
+    parts.push_back({part.solid, part.pose, outlineOf(part.solid, part.pose)});
+  return parts;
+}
+
 }  // namespace tumble

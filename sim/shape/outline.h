@@ -37,4 +37,7 @@ struct Convex {
   Outline outline = {};
 };
 
+/// The convex parts of a shape that can touch others.
+std::vector<Convex> outlinedParts(const Shape& shape);
+
 }  // namespace tumble

@@ -3,33 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
-#include "sim/math/orientation.h"
 #include "sim/shape/convex_hull.h"
-#include "sim/shape/cut.h"
 #include "sim/shape/join.h"
+#include "sim/shape/notches.h"
 
 namespace tumble {
 namespace {
 
 using cut::CutPlane;
+using cut::kRounding;
+using cut::Notch;
+using cut::Notches;
 using cut::Surface;
 using cut::Triangle;
 
-constexpr double kRounding = 1e-12;         // of the size: what rounding of corners may come to
 constexpr double kSnap = 2e-6;              // of the size: corners no further from a cut are on it
 constexpr long kMostWork = 20'000'000;      // triangles looked at, in all surfaces together
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
 constexpr std::size_t kMostSeeds = 48;      // notches of a piece from which planes are drawn
 constexpr int kSlices = 4;
-
-/// An edge of a piece at which it is not convex.
-struct Notch {
-  int from = 0, to = 0;
-  int left = 0, right = 0;  ///< faces of the mesh
-};
 
 /// The convex hull of a piece, and how far the mesh lies under it.
 struct Wrapping {
@@ -52,7 +46,7 @@ class Decomposer {
     }
     for (const Vec3& p : solid.points) size_ = std::max(size_, (p - solid.points[0]).norm());
     snap_ = std::min(tolerance, kSnap * size_);
-    findReflex();
+    notches_.emplace(points_, whole_, cut::OnPlane{.slack = slack(), .snap = snap_});
   }
 
   Pieces good() {
@@ -62,7 +56,7 @@ class Decomposer {
       Surface piece = std::move(open.back());
       open.pop_back();
       work_ += static_cast<long>(piece.size());
-      const std::vector<Notch> notches = notchesOf(piece);
+      const std::vector<Notch> notches = notches_->of(piece);
       if (std::optional<Wrapping> whole = wrapped(piece, notches)) {
         excess_ = std::max(excess_, whole->excess);
         done.push_back(std::move(whole->hull));
@@ -110,42 +104,6 @@ class Decomposer {
   bool spent() const { return work_ + 100 * points_.looks > kMostWork; }
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
   double slack() const { return std::max(tolerance_, kRounding * size_); }
-
-  /// Pairs of triangles of the mesh that make a notch, decided exactly.
-  void findReflex() {
-    std::map<std::pair<int, int>, int> left;
-    for (std::size_t f = 0; f < whole_.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k)
-        left[{whole_[f].corner[k], whole_[f].corner[(k + 1) % 3]}] = static_cast<int>(f);
-    for (const auto& [edge, f] : left) {
-      const auto other = left.find({edge.second, edge.first});
-      if (other == left.end() || edge.first > edge.second) continue;
-      const int g = other->second;
-      const int a = edge.first, b = edge.second;
-      const auto apex = [&](int t) {
-        for (const int p : whole_[static_cast<std::size_t>(t)].corner)
-          if (p != a && p != b) return p;
-        return a;
-      };
-      if (orientation(at(a), at(b), at(apex(f)), at(apex(g))) > 0)
-        reflex_[std::minmax(f, g)] = edge;
-    }
-  }
-
-  std::vector<Notch> notchesOf(const Surface& piece) const {
-    std::map<std::pair<int, int>, int> left;
-    for (const auto& [corner, face] : piece)
-      for (std::size_t k = 0; k < 3; ++k) left[{corner[k], corner[(k + 1) % 3]}] = face;
-    std::vector<Notch> notches;
-    for (const auto& [edge, f] : left) {
-      const auto other = left.find({edge.second, edge.first});
-      if (edge.first > edge.second || other == left.end()) continue;
-      const int g = other->second;
-      if (f >= 0 && g >= 0 && f != g && reflex_.count(std::minmax(f, g)) > 0)
-        notches.push_back({edge.first, edge.second, f, g});
-    }
-    return notches;
-  }
 
   std::vector<Vec3> cornersOf(const Surface& piece) const {
     std::vector<int> list;
@@ -214,11 +172,11 @@ class Decomposer {
     const std::size_t seeds = std::min(kMostSeeds, deep.size());
     for (std::size_t k = 0; k < seeds; ++k) {
       const Notch& notch = deep[tolerance_ > 0.0 ? k : k * deep.size() / seeds];
-      for (const CutPlane& plane : planesAt(notch, deep)) cuts.push_back({plane});
+      for (const CutPlane& plane : notches_->planesAt(notch, deep)) cuts.push_back({plane});
     }
     for (Cut& c : cuts) {
       work_ += static_cast<long>(deep.size());
-      for (const Notch& notch : deep) c.resolved += resolves(c.plane, notch) ? 1 : 0;
+      for (const Notch& notch : deep) c.resolved += notches_->resolves(c.plane, notch) ? 1 : 0;
     }
     int most = 0;
     for (const Cut& c : cuts) most = std::max(most, c.resolved);
@@ -261,73 +219,6 @@ class Decomposer {
     return sorted;
   }
 
-  CutPlane planeOfFace(int face) const {
-    const auto& corner = whole_[static_cast<std::size_t>(face)].corner;
-    return cut::planeThrough(at(corner[0]), at(corner[1]), at(corner[2]));
-  }
-
-  std::vector<CutPlane> planesAt(const Notch& notch, const std::vector<Notch>& others) const {
-    const auto [a, b] = reflex_.at(std::minmax(notch.left, notch.right));
-    const CutPlane left = planeOfFace(notch.left), right = planeOfFace(notch.right);
-    std::vector<CutPlane> planes = {left, right};
-    const double length = (at(b) - at(a)).norm();
-    // Between the faces: into the solid, away from both.
-    if (const Vec3 in = left.n + right.n; in.norm() > 1e-6)
-      planes.push_back(cut::planeThrough(at(a), at(b), at(a) - length * in.normalized()));
-    for (const Notch& other : others) {
-      const auto [c, d] = reflex_.at(std::minmax(other.left, other.right));
-      if ((a == c) + (a == d) + (b == c) + (b == d) != 1) continue;
-      const int third = a == c || b == c ? d : c;
-      const CutPlane plane = cut::planeThrough(at(a), at(b), at(third));
-      if (!plane.n.allFinite()) continue;
-      if (tolerance_ == 0.0) {
-        planes.push_back(plane);
-      } else {
-        planes.push_back(spread(plane, others));
-      }
-    }
-    std::erase_if(planes, [](const CutPlane& plane) { return !plane.n.allFinite(); });
-    return planes;
-  }
-
-  /// The plane through the notches near a plane that three of their corners far apart tell best.
-  CutPlane spread(CutPlane plane, const std::vector<Notch>& notches) const {
-    constexpr double kBand = 32.0;  // of what a cut takes for on it
-    for (int round = 0; round < 2; ++round) {
-      std::vector<Vec3> near;
-      for (const Notch& notch : notches)
-        for (const int p : {notch.from, notch.to})
-          if (std::abs(plane.height(at(p))) < kBand * snap_) near.push_back(at(p));
-      if (near.size() < 3) return plane;
-      const auto farthestBy = [&](auto measure) {
-        return *std::max_element(near.begin(), near.end(), [&](const Vec3& p, const Vec3& q) {
-          return measure(p) < measure(q);
-        });
-      };
-      const Vec3 a = farthestBy([&](const Vec3& p) { return (p - near[0]).squaredNorm(); });
-      const Vec3 b = farthestBy([&](const Vec3& p) { return (p - a).squaredNorm(); });
-      const Vec3 c = farthestBy([&](const Vec3& p) { return (p - a).cross(b - a).squaredNorm(); });
-      CutPlane better = cut::planeThrough(a, b, c);
-      if (!better.n.allFinite()) return plane;
-      if (better.n.dot(plane.n) < 0.0) better = cut::planeThrough(a, c, b);
-      plane = better;
-    }
-    return plane;
-  }
-
-  /// Whether a plane through a notch leaves no notch on either side of it.
-  bool resolves(const CutPlane& plane, const Notch& notch) const {
-    if (std::abs(plane.height(at(notch.from))) > slack() ||
-        std::abs(plane.height(at(notch.to))) > slack())
-      return false;
-    const CutPlane left = planeOfFace(notch.left), right = planeOfFace(notch.right);
-    const Vec3 e = (at(notch.to) - at(notch.from)).normalized();
-    // The way that the plane takes into the solid turns from neither face by more than half a turn.
-    const Vec3 way = plane.n.cross(e);
-    const double l = left.n.dot(way), r = right.n.dot(way);
-    return (l <= kRounding && r <= kRounding) || (l >= -kRounding && r >= -kRounding);
-  }
-
   /// The pieces fill the mesh, to what the tolerance may add all over its surface and the cuts.
   void checkVolume(const std::vector<Polyhedron>& hulls) const {
     double sum = 0.0, area = 0.0;
@@ -335,10 +226,7 @@ class Decomposer {
     const double whole = cut::sixfoldVolume(points_, whole_) / 6.0;
     if (std::abs(sum - whole) <= 2.0 * slack() * area) return;
     throw NoPieces(
-        "its pieces do not add up to its volume; does the surface touch or cross itself, or "
-        "enclose "
-        "a cavity?",
-        -1);
+        "its pieces do not add up to its volume; does the surface touch or cross itself?", -1);
   }
 
   Surface surfaceOf(const Polyhedron& solid) {
@@ -385,7 +273,7 @@ class Decomposer {
   cut::Points points_;
   Surface whole_;
   std::vector<int> faceOf_;  ///< per triangle of `whole_`: the face of the polyhedron
-  std::map<std::pair<int, int>, std::pair<int, int>> reflex_;  ///< pairs of triangles: their edge
+  std::optional<Notches> notches_;
   double tolerance_, snap_ = 0.0;  ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
   long work_ = 0;

@@ -5,6 +5,7 @@
 #include "app/present/present.h"
 #include "app/record/recording.h"
 #include "app/scene/mesh_file.h"
+#include "app/scene/obj_lines.h"
 #include "app/scene/scene.h"
 #include "sim/world.h"
 #include "tests/catch.h"
@@ -230,6 +231,18 @@ TEST_CASE("a surface that weighs like no solid is refused at the shape of its bo
 }
 
 // Oracle: the same tetrahedron plainly written.
+// Oracle: the compiler's reading of the same numbers.
+TEST_CASE("points of a mesh file are the numbers nearest to those written") {
+  const ObjFile obj = readObj(
+      "v 0.75 .1 1e-3\nv 1.75 .1 1e-3\nv 0.75 1.1 0.30000000000000004\n"
+      "v 0.7 0.123456789012345678 1.001\nf 1 3 2\n",
+      "m.obj");
+  CHECK(obj.points[0] == Vec3(0.75, .1, 1e-3));
+  CHECK(obj.points[2] == Vec3(0.75, 1.1, 0.30000000000000004));
+  CHECK(obj.points[3] == Vec3(0.7, 0.123456789012345678, 1.001));
+  CHECK(obj.lines == std::vector<int>{5});
+}
+
 TEST_CASE("a mesh file may hold comments, joined lines and what a solid does not need") {
   const std::string plain = kCorners + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   const std::string rich =

@@ -9,6 +9,7 @@
 #include "app/scene/mesh_file.h"
 #include "app/scene/piece_store.h"
 #include "app/scene/scene.h"
+#include "tests/body/solids.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -26,23 +27,20 @@ Mesh meshOf(const std::string& keys) {
   return std::get<Mesh>(scene.world.bodies.at(0).shape);
 }
 
-// A box from lo to hi as lines of an OBJ file whose points are counted from `first`.
-std::string boxFile(const Vec3& lo, const Vec3& hi, int first, bool inside = false) {
+/// A surface as lines of an OBJ file whose points are counted from `first`.
+std::string fileOf(const solids::Raw& raw, int first = 1) {
   std::string points, faces;
-  for (int k = 0; k < 8; ++k)
-    points += fmt::format("v {} {} {}\n", k & 1 ? hi.x() : lo.x(), k & 2 ? hi.y() : lo.y(),
-                          k & 4 ? hi.z() : lo.z());
-  for (std::vector<int> face : {std::vector<int>{0, 4, 6, 2},
-                                {1, 3, 7, 5},
-                                {0, 1, 5, 4},
-                                {2, 6, 7, 3},
-                                {0, 2, 3, 1},
-                                {4, 5, 7, 6}}) {
-    if (inside) std::reverse(face.begin(), face.end());
+  for (const Vec3& p : raw.points) points += fmt::format("v {} {} {}\n", p.x(), p.y(), p.z());
+  for (std::vector<int> face : raw.faces) {
     for (int& p : face) p += first;
     faces += fmt::format("f {}\n", fmt::join(face, " "));
   }
   return points + faces;
+}
+
+std::string boxFile(const Vec3& lo, const Vec3& hi, int first, bool inside = false) {
+  const solids::Raw box = solids::box(lo, hi);
+  return fileOf(inside ? reversed(box) : box, first);
 }
 
 std::string refusalOf(const std::string& text) {

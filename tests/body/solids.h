@@ -1,6 +1,7 @@
 // Polyhedra for tests, with whole-number points where they can have them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/shape/shape.h"
@@ -98,6 +99,23 @@ inline Raw torus(double R, double r, int around, int across) {
     for (int k = 0; k < across; ++k)
       raw.faces.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)});
   return raw;
+}
+
+/// The same surface seen from the other side: the wall of a cavity.
+inline Raw reversed(Raw raw) {
+  for (std::vector<int>& face : raw.faces) std::reverse(face.begin(), face.end());
+  return raw;
+}
+
+/// Two surfaces as one.
+inline Raw together(Raw a, const Raw& b) {
+  const int first = static_cast<int>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (std::vector<int> face : b.faces) {
+    for (int& p : face) p += first;
+    a.faces.push_back(std::move(face));
+  }
+  return a;
 }
 
 /// The same with every point moved, and rounded there.

@@ -8,6 +8,7 @@
 #include "sim/math/frames.h"
 #include "sim/math/orientation.h"
 #include "sim/shape/pieces.h"
+#include "tests/body/solids.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
 
@@ -15,22 +16,9 @@ using namespace tumble;
 
 namespace {
 
-/// A prism over a polygon that runs counter-clockwise.
-Mesh prism(const std::vector<std::pair<double, double>>& outline, double height) {
-  const int n = static_cast<int>(outline.size());
-  std::vector<Vec3> points;
-  for (const double z : {0.0, height})
-    for (const auto& [x, y] : outline) points.emplace_back(x, y, z);
-  std::vector<int> below, above;
-  std::vector<std::vector<int>> faces;
-  for (int k = 0; k < n; ++k) {
-    below.push_back(n - 1 - k);
-    above.push_back(n + k);
-    faces.push_back({k, (k + 1) % n, n + (k + 1) % n, n + k});
-  }
-  faces.push_back(below);
-  faces.push_back(above);
-  Mesh mesh{std::make_shared<const Polyhedron>(makePolyhedron(points, faces))};
+/// About the middle of its height.
+Mesh prism(const std::vector<Vec3>& outline, double height) {
+  Mesh mesh = solids::prism(outline, height).mesh();
   mesh.origin = {0.8, 0.8, 0.5 * height};
   mesh.pieces = std::make_shared<const Pieces>(piecesOf(*mesh.solid, PieceKind::Good, 0.0));
   return mesh;
@@ -58,16 +46,16 @@ Mesh ring(int around) {
 Mesh someMesh(Random& random) {
   switch (random.below(3)) {
     case 0:
-      return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1);
+      return prism({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, 1);
     case 1:
-      return prism({{0, 0},
-                    {2, 0},
-                    {2, 1.5},
-                    {1.75, 1.5},
-                    {1.75, 0.25},
-                    {0.25, 0.25},
-                    {0.25, 1.5},
-                    {0, 1.5}},
+      return prism({{0, 0, 0},
+                    {2, 0, 0},
+                    {2, 1.5, 0},
+                    {1.75, 1.5, 0},
+                    {1.75, 0.25, 0},
+                    {0.25, 0.25, 0},
+                    {0.25, 1.5, 0},
+                    {0, 1.5, 0}},
                    0.5);
     default:
       return ring(6);

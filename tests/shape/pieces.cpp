@@ -6,6 +6,7 @@
 
 #include "sim/body/mass_properties.h"
 #include "sim/shape/convex_hull.h"
+#include "tests/body/solids.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -14,48 +15,35 @@ namespace {
 
 using Fraction = boost::multiprecision::cpp_rational;
 
-/// A prism over a polygon that runs counter-clockwise, from z = 0 up.
-Polyhedron prism(const std::vector<std::pair<double, double>>& outline, double height) {
-  const int n = static_cast<int>(outline.size());
-  std::vector<Vec3> points;
-  for (const double z : {0.0, height})
-    for (const auto& [x, y] : outline) points.emplace_back(x, y, z);
-  std::vector<int> below, above;
-  std::vector<std::vector<int>> faces;
-  for (int k = 0; k < n; ++k) {
-    below.push_back(n - 1 - k);
-    above.push_back(n + k);
-    const int next = (k + 1) % n;
-    faces.push_back({k, next, n + next, n + k});
-  }
-  faces.push_back(below);
-  faces.push_back(above);
-  return makePolyhedron(points, faces);
-}
-
-Polyhedron ell() {
-  return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1);
-}
 Polyhedron letterU() {
-  return prism({{0, 0}, {3, 0}, {3, 2}, {2.5, 2}, {2.5, 0.5}, {0.5, 0.5}, {0.5, 2}, {0, 2}}, 0.5);
+  return solids::prism({{0, 0, 0},
+                        {3, 0, 0},
+                        {3, 2, 0},
+                        {2.5, 2, 0},
+                        {2.5, 0.5, 0},
+                        {0.5, 0.5, 0},
+                        {0.5, 2, 0},
+                        {0, 2, 0}},
+                       0.5)
+      .made();
 }
 Polyhedron comb(int teeth) {
-  std::vector<std::pair<double, double>> outline = {{0, 0}, {2.0 * teeth - 1, 0}};
+  std::vector<Vec3> outline = {{0, 0, 0}, {2.0 * teeth - 1, 0, 0}};
   for (int k = teeth - 1; k >= 0; --k) {
-    outline.push_back({2.0 * k + 1, 2});
-    outline.push_back({2.0 * k, 2});
-    if (k > 0) outline.push_back({2.0 * k, 1}), outline.push_back({2.0 * k - 1, 1});
+    outline.emplace_back(2.0 * k + 1, 2, 0);
+    outline.emplace_back(2.0 * k, 2, 0);
+    if (k > 0) outline.emplace_back(2.0 * k, 1, 0), outline.emplace_back(2.0 * k - 1, 1, 0);
   }
   // The first corner on the right stands below the last tooth.
-  return prism(outline, 1);
+  return solids::prism(outline, 1).made();
 }
 Polyhedron star(int tips) {
-  std::vector<std::pair<double, double>> outline;
+  std::vector<Vec3> outline;
   for (int k = 0; k < 2 * tips; ++k) {
     const double r = k % 2 == 0 ? 1.0 : 0.4, angle = 3.14159265358979323846 * k / tips;
-    outline.push_back({r * std::cos(angle), r * std::sin(angle)});
+    outline.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
   }
-  return prism(outline, 0.3);
+  return solids::prism(outline, 0.3).made();
 }
 
 /// A ring about z, its corners rounded to `digits` decimals.
@@ -175,10 +163,10 @@ TEST_CASE("a mesh comes apart into few pieces that are the mesh exactly") {
     }
   };
   SECTION("a cube") {
-    check(prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1), 1);
+    check(solids::box({0, 0, 0}, {1, 1, 1}).made(), 1);
   }
   SECTION("an L") {
-    check(ell(), 2);
+    check(solids::ell().made(), 2);
   }
   SECTION("a U") {
     check(letterU(), 3);
@@ -234,7 +222,7 @@ TEST_CASE("a mesh of more faces than can be taken apart is refused with words, i
 }
 
 TEST_CASE("slivers are the mesh too, and the hull is one piece that is more") {
-  const Polyhedron solid = ell();
+  const Polyhedron solid = solids::ell().made();
   const Pieces slivers = piecesOf(solid, PieceKind::Slivers, 1e-6);
   CHECK(slivers.hulls.size() == 8);
   CHECK(worstOff(momentsOf(solid), momentsOf(slivers)) < 1e-13);
@@ -245,58 +233,36 @@ TEST_CASE("slivers are the mesh too, and the hull is one piece that is more") {
 
 // Oracle: two boxes, and a box less a box, by hand.
 TEST_CASE("shells apart are one body, and a cavity stays hollow") {
-  const auto box = [](std::vector<Vec3>& points, std::vector<std::vector<int>>& faces, double lo,
-                      double hi, double x, bool inside) {
-    const int first = static_cast<int>(points.size());
-    for (int k = 0; k < 8; ++k)
-      points.emplace_back(x + (k & 1 ? hi : lo), k & 2 ? hi : lo, k & 4 ? hi : lo);
-    for (std::vector<int> face : {std::vector<int>{0, 4, 6, 2},
-                                  {1, 3, 7, 5},
-                                  {0, 1, 5, 4},
-                                  {2, 6, 7, 3},
-                                  {0, 2, 3, 1},
-                                  {4, 5, 7, 6}}) {
-      if (inside) std::reverse(face.begin(), face.end());
-      for (int& p : face) p += first;
-      faces.push_back(face);
-    }
-  };
-  std::vector<Vec3> points;
-  std::vector<std::vector<int>> faces;
-  box(points, faces, 0.0, 4.0, 0.0, false);
+  const solids::Raw box = solids::box({0, 0, 0}, {4, 4, 4});
   SECTION("apart") {
-    box(points, faces, 0.0, 1.0, 6.0, false);
-    const Polyhedron solid = makePolyhedron(points, faces);
+    const Polyhedron solid = together(box, solids::box({6, 0, 0}, {7, 1, 1})).made();
     CHECK(piecesOf(solid, PieceKind::Good, 0.0).hulls.size() == 2);
   }
   SECTION("hollow") {
-    box(points, faces, 1.0, 2.0, 0.0, true);
-    const Polyhedron solid = makePolyhedron(points, faces);
+    const Polyhedron solid = together(box, reversed(solids::box({1, 1, 1}, {2, 2, 2}))).made();
     const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
     CHECK(pieces.hulls.size() <= 6);
     const Moments whole = momentsOf(solid), parts = momentsOf(pieces);
     for (int k = 0; k < 10; ++k) CHECK(whole.sum[k] == parts.sum[k]);
   }
+  SECTION("hollow, its corners a rounding off, to a tolerance") {
+    // A wall of the cavity at 0.75 and its neighbours.
+    for (double wall : {0.75, std::nextafter(0.75, 1.0), std::nextafter(0.75, 0.0)})
+      for (int faces = 0; faces < 2; ++faces) {
+        solids::Raw cavity = reversed(solids::box({0.25, 0.25, 0.25}, {wall, wall, wall}));
+        if (faces == 1)  // each face begins with its next corner
+          for (std::vector<int>& face : cavity.faces)
+            std::rotate(face.begin(), face.begin() + 1, face.end());
+        CAPTURE(wall, faces);
+        const Polyhedron solid = together(solids::box({0, 0, 0}, {1, 1, 1}), cavity).made();
+        CHECK(piecesOf(solid, PieceKind::Good, 1e-6).hulls.size() == 6);
+      }
+  }
 }
 
 TEST_CASE("faces that pass through each other are refused by name") {
   // Two long boxes in a cross, as one surface of two shells whose faces cross.
-  std::vector<Vec3> points;
-  std::vector<std::vector<int>> faces;
-  for (const Vec3& half : {Vec3(2.0, 0.5, 0.5), Vec3(0.4, 0.4, 2.0)}) {
-    const int first = static_cast<int>(points.size());
-    for (int k = 0; k < 8; ++k)
-      points.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
-                          k & 4 ? half.z() : -half.z());
-    for (std::vector<int> face : {std::vector<int>{0, 4, 6, 2},
-                                  {1, 3, 7, 5},
-                                  {0, 1, 5, 4},
-                                  {2, 6, 7, 3},
-                                  {0, 2, 3, 1},
-                                  {4, 5, 7, 6}}) {
-      for (int& p : face) p += first;
-      faces.push_back(face);
-    }
-  }
-  CHECK_THROWS_AS(makePolyhedron(points, faces), NotASolid);
+  const solids::Raw cross = together(solids::box({-2.0, -0.5, -0.5}, {2.0, 0.5, 0.5}),
+                                     solids::box({-0.4, -0.4, -2.0}, {0.4, 0.4, 2.0}));
+  CHECK_THROWS_AS(cross.made(), NotASolid);
 }

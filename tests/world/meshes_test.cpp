@@ -7,6 +7,7 @@
 #include "sim/collide/collide.h"
 #include "sim/math/frames.h"
 #include "sim/shape/pieces.h"
+#include "tests/body/solids.h"
 #include "tests/catch.h"
 #include "tests/world/scenes.h"
 
@@ -15,45 +16,36 @@ using namespace tumble::scenes;
 
 namespace {
 
-/// A prism over an outline that runs counter-clockwise, less one over a hole that does too, or
-/// whole without one; about the middle of its height.
-Mesh prism(std::vector<std::pair<double, double>> outline,
-           const std::vector<std::pair<double, double>>& hole, double height) {
-  const int n = static_cast<int>(outline.size()), m = static_cast<int>(hole.size());
-  std::vector<Vec3> points;
-  for (const double z : {-0.5 * height, 0.5 * height}) {
-    for (const auto& [x, y] : outline) points.emplace_back(x, y, z);
-    for (const auto& [x, y] : hole) points.emplace_back(x, y, z);
-  }
-  const int up = n + m;
-  std::vector<std::vector<int>> faces;
-  for (int k = 0; k < n; ++k) faces.push_back({k, (k + 1) % n, up + (k + 1) % n, up + k});
-  for (int k = 0; k < m; ++k) {
-    const int p = n + k, q = n + (k + 1) % m;
-    faces.push_back({q, p, up + p, up + q});
-  }
-  if (m == 0) {
-    std::vector<int> below, above;
-    for (int k = 0; k < n; ++k) below.push_back(n - 1 - k), above.push_back(n + k);
-    faces.push_back(below);
-    faces.push_back(above);
-  } else {  // rings of quadrilaterals: as many corners without as within
-    for (int k = 0; k < n; ++k) {
-      const int next = (k + 1) % n;
-      faces.push_back({next, k, n + k, n + next});
-      faces.push_back({up + k, up + next, up + n + next, up + n + k});
-    }
-  }
-  Mesh mesh{std::make_shared<const Polyhedron>(makePolyhedron(points, faces))};
-  mesh.origin = -points[0];
+/// With its convex pieces, which carry its contacts.
+Mesh inPieces(const solids::Raw& raw) {
+  Mesh mesh = raw.mesh();
+  mesh.origin = -mesh.solid->points[0];
   mesh.pieces = std::make_shared<const Pieces>(piecesOf(*mesh.solid, PieceKind::Good, 0.0));
   return mesh;
 }
 
+/// A frame in the xy plane about z = 0: between an outline and a hole of as many corners, both
+/// counter-clockwise.
+solids::Raw frame(const std::vector<Vec3>& outline, const std::vector<Vec3>& hole, double height) {
+  const int n = static_cast<int>(outline.size()), up = 2 * n;
+  solids::Raw raw;
+  for (const double z : {-0.5 * height, 0.5 * height})
+    for (const auto* ring : {&outline, &hole})
+      for (const Vec3& p : *ring) raw.points.emplace_back(p.x(), p.y(), z);
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    raw.faces.push_back({k, next, up + next, up + k});
+    raw.faces.push_back({n + next, n + k, up + n + k, up + n + next});
+    raw.faces.push_back({next, k, n + k, n + next});
+    raw.faces.push_back({up + k, up + next, up + n + next, up + n + k});
+  }
+  return raw;
+}
+
 /// A link of bars of 0.5 m: 2 m wide, 3 m high.
 Mesh linkMesh() {
-  return prism({{-1, -1.5}, {1, -1.5}, {1, 1.5}, {-1, 1.5}},
-               {{-0.5, -1}, {0.5, -1}, {0.5, 1}, {-0.5, 1}}, 0.5);
+  return inPieces(frame({{-1, -1.5, 0}, {1, -1.5, 0}, {1, 1.5, 0}, {-1, 1.5, 0}},
+                        {{-0.5, -1, 0}, {0.5, -1, 0}, {0.5, 1, 0}, {-0.5, 1, 0}}, 0.5));
 }
 
 WorldDef chain(const char* method, int links) {
@@ -108,15 +100,16 @@ TEST_CASE("a thin U that flies at 100 m/s does not pass through a thin plate") {
   def.bodies[0].fixed = true;
   BodyDef u;
   u.name = "u";
-  u.shape = prism({{-0.5, -0.5},
-                   {0.5, -0.5},
-                   {0.5, 0.5},
-                   {0.46875, 0.5},
-                   {0.46875, -0.46875},
-                   {-0.46875, -0.46875},
-                   {-0.46875, 0.5},
-                   {-0.5, 0.5}},
-                  {}, 0.03125);
+  const solids::Raw outline = solids::prism({{-0.5, -0.5, 0},
+                                             {0.5, -0.5, 0},
+                                             {0.5, 0.5, 0},
+                                             {0.46875, 0.5, 0},
+                                             {0.46875, -0.46875, 0},
+                                             {-0.46875, -0.46875, 0},
+                                             {-0.46875, 0.5, 0},
+                                             {-0.5, 0.5, 0}},
+                                            0.03125);
+  u.shape = inPieces(solids::moved(outline, {0.0, 0.0, -0.015625}));
   u.mass = 1.0;
   u.restitution = 0.2;
   u.position = {-2.0, 0.1, 0.0};
