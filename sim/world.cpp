@@ -164,6 +164,8 @@ void checkForces(const WorldDef& def) {
     if (const auto* drag = std::get_if<LinearDrag>(&force)) exists(drag->body, true);
     if (const auto* point = std::get_if<PointForce>(&force)) exists(point->body, false);
     if (const auto* field = std::get_if<CircularField>(&force)) exists(field->body, true);
+    if (const auto* bending = std::get_if<Bending>(&force))
+      for (const int body : bending->body->bodies) exists(body, false);
     if (const auto* spring = std::get_if<Spring>(&force)) {
       exists(spring->a, false);
       exists(spring->b, true);
@@ -189,10 +191,33 @@ void addPivots(Model& model, std::vector<RigidBody>& bodies) {
   }
 }
 
+/// Which bodies are points of what bends.
+void addBending(Model& model) {
+  for (std::size_t k = 0; k < model.def.forces.size(); ++k) {
+    const auto* bending = std::get_if<Bending>(&model.def.forces[k]);
+    if (!bending) continue;
+    if (model.bending.empty()) model.bending.assign(model.shapes.size(), -1);
+    const std::string where = "forces[" + std::to_string(k) + "]";
+    const int number = *std::max_element(model.bending.begin(), model.bending.end()) + 1;
+    for (const int i : bending->body->bodies) {
+      need(std::holds_alternative<Particle>(model.def.bodies[i].shape), where,
+           "\"" + model.def.bodies[i].name +
+               "\" is no particle, so nothing bends between it and others");
+      need(model.bending[i] < 0, where,
+           "\"" + model.def.bodies[i].name + "\" is a point of two things that bend");
+      model.bending[i] = number;
+    }
+    for (const Element& element : bending->body->elements)
+      for (int p = 0; p < element.count; ++p)
+        need(model.bending[element.points[p]] == number, where,
+             "\"" + bending->body->name + "\" has an element with points that are not its own");
+  }
+}
+
 double worldSize(const Model& model) {
   double size = 0.0;
   for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
-    const double radius = boundingRadius(model.shapes[i]);
+    const double radius = model.radius[i];
     if (std::isfinite(radius)) size = std::max(size, radius + model.def.bodies[i].position.norm());
   }
   return size > 0.0 ? size : 1.0;
@@ -228,10 +253,12 @@ void World::Parts::build(const WorldDef& def) {
     checkShape(def.bodies[i].shape, i);
     checkParts(def.bodies[i], i);
     model.shapes.push_back(readyShape(contactShape(byMethod(def.bodies[i], i, centredShape))));
+    model.radius.push_back(boundingRadius(model.shapes[i]));
     if (touchesAnything(def.bodies[i].shape)) model.solid.push_back(static_cast<int>(i));
     state.bodies.push_back(bodyOf(def.bodies[i], i));
   }
   checkForces(def);
+  addBending(model);
   addPivots(model, state.bodies);
   model.size = worldSize(model);
   joinBodies(model, state.bodies);
@@ -380,7 +407,8 @@ std::vector<std::string> World::features(bool used) const {
       "moving fixed bodies");
   add(!model.pivots.empty(), "pivots");
   add(!model.joints.empty(), "joints");
-  const char* kForces[] = {"wind", "drag", "point forces", "springs", "circular fields"};
+  const char* kForces[] = {"wind",      "drag", "point forces", "springs", "circular fields",
+                           "what bends"};
   for (std::size_t kind = 0; kind < std::size(kForces); ++kind)
     add(std::any_of(model.def.forces.begin(), model.def.forces.end(),
                     [&](const Force& f) { return f.index() == kind; }),

@@ -86,7 +86,8 @@ constexpr std::array<ForceRow, 5> kForces = {{{"wind", readWind},
 template <class Kind>
 void append(const Kind& force, Section& section, const BodyList& bodies,
             std::vector<Force>& forces) {
-  if constexpr (std::is_same_v<Kind, PointForce> || std::is_same_v<Kind, Spring>) {
+  if constexpr (std::is_same_v<Kind, PointForce> || std::is_same_v<Kind, Spring> ||
+                std::is_same_v<Kind, Bending>) {
     forces.push_back(force);
   } else {
     for (const int body : bodies.group(section, "body")) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/scene/array.h"
+#include "app/scene/cloth.h"
 #include "app/scene/expect.h"
 #include "app/scene/force.h"
 #include "app/scene/joint.h"
@@ -14,6 +15,7 @@
 #include "app/scene/override.h"
 #include "app/scene/panel.h"
 #include "app/scene/settings.h"
+#include "app/scene/soft.h"
 #include "app/scene/toml.h"
 
 namespace tumble {
@@ -45,8 +47,11 @@ Scene readTree(const Node& tree, Findings& findings) {
   BodyList bodies(scene);
   readBodies(root, materials, bodies);
   readArrays(root, materials, scene.seed, scene.world.gravity, bodies);
+  readCloths(root, materials, bodies, scene);
+  readSofts(root, materials, bodies, scene);
   if (bodies.next() == 0 && root.good())
-    root.complain("body", "missing; a scene needs at least one [[body]] or [[array]]");
+    root.complain("body",
+                  "missing; a scene needs at least one [[body]], [[array]], [[cloth]] or [[soft]]");
   readForces(root, bodies, scene.world.forces);
   readJoints(root, bodies, scene.world.joints);
   readCamera(root, scene);

@@ -117,6 +117,17 @@ struct ExpectDef {
   double target = 0.0, within = 0.0;  ///< what it comes to, and what it may be off
 };
 
+/// Points that something bends joins, and the surface that they are drawn by in place of balls.
+struct BentDef {
+  std::string name;
+  int first = 0, count = 0;                        ///< bodies
+  std::vector<std::array<int, 3>> triangles = {};  ///< points, counter-clockwise from the front
+  std::vector<int> sides = {};  ///< per triangle: each is shaded smoothly on its own; none: one
+  double thickness = 0.0;       ///< [m] of a cloth, which has two faces
+  double skin = 0.0;            ///< [m] that the surface of a solid is off its points
+  std::optional<Rgb> colour = {}, back = {};
+};
+
 struct Scene {
   std::string name;  ///< file name without folder and ending
   std::string file;  ///< path it was read from
@@ -130,6 +141,7 @@ struct Scene {
   std::vector<std::optional<Rgb>> colours;  ///< per body; empty = by palette
   std::vector<std::optional<Rgb>> backs;    ///< per body; of the half with z < 0 in its frame
   std::vector<std::string> labels;          ///< per body; text drawn beside it, or ""
+  std::vector<BentDef> bent;                ///< cloths and soft bodies
   CameraView camera;                        ///< the first of `cameras`, unless another is chosen
   std::vector<CameraView> cameras;          ///< as the scene names them; none: the default one
   std::vector<ExpectDef> expects;

@@ -30,11 +30,13 @@ void readKeys(Section& section, CourseSettings& course) {
 
 void readKeys(Section& section, SteppingSettings& stepping) {
   section.read("step", stepping.step, kStep);
-  std::string preset = "exact";
+  std::string preset = "auto";
   section.read("preset", preset, presetChoices());
   stepping.take(*findSolverPreset(preset));
   section.read("solver", stepping.solver, solverChoices());
   section.read("tolerance", stepping.tolerance, {0.0, 1.0, true, {}});
+  if (section.find("solver") || section.find("tolerance")) stepping.treatCrowdsAlike();
+  section.read("linearisations", stepping.linearisations, 1, 1000);
 }
 
 /// Notes for each key of a method's table that it stands there.

@@ -130,8 +130,8 @@ void Audit::report(const State& state, Report& report) const {
   books.audited_steps = seen_;
   books.audit_untold_steps = untold_;
   books.audit_energy_gain = gain_;
-  const double lost =
-      books.energy_lost_impact + books.energy_lost_friction - books.energy_added_repair;
+  const double lost = books.energy_lost_impact + books.energy_lost_friction +
+                      books.energy_lost_bending - books.energy_added_repair;
   const double energy = std::accumulate(energyLast_.begin(), energyLast_.end(), 0.0);
   books.audit_energy_error =
       untold_ > 0 ? 0.0 : relative(energy - energyStart_ + lost - workDone_, kineticMax_, would);

@@ -45,6 +45,7 @@ class Audit {
     bool unlike = false;             ///< by several that move unlike
     bool springy = false;            ///< contacts in it are springs
     bool lost = false;               ///< loads along the way are unknown
+    bool bends = false;              ///< its spin changes in implicit steps
     bool swings = false;             ///< springs in it swing faster than the way is known
     double mass = 0.0, gain = 0.0;   ///< [kg], [J] Δ(T + V) − work of loads
     Vec3 P = Vec3::Zero(), L = Vec3::Zero();  ///< [N s], [N m s] not explained by loads
@@ -66,6 +67,8 @@ class Audit {
   void findSwings();
   void group(const std::vector<Nearness::Pair>& touched);
   void join(int a, int b);
+  void joinBent(const std::vector<int>& points);
+  void holdBent(const std::vector<int>& points);
   void holdBy(int body, int fixed);
   void addLoads();
   void addStates();
@@ -86,6 +89,7 @@ class Audit {
     return bodies_[body].v.isZero(0.0) && bodies_[body].omega.isZero(0.0);
   }
   void addMotions();
+  void addKinetic(std::span<const RigidBody> bodies);
   double sameWorkOf(int body) const;
   double relative(double open, double has, double wouldHave) const;
 

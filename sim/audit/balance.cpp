@@ -58,9 +58,11 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
   const auto free = [&](int body) { return body != kNoBody && moves(body); };
   for (const Bond& bond : bonds_)
     if (free(bond.a) && free(bond.b)) join(bond.a, bond.b);
-  for (const Force& force : model_.def.forces)
+  for (const Force& force : model_.def.forces) {
     if (const Spring* spring = std::get_if<Spring>(&force))
       if (free(spring->a) && free(spring->b)) join(spring->a, spring->b);
+    if (const Bending* bending = std::get_if<Bending>(&force)) joinBent(bending->body->bodies);
+  }
 
   groups_.assign(root_.size(), Group{});
   const bool springs = model_.runs == "course" && model_.def.course.contact == "penalty";
@@ -73,9 +75,30 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
       for (std::size_t k = 0; k < bodies_.size(); ++k)
         if (moves(k)) holdBy(k, i);
     }
+  for (const Force& force : model_.def.forces)
+    if (const Bending* bending = std::get_if<Bending>(&force)) holdBent(bending->body->bodies);
   for (const Bond& bond : bonds_)
     if (free(bond.a) != free(bond.b))
       holdBy(free(bond.a) ? bond.a : bond.b, free(bond.a) ? bond.b : bond.a);
+}
+
+/// The points of what bends that move are one group,
+void Audit::joinBent(const std::vector<int>& points) {
+  int first = -1;
+  for (const int i : points) {
+    if (!moves(i)) continue;
+    if (first >= 0) join(first, i);
+    first = i;
+  }
+}
+
+/// held by those that do not; an implicit step turns it less than its forces would.
+void Audit::holdBent(const std::vector<int>& points) {
+  const auto moving = std::find_if(points.begin(), points.end(), [&](int i) { return moves(i); });
+  if (moving == points.end()) return;
+  groups_[rootOf(*moving)].bends = true;
+  for (const int i : points)
+    if (!moves(i)) holdBy(*moving, i);
 }
 
 RigidBody Audit::fixedAt(int body, double t) const {
@@ -184,6 +207,15 @@ void Audit::addMotions() {
   spinMax_ = std::max(spinMax_, spin);
 }
 
+/// The largest kinetic energy lasts for a step or two: what a balance is relative to is asked for
+/// of each.
+void Audit::addKinetic(std::span<const RigidBody> bodies) {
+  double kinetic = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (moves(i)) kinetic += kineticOf(bodies_[i], recordedOf(bodies[i]));
+  kineticMax_ = std::max(kineticMax_, kinetic);
+}
+
 /// What changed between the two ends, less what loads explain.
 void Audit::addStates() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -253,7 +285,7 @@ void Audit::settle() {
     }
     if (g.held || g.lost || g.swings || (many_ && !winds_)) continue;
     driftP_[i] += bodies_[i].M / g.mass * g.P;
-    driftL_[i] += bodies_[i].M / g.mass * g.L;
+    if (!g.bends) driftL_[i] += bodies_[i].M / g.mass * g.L;
   }
   if (!told) ++untold_;
 

@@ -1,5 +1,7 @@
 #include "sim/audit/loads.h"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -87,11 +89,35 @@ void Loads::sum(std::span<const Force> forces, std::span<const RigidBody> bodies
   }
 }
 
+namespace {
+
+double storedIn(const ElasticBody& body, std::span<const Recorded> states) {
+  double sum = 0.0;
+  ElementTerms terms;
+  for (const Element& element : body.elements) {
+    ElementPlaces x;
+    x.fill(Vec3::Zero());
+    for (int k = 0; k < element.count; ++k) x[k] = states[element.points[k]].x;
+    differentiate(element.energy, x, ElementAsk::Energy, terms);
+    sum += terms.energy;
+  }
+  return sum;
+}
+
+}  // namespace
+
 double storedIn(const Force& force, std::span<const RigidBody> bodies,
                 std::span<const Recorded> states, int of) {
   if (const auto* field = std::get_if<CircularField>(&force)) {
     if (!actsOn(field->body, of)) return 0.0;
     return 0.5 * bodies[of].M * field->rotation.cross(states[of].x - field->centre).squaredNorm();
+  }
+  if (const auto* bending = std::get_if<Bending>(&force)) {
+    // All of it with the first of its points that moves.
+    const std::vector<int>& points = bending->body->bodies;
+    const auto first =
+        std::find_if(points.begin(), points.end(), [&](int i) { return !bodies[i].fixed(); });
+    return first != points.end() && *first == of ? storedIn(*bending->body, states) : 0.0;
   }
   const Spring* spring = std::get_if<Spring>(&force);
   if (!spring || bearerOf(*spring, bodies) != of) return 0.0;

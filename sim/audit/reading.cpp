@@ -8,8 +8,8 @@
 namespace tumble {
 namespace {
 
-/// Steps of which one is audited whole; of all of them, how deep bodies overlap at their ends. The
-/// first are audited all, and every one where loads depend on velocities.
+/// Steps of which one is audited whole; of all of them, how deep bodies overlap at their ends, and
+/// the kinetic energy. The first are audited all, and every one where loads depend on velocities.
 constexpr long kEvery = 8;
 /// Looks at flights in a run, and the most in a second.
 constexpr double kLooks = 64.0, kLooksPerSecond = 60.0;
@@ -37,6 +37,7 @@ void Audit::followSteps(const State& state) {
     if (part.t1 <= followed_) continue;
     const std::vector<RigidBody>& end = part.still ? part.start : part.end;
     followed_ = part.t1;
+    addKinetic(end);
     const bool all = !stored_ || parts_ < kEvery || parts_ % kEvery == 0;
     ++parts_;
     if (!all && nearness_.glance(end)) continue;

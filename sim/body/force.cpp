@@ -1,5 +1,6 @@
 #include "sim/body/force.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -79,6 +80,35 @@ void add(const CircularField& field, Bodies bodies) {
               [&](RigidBody& body) { body.force += body.M * acceleration(field, body.x); });
 }
 
+ElementPlaces placesOf(const Element& element, ConstBodies bodies) {
+  ElementPlaces x;
+  x.fill(Vec3::Zero());
+  for (int k = 0; k < element.count; ++k) x[k] = bodies[element.points[k]].x;
+  return x;
+}
+
+/// −∂E/∂x − D v of an element, by its points.
+ElementVector pullOf(const Element& element, ConstBodies bodies, ElementTerms& terms) {
+  const bool damped = damps(element.energy);
+  differentiate(element.energy, placesOf(element, bodies),
+                damped ? ElementAsk::Matrices : ElementAsk::Forces, terms);
+  if (!damped) return -terms.gradient;
+  ElementVector v = ElementVector::Zero();
+  for (int k = 0; k < element.count; ++k) v.segment<3>(3 * k) = bodies[element.points[k]].v;
+  return -terms.gradient - terms.damping * v;
+}
+
+void add(const Bending& bending, Bodies bodies) {
+  ElementTerms terms;
+  for (const Element& element : bending.body->elements) {
+    const ElementVector pull = pullOf(element, bodies, terms);
+    for (int k = 0; k < element.count; ++k) {
+      RigidBody& body = bodies[element.points[k]];
+      if (!body.fixed()) body.force += pull.segment<3>(3 * k);
+    }
+  }
+}
+
 double power(const UniformWind& wind, ConstBodies bodies) {
   double sum = 0.0;
   forEachFree(bodies, wind.body, [&](const RigidBody& body) { sum += wind.force.dot(body.v); });
@@ -111,7 +141,34 @@ double power(const CircularField&, ConstBodies) {
   return 0.0;
 }
 
-/// Energy [J] that a force has stored; only springs and fields do.
+/// Its dampers take v·D v; points that are led along give what their bearers push.
+double power(const Bending& bending, ConstBodies bodies) {
+  double sum = 0.0;
+  ElementTerms terms;
+  for (const Element& element : bending.body->elements) {
+    const ElementVector pull = pullOf(element, bodies, terms);
+    ElementVector v = ElementVector::Zero();
+    for (int k = 0; k < element.count; ++k) {
+      const RigidBody& body = bodies[element.points[k]];
+      v.segment<3>(3 * k) = body.v;
+      if (body.fixed()) sum -= pull.segment<3>(3 * k).dot(body.v);
+    }
+    sum -= v.dot(terms.damping * v);
+  }
+  return sum;
+}
+
+/// Energy [J] that a force has stored; only springs, fields and what bends do.
+double stored(const Bending& bending, ConstBodies bodies) {
+  double sum = 0.0;
+  ElementTerms terms;
+  for (const Element& element : bending.body->elements) {
+    differentiate(element.energy, placesOf(element, bodies), ElementAsk::Energy, terms);
+    sum += terms.energy;
+  }
+  return sum;
+}
+
 double stored(const Spring& spring, ConstBodies bodies) {
   const double stretch = pullOf(spring, bodies).stretch;
   return 0.5 * spring.stiffness * stretch * stretch;
@@ -134,6 +191,11 @@ double stored(const OtherForce&, ConstBodies) {
 
 bool dependsOnVelocity(const Force& force) {
   if (const Spring* spring = std::get_if<Spring>(&force)) return spring->damping != 0.0;
+  if (const Bending* bending = std::get_if<Bending>(&force)) {
+    const std::vector<Element>& elements = bending->body->elements;
+    return std::any_of(elements.begin(), elements.end(),
+                       [](const Element& element) { return damps(element.energy); });
+  }
   return std::holds_alternative<LinearDrag>(force);
 }
 

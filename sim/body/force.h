@@ -1,11 +1,13 @@
 // Chapter 3, body: the forces that act from outside (slides SD13, SD21; wind, drag, springs).
 #pragma once
 
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
 
 #include "sim/body/rigid_body.h"
+#include "sim/elastic/elastic_body.h"
 
 namespace tumble {
 
@@ -55,9 +57,14 @@ struct CircularField {
 /// Acceleration [m/s²] that the field gives at x [m]; linear in x − c.
 Vec3 acceleration(const CircularField& field, const Vec3& x);
 
-using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring, CircularField>;
+/// What bends between bodies that are points of mass:  f = −∂E/∂x − D v  of all its energies.
+struct Bending {
+  std::shared_ptr<const ElasticBody> body;
+};
 
-/// True if the force changes with velocities: drag, and a spring with damping.
+using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring, CircularField, Bending>;
+
+/// True if the force changes with velocities: drag, and springs and what bends with damping.
 bool dependsOnVelocity(const Force& force);
 
 /// Sets force and torque of every body to gravity [m/s²] plus the listed forces. Fixed bodies get
@@ -67,12 +74,12 @@ void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<Rig
 /// Σ (½ M v² + ½ ω·I ω) [J].
 double kineticEnergy(std::span<const RigidBody> bodies);
 
-/// Σ −m g·x + Σ ½ k (l − rest)² + Σ ½ m |Ω × (x − c)|² [J].
+/// Σ −m g·x + Σ ½ k (l − rest)² + Σ ½ m |Ω × (x − c)|² + Σ E of what bends [J].
 double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
                        std::span<const RigidBody> bodies);
 
-/// Power [W] of all forces that have no potential here: wind, drag, point forces, spring dampers,
-/// and of the fixed bodies that lead an end of a spring along. With it
+/// Power [W] of all forces that have no potential here: wind, drag, point forces, dampers of
+/// springs and of what bends, and of the fixed bodies that lead an end of these along. With it
 ///   d/dt (kinetic + potential) = power  for bodies that touch nothing.
 double powerOfForces(std::span<const Force> forces, std::span<const RigidBody> bodies);
 

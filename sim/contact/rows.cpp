@@ -9,6 +9,7 @@ void beginProblem(std::span<const RigidBody> bodies, Problem& problem) {
   problem.vStar.clear();
   problem.rows.clear();
   problem.cones.clear();
+  problem.couplings.clear();
   for (const RigidBody& body : bodies) {
     problem.invM.push_back(body.invM);
     problem.Iinv.push_back(body.Iinv);

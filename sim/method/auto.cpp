@@ -89,6 +89,7 @@ std::string_view chooseMethod(const Model& model, std::span<const RigidBody> bod
   const Method &exact = *findMethod("exact"), &stepping = *findMethod("stepping");
   const Counts counts = countsOf(model);
   const int moving = counts.balls + counts.solids;
+  if (!model.bending.empty()) return "stepping";  // which says so where it cannot
   const bool contact = moving > 1 || (moving == 1 && counts.fixed);
   const bool few =
       !gathers(model, counts) || (counts.solids <= kMostSolids && counts.balls <= kMostBalls);

@@ -107,8 +107,8 @@ void account(const Model& model, State& state, Report& report) {
   const double own = books.energy_end - books.energy_added_repair - books.work_of_forces;
   books.max_energy_gain = std::max(books.max_energy_gain, own - state.energyOwn);
   state.energyOwn = own;
-  const double open =
-      own - books.energy_start + books.energy_lost_impact + books.energy_lost_friction;
+  const double open = own - books.energy_start + books.energy_lost_impact +
+                      books.energy_lost_friction + books.energy_lost_bending;
   books.energy_balance_error =
       relative(open, state.kineticMax, 0.5 * state.loadPower * state.t * state.t);
   state.momentumDrift = std::max(state.momentumDrift,

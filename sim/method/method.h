@@ -46,6 +46,11 @@ bool stopAtUnknownPair(const Model& model, std::span<const std::pair<int, int>> 
 void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
                 double acceleration, double margin, std::vector<Aabb>& boxes);
 
+/// The box that holds one body at a velocity [m/s] and turning speed [rad/s], grown by `margin`
+/// [m].
+Aabb sweptBox(const Model& model, int i, const RigidBody& body, const Vec3& v, const Vec3& omega,
+              double h, double margin);
+
 /// All contact points of a pair within `margin` [m], with restitution and friction of the pair.
 /// b is the body that stands first in the scene. Appends to `contacts`.
 void findContacts(const Model& model, std::span<const RigidBody> bodies, std::pair<int, int> pair,

@@ -12,6 +12,15 @@ void SteppingSettings::take(const SolverPreset& preset) {
   solver = preset.solver;
   tolerance = preset.settings.tolerance;
   iterations = preset.settings.maxIterations;
+  crowdSolver = preset.crowdSolver;
+  crowdTolerance = preset.crowd.tolerance;
+  crowdIterations = preset.crowd.maxIterations;
+}
+
+void SteppingSettings::treatCrowdsAlike() {
+  crowdSolver = solver;
+  crowdTolerance = tolerance;
+  crowdIterations = iterations;
 }
 
 std::string shortNumber(double value) {
@@ -50,18 +59,19 @@ Shape centredShape(const BodyDef& body) {
 }
 
 bool Model::mayTouch(int a, int b) const {
-  if (fixed(a) && fixed(b)) return false;
+  if ((fixed(a) && fixed(b)) || (bends(a) && bends(b))) return false;
   return !std::binary_search(partners.begin(), partners.end(), std::minmax({a, b}));
 }
 
 Surface Model::surface(int a, int b) const {
   const BodyDef &p = def.bodies[a], &q = def.bodies[b];
   Surface s{std::max(p.restitution, q.restitution), std::sqrt(p.friction * q.friction)};
+  if (bends(a) || bends(b)) s.restitution = 0.0;
   for (const PairDef& pair : def.pairs) {
     const bool straight = pair.materialA == p.material && pair.materialB == q.material;
     const bool crossed = pair.materialA == q.material && pair.materialB == p.material;
     if (!straight && !crossed) continue;
-    s.restitution = pair.restitution.value_or(s.restitution);
+    if (!bends(a) && !bends(b)) s.restitution = pair.restitution.value_or(s.restitution);
     s.friction = pair.friction.value_or(s.friction);
   }
   return s;

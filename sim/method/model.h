@@ -77,16 +77,23 @@ struct SteppingSettings {
   std::string solver = "newton";
   double tolerance = 1e-12;  ///< natural-map residual, relative
   int iterations = 4000;     ///< at most, of the solver: more bring little
+  /// The same three for islands of many contacts that move; see `isCrowd`.
+  std::string crowdSolver = "pgs";
+  double crowdTolerance = 1e-3;
+  int crowdIterations = 100;
+  int linearisations = 1;  ///< at most, in one step, of the forces of what bends
 
   /// Solver, tolerance and iterations as in a row of solverPresets.
   void take(const SolverPreset& preset);
+  /// Crowds are solved as everything else is.
+  void treatCrowdsAlike();
 };
 
 /// Everything a world is made from.
 struct WorldDef {
   Vec3 gravity = {0.0, -9.81, 0.0};  ///< [m/s²]
   std::string method = "auto";
-  std::string impact = "reflections";
+  std::string impact = "auto";
   double duration = 5.0;  ///< [s] the last step ends there
   CourseSettings course;
   SteppingSettings stepping;
@@ -128,18 +135,24 @@ struct Surface {
 struct Model {
   WorldDef def;
   std::vector<Shape> shapes;                  ///< per body, as others meet it
+  std::vector<double> radius;                 ///< [m] boundingRadius of each, found once
   std::vector<int> solid;                     ///< the bodies that can touch anything, in order
   std::vector<Pivot> pivots;                  ///< of the bodies that have one
   std::vector<Joint> joints;                  ///< as in the definition
   std::vector<std::pair<int, int>> partners;  ///< bodies that a joint keeps from touching, sorted
-  std::string_view runs;                      ///< def.method, or what "auto" chose
+  std::vector<int> bending;  ///< per body: which `Bending` of the forces it is a point of, or −1;
+                             ///< empty where nothing bends
+  std::string_view runs;     ///< def.method, or what "auto" chose
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }
   bool fixed(int body) const { return def.bodies[body].fixed; }
-  /// Whether two bodies may touch: one of them moves, and no joint keeps them from it.
+  bool bends(int body) const { return !bending.empty() && bending[body] >= 0; }
+  /// Whether two bodies may touch: one of them moves, no joint keeps them from it, and they are not
+  /// both points of something that bends.
   bool mayTouch(int a, int b) const;
-  /// e = max(e1, e2), mu = √(mu1 mu2), unless a row of the pairs table says otherwise.
+  /// e = max(e1, e2), but 0 of a point of what bends, mu = √(mu1 mu2), unless a row of the pairs
+  /// table says otherwise.
   Surface surface(int a, int b) const;
 };
 

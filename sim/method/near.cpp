@@ -60,19 +60,24 @@ bool stopAtUnknownPair(const Model& model, std::span<const std::pair<int, int>> 
   return false;
 }
 
+Aabb sweptBox(const Model& model, int i, const RigidBody& body, const Vec3& v, const Vec3& omega,
+              double h, double margin) {
+  const double radius = model.radius[i];
+  const double turn = std::isfinite(radius) ? omega.norm() * radius * h : 0.0;
+  Aabb box = boundingBox(model.shapes[i], body.pose(), margin + turn);
+  const Vec3 way = h * v;
+  box.lo += way.cwiseMin(0.0);
+  box.hi += way.cwiseMax(0.0);
+  return box;
+}
+
 void sweptBoxes(const Model& model, std::span<const RigidBody> bodies, double h,
                 double acceleration, double margin, std::vector<Aabb>& boxes) {
   boxes.clear();
   for (const int i : model.solid) {
     const RigidBody& body = bodies[i];
-    const double radius = boundingRadius(model.shapes[i]);
-    const double turn = std::isfinite(radius) ? body.omega.norm() * radius * h : 0.0;
     const double fall = body.fixed() ? 0.0 : acceleration * h * h;
-    Aabb box = boundingBox(model.shapes[i], body.pose(), margin + turn + fall);
-    const Vec3 way = h * body.v;
-    box.lo += way.cwiseMin(0.0);
-    box.hi += way.cwiseMax(0.0);
-    boxes.push_back(box);
+    boxes.push_back(sweptBox(model, i, body, body.v, body.omega, h, margin + fall));
   }
 }
 

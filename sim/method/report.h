@@ -36,11 +36,16 @@ struct Certificate {
   double max_penetration = 0.0;    ///< [m] max(0, −separation)
   double mesh_excess = 0.0;        ///< [m] how far pieces stand out of their mesh at most
   double max_joint_gap = 0.0;      ///< [m] how far a joint was from being met
+  long hits_early = 0;             ///< contacts struck before they met, as of a crowd
+  double max_hit_shift = 0.0;      ///< [s] the longest before
   double energy_cut_impact = 0.0;  ///< [J] that restitution would have given beyond what there was
+  long islands_solved = 0;         ///< island-steps solved to the tolerance asked for,
+  long islands_rough = 0;          ///< and those of crowds in motion, solved as far as is planned
   double max_closed_height = 0.0;  ///< [m] of bounces that were left out at the end of a row
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
+  double energy_lost_bending = 0.0;  ///< [J] in dampers of what bends, and in its implicit steps
   double energy_added_repair = 0.0;  ///< [J] by moving bodies out of each other
   double max_energy_gain = 0.0;      ///< [J] in a step, beyond what repairs added and forces did
   double work_of_forces = 0.0;  ///< [J] by forces without a potential and by moving fixed bodies
@@ -75,13 +80,18 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"max_penetration", &Certificate::max_penetration},
     {"mesh_excess", &Certificate::mesh_excess},
     {"max_joint_gap", &Certificate::max_joint_gap},
+    {"hits_early", &Certificate::hits_early},
+    {"max_hit_shift", &Certificate::max_hit_shift},
     {"energy_cut_impact", &Certificate::energy_cut_impact},
+    {"islands_solved", &Certificate::islands_solved},
+    {"islands_rough", &Certificate::islands_rough},
     {"max_closed_height", &Certificate::max_closed_height},
     {"max_complementarity", &Certificate::max_complementarity},
     {"energy_start", &Certificate::energy_start},
     {"energy_end", &Certificate::energy_end},
     {"energy_lost_impact", &Certificate::energy_lost_impact},
     {"energy_lost_friction", &Certificate::energy_lost_friction},
+    {"energy_lost_bending", &Certificate::energy_lost_bending},
     {"energy_added_repair", &Certificate::energy_added_repair},
     {"max_energy_gain", &Certificate::max_energy_gain},
     {"work_of_forces", &Certificate::work_of_forces},

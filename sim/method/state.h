@@ -23,6 +23,14 @@
 
 namespace tumble {
 
+/// A part of a step that was divided for some bodies alone.
+struct ClusterPart {
+  double t0 = 0.0, t1 = 0.0;  ///< [s]
+  std::vector<int> bodies;
+  std::vector<RigidBody> start, end;  ///< these bodies, as in Segment
+  std::vector<Contact> contacts;      ///< theirs
+};
+
 /// A stretch of motion without an event in it, kept so that any instant inside can be looked at.
 struct Segment {
   double t0 = 0.0, t1 = 0.0;     ///< [s]
@@ -30,10 +38,11 @@ struct Segment {
   std::vector<RigidBody> end;    ///< the bodies at t1, before its events
   std::vector<Contact>
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
-  std::vector<Limit> limits = {};       ///< of joints, that hold
-  std::vector<JointForce> joints = {};  ///< of `stepping`: the forces of the step
-  bool still = false;                   ///< of `course`: nothing moves in it
-  bool crossing = false;                ///< of `exact`: a step across events that crowd
+  std::vector<Limit> limits = {};        ///< of joints, that hold
+  std::vector<JointForce> joints = {};   ///< of `stepping`: the forces of the step
+  bool still = false;                    ///< of `course`: nothing moves in it
+  bool crossing = false;                 ///< of `exact`: a step across events that crowd
+  std::vector<ClusterPart> pieces = {};  ///< of `stepping`: where bodies have parts of their own
 };
 
 /// Time, bodies, and what a method remembers from step to step.

@@ -25,13 +25,17 @@ struct Deal {
   }
 };
 
-/// Joins what a row joins.
+/// Joins what a row or a coupling joins.
 void joinBodies(const Problem& problem, std::vector<int>& root) {
   root.resize(problem.invM.size());
   std::iota(root.begin(), root.end(), 0);
   for (const Row& row : problem.rows) {
     if (!movable(problem, row.a) || !movable(problem, row.b)) continue;
     const int a = islandRoot(root, row.a), b = islandRoot(root, row.b);
+    root[std::max(a, b)] = std::min(a, b);
+  }
+  for (const Coupling& coupling : problem.couplings) {
+    const int a = islandRoot(root, coupling.a), b = islandRoot(root, coupling.b);
     root[std::max(a, b)] = std::min(a, b);
   }
 }
@@ -157,7 +161,7 @@ void takeWorse(const SolveReport& report, SolveReport& worst) {
   worst.iterations = std::max(worst.iterations, report.iterations);
 }
 
-/// Solves a problem that is one island as it stands.
+/// Solves a problem that is one island, or has couplings, as it stands.
 SolveReport solveWhole(const Solver& solver, const Problem& problem, const SolveSettings& settings,
                        Solution& solution) {
   if (solution.lambda.size() != problem.rows.size()) solution.lambda.clear();
@@ -214,6 +218,7 @@ std::vector<std::vector<int>> islands(const Problem& problem) {
 
 SolveReport solveByIslands(const Solver& solver, const Problem& problem,
                            const SolveSettings& settings, Solution& solution) {
+  if (!problem.couplings.empty()) return solveWhole(solver, problem, settings, solution);
   thread_local IslandWork kept;
   IslandWork work = std::move(kept);  // a solver may call this in turn
   dealOut(problem, work.deal);

@@ -37,6 +37,7 @@ class Newton {
   void keepBetter(SolveReport& report);
   void polish(SolveReport& report);
   void closeBalance(SolveReport& report);
+  void obeyForces(SolveReport& report);
   bool expect(SolveReport& report);
   void takeSprings(double residual, SolveReport& report);
   void select(SolveReport& report);
@@ -273,7 +274,7 @@ void Newton<N>::takeSprings(double residual, SolveReport& report) {
 /// Of the many forces that solve the problem those of springs, if they can be had.
 template <int N>
 void Newton<N>::select(SolveReport& report) {
-  if (!(report.residual <= tolerance_) || system_.areOfSprings()) return;
+  if (!(report.residual <= tolerance_) || system_.couples() || system_.areOfSprings()) return;
   remember();
   const double rho = system_.rho, residual = system_.findSprings(tolerance_);
   if (residual <= tolerance_) {
@@ -290,14 +291,25 @@ SolveReport Newton<N>::solve(const Problem& problem, const SolveSettings& settin
   tolerance_ = settings.tolerance;
   system_.prepare(problem);
   system_.restart(solution);
-  system_.expect(problem, settings.pull);
+  system_.expect(problem, system_.couples() ? std::span<const double>{} : settings.pull);
   SolveReport report;
   const bool easy = expect(report) || solveAnew(settings.maxIterations, solution, report);
   report.iterations += system_.factorizations;
   system_.write(problem, solution);
-  if (!easy || report.balance > kOpen) takeLambda(problem, solution, report);
+  if (!system_.couples() && (!easy || report.balance > kOpen))
+    takeLambda(problem, solution, report);
   if (!(report.residual <= tolerance_)) report.status = SolveStatus::NotConverged;
   return report;
+}
+
+/// Velocities that go with the forces at hand, where closing the balance does not bring them.
+template <int N>
+void Newton<N>::obeyForces(SolveReport& report) {
+  if (report.balance > kOpen) closeBalance(report);
+  if (report.balance <= kOpen) return;
+  system_.obey();
+  report.residual = system_.residual();
+  report.balance = system_.balance();
 }
 
 /// From λ = 0 and the velocities at hand. @return whether calm stages did it
@@ -305,13 +317,23 @@ template <int N>
 bool Newton<N>::solveAnew(int most, const Solution& start, SolveReport& report) {
   report.iterations = std::exchange(system_.factorizations, 0);
   if (report.iterations > 0) system_.restart(start);
-  report.residual = solveCalm();
+  // What rubs between points that bend slides: calm stages would not end there.
+  report.residual = system_.couples() && system_.rubs() ? kInfinity : solveCalm();
   const bool calm = report.residual <= tolerance_;
   if (!calm) {
     if (!std::isfinite(report.residual)) system_.restart(start);
     report.residual = solveHard(most);
   }
   report.balance = system_.balance();
+  if (system_.couples()) {
+    obeyForces(report);
+    if (!calm || report.residual <= tolerance_) return calm;
+    system_.restart(start);
+    report.residual = solveHard(most);
+    report.balance = system_.balance();
+    obeyForces(report);
+    return calm;
+  }
   if (calm) polish(report);
   select(report);
   closeBalance(report);
@@ -370,7 +392,9 @@ bool turns(const Problem& problem) {
 }  // namespace
 
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution) {
-  if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
+  const bool couples = !problem.couplings.empty();
+  if (!couples)
+    if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
   thread_local Newton<3> straight;  // both keep their memory from call to call
   thread_local Newton<6> turning;
   const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {
@@ -382,6 +406,7 @@ SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, S
     report.status = SolveStatus::Solved;
     return report;
   }
+  if (couples) return report;
   if (islands(problem).size() > 1) {  // those that are easy need not fail with the others
     solution = {};
     return solveByIslands({"newton", "", solveNewton}, problem, settings, solution);

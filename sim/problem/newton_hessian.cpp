@@ -73,7 +73,7 @@ Mat6 atOtherCentre(const Vec3& arm, const Mat6& K) {
 
 }  // namespace
 
-/// A factor begins with M.
+/// A factor begins with A = M + K.
 template <int N>
 template <class Factor>
 void NewtonSystem<N>::beginMasses(Factor& factor) {
@@ -82,6 +82,16 @@ void NewtonSystem<N>::beginMasses(Factor& factor) {
     Block& block = factor.diagonal(static_cast<int>(i));
     block.diagonal().template head<3>().setConstant(movers[i].mass);
     if constexpr (N == 6) block.template bottomRightCorner<3, 3>() = movers[i].inertia;
+  }
+  for (const Link& link : couplings_) {
+    if (link.i == link.j) {
+      factor.diagonal(link.i).template topLeftCorner<3, 3>() += link.block;
+      continue;
+    }
+    const Mat3 below = link.iIsRow ? link.block : Mat3(link.block.transpose());
+    factor.lower(link.edge).template topLeftCorner<3, 3>() += below;
+    if constexpr (Factor::kHasUpper)
+      factor.upper(link.edge).template topLeftCorner<3, 3>() += below.transpose();
   }
 }
 
@@ -112,7 +122,7 @@ void NewtonSystem<N>::addAlone(Factor& factor, const Patch& patch, const Point& 
   if constexpr (Factor::kHasUpper) factor.upper(patch.edge) += patch.aIsRow ? ba : ab;
 }
 
-/// H = M + ρ Jᵀ ∂Π J.
+/// H = A + ρ Jᵀ ∂Π J.
 template <int N>
 [[gnu::flatten]] void NewtonSystem<N>::assemble() {
   beginMasses(H_);
@@ -186,6 +196,8 @@ void NewtonSystem<N>::assembleLive() {
   ++factorizations;
 }
 
+template void NewtonSystem<3>::beginMasses(BlockCholesky<3>&);
+template void NewtonSystem<6>::beginMasses(BlockCholesky<6>&);
 template void NewtonSystem<3>::assemble();
 template void NewtonSystem<6>::assemble();
 template Mat3 NewtonSystem<3>::liveSlope(const Point&) const;

@@ -151,7 +151,7 @@ bool NewtonSystem<N>::press(int most) {
       return true;
     }
     const bool whole = shorten();
-    if ((whole && !bent && springsFit())) return true;
+    if (whole && !bent && springsFit()) return true;
     if (change > 0.5 * before && change < kSmall * scale) return true;
     before = change;
   }

@@ -53,11 +53,13 @@ template <int N>
   evaluate();
 }
 
-/// The gradient M (v − vStar) − Jᵀ force, with the forces that `find(point, λ − ρ (u + s))` sets.
+/// The gradient A (v − vStar) − Jᵀ force, with the forces that `find(point, λ − ρ (u + s))` sets.
 template <int N>
 template <class Find>
 void NewtonSystem<N>::gather(const Find& find) {
   for (Mover& mover : movers) mover.gradient = mover.momentum(mover.v - mover.star);
+  forCoupled([this](int j) { return Vec3((movers[j].v - movers[j].star).template head<3>()); },
+             [this](int i, const Vec3& p) { movers[i].gradient.template head<3>() += p; });
   for (const Patch& patch : patches_) {
     Twist wrench = Twist::Zero(), back = Twist::Zero();
     for (int p = patch.begin; p < patch.end; ++p) {
@@ -83,6 +85,20 @@ template <int N>
 template <int N>
 void NewtonSystem<N>::evaluateAsIs() {
   gather([](const Point&, const Vec3&) {});
+}
+
+template <int N>
+void NewtonSystem<N>::obey() {
+  for (Mover& mover : movers) mover.v = mover.star;
+  evaluateAsIs();
+  beginMasses(H_);
+  H_.factor();
+  factoredRho_ = 0.0;
+  ++factorizations;
+  direction(H_);
+  for (Mover& mover : movers) mover.v += mover.step;
+  forRows(&Mover::v, [](Point& point, const Vec3& rows) { point.u = rows + point.bias; });
+  evaluateAsIs();
 }
 
 /// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
@@ -132,6 +148,12 @@ template <int N>
   double slope = 0.0;
   for (const Mover& mover : movers)
     slope += mover.step.dot(mover.momentum(mover.v - mover.star + alpha * mover.step));
+  forCoupled(
+      [&](int j) {
+        const Mover& mover = movers[j];
+        return Vec3((mover.v - mover.star + alpha * mover.step).template head<3>());
+      },
+      [&](int i, const Vec3& p) { slope += movers[i].step.template head<3>().dot(p); });
   for (Point& point : points) {
     Vec3 z = point.lambda - rho * (point.u + alpha * point.du);
     z[0] -= rho * point.saxce;

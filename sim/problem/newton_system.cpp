@@ -182,23 +182,41 @@ void NewtonSystem<N>::linkBodies() {
   edges_.clear();
   for (const Patch& patch : patches_)
     if (patch.b >= 0) edges_.emplace_back(std::minmax(patch.a, patch.b));
+  for (const Link& link : couplings_)
+    if (link.i != link.j) edges_.emplace_back(std::minmax(link.i, link.j));
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
   structure_ = &structureFor(static_cast<int>(movers.size()), edges_);
   H_.begin(*structure_);
+  const auto edgeOf = [this](int a, int b) {
+    const BlockEdge edge = std::minmax(a, b);
+    return static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+  };
   for (Patch& patch : patches_) {
     if (patch.b < 0) continue;
-    const BlockEdge edge = std::minmax(patch.a, patch.b);
-    patch.edge =
-        static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+    patch.edge = edgeOf(patch.a, patch.b);
     patch.aIsRow = H_.edgeRow(patch.edge) == patch.a;
   }
+  for (Link& link : couplings_) {
+    if (link.i == link.j) continue;
+    link.edge = edgeOf(link.i, link.j);
+    link.iIsRow = H_.edgeRow(link.edge) == link.i;
+  }
+}
+
+template <int N>
+void NewtonSystem<N>::addCouplings(const Problem& problem) {
+  couplings_.clear();
+  for (const Coupling& coupling : problem.couplings)
+    couplings_.push_back(
+        {.i = moverOf_[coupling.a], .j = moverOf_[coupling.b], .block = coupling.block});
 }
 
 template <int N>
 void NewtonSystem<N>::prepare(const Problem& problem) {
   addMovers(problem);
   addPoints(problem);
+  addCouplings(problem);
   linkBodies();
   scale = velocityScale(problem);
   factoredRho_ = pressedRho_ = 0.0;
@@ -207,6 +225,8 @@ void NewtonSystem<N>::prepare(const Problem& problem) {
   for (const Mover& mover : movers)
     if (mover.moves) weight += 0.25 * mover.mass;
   if (weight == 0.0) weight = 1.0;
+  for (const Link& link : couplings_)
+    if (link.i == link.j) weight = std::max(weight, 0.25 * link.block.diagonal().maxCoeff());
 }
 
 /// λ becomes the forces; slip terms go a part of the way to those of now, if at all.
@@ -292,6 +312,8 @@ template <int N>
   work_.resize(movers.size());
   for (std::size_t i = 0; i < movers.size(); ++i)
     work_[i] = movers[i].momentum(movers[i].v - movers[i].star).cwiseAbs();
+  forCoupled([this](int j) { return Vec3((movers[j].v - movers[j].star).template head<3>()); },
+             [this](int i, const Vec3& p) { work_[i].template head<3>() += p.cwiseAbs(); });
   for (const Patch& patch : patches_) {
     if (patch.a < 0) continue;
     for (int p = patch.begin; p < patch.end; ++p) {
@@ -305,10 +327,15 @@ template <int N>
   }
   // A velocity is a number: beside a small impulse on a fast body its rounding is not an error.
   constexpr double kRounding = std::numeric_limits<double>::epsilon();
+  std::vector<Vec3> coupled(couplings_.empty() ? 0 : movers.size(), Vec3::Zero());
+  for (Twist Mover::*twist : {&Mover::v, &Mover::star})
+    forCoupled([&](int j) { return Vec3((movers[j].*twist).template head<3>()); },
+               [&](int i, const Vec3& p) { coupled[i] += p.cwiseAbs(); });
   double worst = 0.0;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     const Mover& mover = movers[i];
-    const Twist size = mover.momentum(mover.v).cwiseAbs() + mover.momentum(mover.star).cwiseAbs();
+    Twist size = mover.momentum(mover.v).cwiseAbs() + mover.momentum(mover.star).cwiseAbs();
+    if (!coupled.empty()) size.template head<3>() += coupled[i];
     for (int first = 0; first < N; first += 3) {
       const double gross = work_[i].template segment<3>(first).maxCoeff();
       const double open = mover.gradient.template segment<3>(first).cwiseAbs().maxCoeff() -

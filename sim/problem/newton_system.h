@@ -68,6 +68,8 @@ class NewtonSystem {
   bool minimise(double accuracy, int most);
   /// The same where s = mu |u_t| follows v, so that there is no Φ, only its gradient to bring to 0.
   bool followSlip(double accuracy, int most);
+  /// v becomes what the forces give, v* + A⁻¹ Jᵀ λ: one factor of A.
+  void obey();
   /// One stage more by the last factor alone, forces on the pieces that it was made for. False
   /// where there is no factor for this ρ.
   bool stageMore();
@@ -96,8 +98,11 @@ class NewtonSystem {
   void goBack(const std::vector<Point>& points, const std::vector<Mover>& movers);
 
   bool rubs() const { return rubs_; }  ///< whether a contact has friction
-  double residual() const;             ///< as naturalResidual
-  double balance();                    ///< as SolveReport::balance
+  bool couples() const {
+    return !couplings_.empty();
+  }                         ///< whether bodies are coupled by more than M
+  double residual() const;  ///< as naturalResidual
+  double balance();         ///< as SolveReport::balance
 
   double weight = 1.0;  ///< [kg] what ρ is measured by: a quarter of all masses
   double rho = 1.0;     ///< [kg]
@@ -120,14 +125,33 @@ class NewtonSystem {
     Vec3 arm = Vec3::Zero();  ///< [m] from the centre of b to that of a
   };
 
+  /// A block of K between two movers: row i, column j.
+  struct Link {
+    int i = 0, j = 0;
+    int edge = -1;  ///< their block off the diagonal, if they are two
+    bool iIsRow = true;
+    Mat3 block;
+  };
+
   // newton_system.cpp
   void addMovers(const Problem& problem);
   void addPoints(const Problem& problem);
+  void addCouplings(const Problem& problem);
   double split(const Problem& problem, int body, Vec6& J, double& bias) const;
   Rows readRows(const Problem& problem, const Cone& cone, Point& point) const;
   void place(int point, int a, int b, const Rows& ofB);
   void linkBodies();
   const BlockStructure& structureFor(int rows, std::span<const BlockEdge> edges);
+
+  /// Gives `take` the movers i and j of every block of K, with what it makes of a motion of j:
+  /// both ways, and once on the diagonal.
+  template <class MotionOf, class Take>
+  void forCoupled(const MotionOf& motionOf, const Take& take) const {
+    for (const Link& link : couplings_) {
+      take(link.i, Vec3(link.block * motionOf(link.j)));
+      if (link.i != link.j) take(link.j, Vec3(link.block.transpose() * motionOf(link.i)));
+    }
+  }
 
   // newton_hessian.cpp
   template <class Factor>
@@ -212,6 +236,7 @@ class NewtonSystem {
 
   std::vector<int> moverOf_;
   std::vector<Patch> patches_;
+  std::vector<Link> couplings_;
   std::vector<Rows> others_;
   std::vector<BlockEdge> edges_;
   std::vector<std::unique_ptr<BlockStructure>> structures_;

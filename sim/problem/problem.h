@@ -37,16 +37,26 @@ struct Cone {
   double mu = 0.0;  ///< [1] coefficient of friction
 };
 
-/// Find v and λ with  M (v − vStar) = Jᵀ λ,  u = J v + bias + C λ,  and every cone satisfied, where
-/// C is diagonal and has the compliances. At velocity level v is in m/s and λ an impulse in N·s; at
-/// acceleration level v is an acceleration, λ a force in N. Twists are (linear, angular), world
-/// frame, about each centre of mass.
+/// What ties the velocities of two bodies to each other whatever they touch, as something that
+/// bends between them does: a block of K, which has no negative eigenvalue, for their linear
+/// velocities.
+struct Coupling {
+  int a = 0, b = 0;           ///< bodies that move, or one body twice: a block of the diagonal
+  Mat3 block = Mat3::Zero();  ///< [kg] row a, column b; that of (b, a) is its transpose
+};
+
+/// Find v and λ with  A (v − vStar) = Jᵀ λ,  u = J v + bias + C λ,  and every cone satisfied, where
+/// A = M + K and C is diagonal and has the compliances. At velocity level v is in m/s and λ an
+/// impulse in N·s; at acceleration level v is an acceleration, λ a force in N. Twists are (linear,
+/// angular), world frame, about each centre of mass.
 struct Problem {
   std::vector<double> invM;  ///< [1/kg] per body; 0 = immovable
   std::vector<Mat3> Iinv;    ///< [1/(kg m²)] per body, world frame
   std::vector<Vec6> vStar;   ///< per body: the motion without the unknown λ
   std::vector<Row> rows;
   std::vector<Cone> cones;
+  std::vector<Coupling> couplings =
+      {};  ///< of K, each pair of bodies once; most problems have none
 };
 
 struct Solution {
@@ -65,7 +75,7 @@ struct SolveReport {
   double residual =
       0.0;  ///< largest entry of the natural map, in units of u, over the largest |J vStar + bias|
   int iterations = 0;  ///< sweeps, pivots or factorizations
-  double balance = 0.0;  ///< largest entry of M (v − vStar) − Jᵀ λ, over the sum of the sizes of
+  double balance = 0.0;  ///< largest entry of A (v − vStar) − Jᵀ λ, over the sum of the sizes of
                          ///< the terms of its body; 0 where v is what λ gives
   double scale = 0.0;  ///< velocityScale of the problem, where the solver asked for it; else 0
 };
@@ -83,6 +93,7 @@ struct Solver {
   std::string_view name;
   std::string_view summary;
   SolveReport (*solve)(const Problem&, const SolveSettings&, Solution&);
+  bool couples = false;  ///< it solves problems with couplings; others need a block-diagonal mass
 };
 
 /// All solvers. To add one: write `sim/problem/<name>.cpp` and add its row in solvers.cpp.
@@ -95,6 +106,8 @@ struct SolverPreset {
   std::string_view summary;
   std::string_view solver;
   SolveSettings settings;
+  std::string_view crowdSolver;  ///< for islands of many contacts that move
+  SolveSettings crowd;
 };
 
 std::span<const SolverPreset> solverPresets();
@@ -109,7 +122,7 @@ inline double rowSpeed(const Row& row, const Vec6& va, const Vec6& vb) {
 /// J v + bias for every row, at the given v: u but for what compliance adds.
 void rowVelocities(const Problem& problem, std::span<const Vec6> v, std::span<double> u);
 
-/// v = vStar + M⁻¹ Jᵀ λ.
+/// v = vStar + M⁻¹ Jᵀ λ, of a problem without couplings.
 void velocitiesFromLambda(const Problem& problem, std::span<const double> lambda,
                           std::span<Vec6> v);
 

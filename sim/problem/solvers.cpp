@@ -7,7 +7,7 @@ namespace tumble {
 std::span<const Solver> solvers() {
   static constexpr std::array kTable = {
       Solver{"newton", "augmented Lagrangian by semismooth Newton steps: exact at any size",
-             solveNewton},
+             solveNewton, true},
       Solver{"pivoting", "dense Dantzig pivoting: exact, for small problems", solvePivoting},
       Solver{"pgs", "projected Gauss-Seidel with the true friction cone", solvePgs},
   };
@@ -16,9 +16,22 @@ std::span<const Solver> solvers() {
 
 std::span<const SolverPreset> solverPresets() {
   static constexpr std::array kTable = {
-      SolverPreset{"exact", "contacts hold to rounding", "newton", {1e-12, 4000}},
-      SolverPreset{"balanced", "contacts hold to a millionth", "newton", {1e-6, 4000}},
-      SolverPreset{"fast", "twenty sweeps, whatever they leave", "pgs", {1e-3, 20}},
+      SolverPreset{"auto",
+                   "to rounding, but crowds that move to a thousandth",
+                   "newton",
+                   {1e-12, 4000},
+                   "pgs",
+                   {1e-3, 100}},
+      SolverPreset{
+          "exact", "contacts hold to rounding", "newton", {1e-12, 4000}, "newton", {1e-12, 4000}},
+      SolverPreset{"balanced",
+                   "contacts hold to a millionth",
+                   "newton",
+                   {1e-6, 4000},
+                   "newton",
+                   {1e-6, 4000}},
+      SolverPreset{
+          "fast", "twenty sweeps, whatever they leave", "pgs", {1e-3, 20}, "pgs", {1e-3, 20}},
   };
   return kTable;
 }

@@ -18,15 +18,15 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
                           Solution& solution);
 
 /// Proximal augmented Lagrangian. In stages λ ← Π_K(λ − ρ(u + s)), where v minimises the convex
-///   Φ(v) = ½ |v − v*|²_M + Σ |Π_K(λ − ρ(J v + bias + s))|² / 2ρ
-/// by Newton's method with H = M + ρ Jᵀ ∂Π J, a matrix of 6 × 6 blocks on the graph of bodies, or
-/// of 3 × 3 where no row turns one: points that depend on each other make it neither larger nor
-/// singular. The first stages go with cones of 0.8 mu: of the many λ that hold what sticks, one
-/// that lies inside its cones is found, if there is one, and rounding does not move it from piece
-/// to piece. s = mu |u_t| n follows from stage to stage, which makes the cone Coulomb's (de Saxcé &
-/// Feng 1998; Rockafellar 1976; Acary, Brémond & Huber 2018). ρ is one for the whole problem. It
-/// starts from λ = 0 whatever the solution holds, and from solution.v if that is of the right
-/// length.
+///   Φ(v) = ½ |v − v*|²_A + Σ |Π_K(λ − ρ(J v + bias + s))|² / 2ρ
+/// by Newton's method with H = A + ρ Jᵀ ∂Π J, a matrix of 6 × 6 blocks on the graph of bodies, or
+/// of 3 × 3 where no row turns one; A is M, and couplings add edges to that graph: points that
+/// depend on each other make it neither larger nor singular. The first stages go with cones of 0.8
+/// mu: of the many λ that hold what sticks, one that lies inside its cones is found, if there is
+/// one, and rounding does not move it from piece to piece. s = mu |u_t| n follows from stage to
+/// stage, which makes the cone Coulomb's (de Saxcé & Feng 1998; Rockafellar 1976; Acary, Brémond &
+/// Huber 2018). ρ is one for the whole problem. It starts from λ = 0 whatever the solution holds,
+/// and from solution.v if that is of the right length.
 ///
 /// Which forces, where several solve the problem: those of contact points, and rows of joints, of
 /// one compliance ε in all directions, without a load at first, in the limit ε → 0, where there is
@@ -38,7 +38,8 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
 /// depends on no order, frame or history. A row that turns bodies and does not move them counts as
 /// at an arm of √(1/(m w)), with w its mobility and 1/m = 1/ma + 1/mb. Forces of one stage after
 /// the other stay of this kind until one of them changes its piece; then they are looked for anew
-/// (newton_springs.cpp). Where they are not found the first answer stands.
+/// (newton_springs.cpp). Where they are not found the first answer stands, and so it does in a
+/// problem with couplings: points of mass that something bends joins have contacts of their own.
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution);
 
 }  // namespace tumble

@@ -167,7 +167,8 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[course]\nstiffness = 0.0", "9:13", ""},
       {"[course]\ndamping = -1.0", "9:11", ""},
       {"[stepping]\npreset = \"fats\"", "9:10",
-       "stepping.preset: unknown value 'fats', did you mean 'fast'? Valid: exact, balanced, fast"},
+       "stepping.preset: unknown value 'fats', did you mean 'fast'? Valid: auto, exact, balanced, "
+       "fast"},
       {"[stepping]\nsolver = \"newtn\"", "9:10", "stepping.solver: unknown value 'newtn'"},
       {"[stepping]\ntolerance = -1", "9:13", "stepping.tolerance: expected a number in (0, 1]"},
       {"[pairs]\nrubber = {}", "9:1", "expected two materials, \"A-B\""},
@@ -296,7 +297,8 @@ TEST_CASE("a wrong world, or none, is named") {
   const std::string body = "[[body]]\nshape = { sphere = 1 }\nmass = 1\n";
   const std::vector<Wrong> table = {
       {body, "1:1", "world: missing; a scene needs a [world] table"},
-      {"[world]\n", "1:1", "body: missing; a scene needs at least one [[body]] or [[array]]"},
+      {"[world]\n", "1:1",
+       "body: missing; a scene needs at least one [[body]], [[array]], [[cloth]] or [[soft]]"},
       {"world = 3\n" + body, "1:9", "world: expected a table, found 3"},
       {"[world]\ngravity = -9.81\n" + body, "2:11",
        "world.gravity: expected a list of 3 numbers [m/s²]"},

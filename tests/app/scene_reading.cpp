@@ -26,7 +26,7 @@ TEST_CASE("what a scene leaves out has the defaults of the contract") {
   const WorldDef& world = scene.world;
   CHECK(world.gravity == Vec3(0.0, -9.81, 0.0));
   CHECK(world.method == "auto");
-  CHECK(world.impact == "reflections");
+  CHECK(world.impact == "auto");
   CHECK(world.duration == 5.0);
   CHECK(world.course.step == 1.0 / 240.0);
   CHECK(world.course.integrator == "rk4");

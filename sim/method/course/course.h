@@ -101,6 +101,7 @@ class Course {
   /// How long [s] the motion may go on unseen: no pair passes through each other, no feature dips
   /// in and out again.
   double foresee(double span) const;
+  double closingSpeed(std::size_t pair) const;
   /// When [s] the first of these points that dip below their surface turns back.
   double lowestPoint(std::span<const Contact> points, double span) const;
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.

@@ -68,15 +68,31 @@ double Course::foresee(double span) const {
     const double speed = (bodyA.v - bodyB.v).norm() + turnA + turnB + bend * span;
     if (gaps_[k] > speed * span) continue;
 
-    // Thin bodies must not pass through each other: half their thickness is the longest way.
+    // Thin bodies must not pass through each other: half their thickness is the longest way inside.
     const double thickness = innerRadius(model_.shapes[a]) + innerRadius(model_.shapes[b]);
-    if (speed * safe > 0.5 * thickness) safe = std::max(shortest, 0.5 * thickness / speed);
+    if (speed * safe > 0.5 * thickness) {
+      safe = std::max(shortest, 0.5 * thickness / speed);
+      if (const double closing = closingSpeed(k); closing * safe > gaps_[k] + 0.5 * thickness)
+        safe = (std::max(0.0, gaps_[k]) + 0.5 * thickness) / closing;
+    }
 
     // Features that could dip in and come out again are near.
     const double depth = 0.5 * bend * span * span;
     if (gaps_[k] < depth) findContacts(model_, state_.bodies, state_.near[k], depth, points);
   }
   return points.empty() ? safe : lowestPoint(points, safe);
+}
+
+/// How fast [m/s] the nearest points of a near pair come towards each other.
+double Course::closingSpeed(std::size_t pair) const {
+  constexpr double kBeside = 1.0 + 1e-6;
+  std::vector<Contact> points;
+  findContacts(model_, state_.bodies, state_.near[pair],
+               kBeside * std::max(0.0, gaps_[pair]) + tolerance_.touch, points);
+  double closing = 0.0;
+  for (const Contact& c : points)
+    closing = std::max(closing, -approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
+  return closing;
 }
 
 double Course::lowestPoint(std::span<const Contact> points, double span) const {

@@ -24,6 +24,9 @@ namespace tumble {
 /// 1988; Stewart, Rigid-Body Dynamics with Friction and Impact, 2000, §5. World frame, SI.
 class Crossing {
  public:
+  /// Part of the size of the world that bodies may overlap at the end of a step.
+  static constexpr double kOff = 1e-13;
+
   Crossing(const Model& model, const State& state);
 
   /// Takes the step, no longer than `most` [s], and shorter where others touch; none where bodies
@@ -77,6 +80,11 @@ class Crossing {
   std::vector<Contact> found_;  ///< of all that are near, at the end
   std::vector<char> kicked_;    ///< per body
 };
+
+/// Body i of a step h [s] after its start: with the momenta P [N·s] and L [N·m·s] if it was kicked,
+/// else in closed form.
+RigidBody across(const Model& model, const State& state, const RigidBody& start, int i,
+                 const Vec3& P, const Vec3& L, bool kicked, double h);
 
 /// The bodies at time t [s] inside such a step.
 void lookAcross(const Model& model, const State& state, const Segment& segment, double t,

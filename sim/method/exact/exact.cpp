@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "sim/collide/approach.h"
 #include "sim/collide/collide.h"
-#include "sim/method/exact/approach.h"
 #include "sim/method/exact/sustained.h"
 
 namespace tumble {
@@ -16,9 +16,7 @@ constexpr double kTouch = 1e-2;
 
 /// The convex parts of a body. What has none of its own is watched by the box around it.
 std::vector<Convex> partsOf(const Shape& shape) {
-  std::vector<Convex> parts;
-  for (const PosedPart& part : convexParts(shape))
-    parts.push_back({part.solid, part.pose, outlineOf(part.solid, part.pose)});
+  std::vector<Convex> parts = outlinedParts(shape);
   if (!parts.empty() || !touchesAnything(shape)) return parts;
   const Aabb box = boundingBox(shape, Pose{});
   const Pose pose{0.5 * (box.lo + box.hi), Quat::Identity()};
@@ -79,6 +77,10 @@ void giveUp(const State& state, Report& report) {
 
 void checkExact(const Model& model, std::span<const RigidBody>) {
   const std::vector<Force>& forces = model.def.forces;
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    if (const auto* bending = std::get_if<Bending>(&forces[k]))
+      throw Refusal("method", "\"exact\" knows no closed form of what bends, as \"" +
+                                  bending->body->name + "\" does; take \"stepping\" or \"auto\"");
   for (std::size_t k = 0; k < forces.size(); ++k)
     if (!fliesUnder(forces[k]))
       throw Refusal("forces[" + std::to_string(k) + "]",

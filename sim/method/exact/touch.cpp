@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim/collide/approach.h"
 #include "sim/collide/collide.h"
 #include "sim/math/frames.h"
-#include "sim/method/exact/approach.h"
 #include "sim/method/exact/exact.h"
 
 namespace tumble {

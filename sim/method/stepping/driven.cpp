@@ -14,7 +14,7 @@ void Stepping::bindGroups(double h) {
   constexpr double kStiff =
       4.0;  // [rad] in a step; below, some hundred evaluations follow a spring
   Drives& drives = *memory_.drives;
-  work_.flown.assign(state_.bodies.size(), 0);
+  if (!drives.groups.empty() || work_.flown.empty()) work_.flown.assign(state_.bodies.size(), 0);
   work_.drags.clear();
   for (const Drag& drag : drives.drags)
     work_.drags.push_back(dragStep(drag, state_.bodies[drag.body], h));
@@ -193,7 +193,8 @@ double Stepping::steadyPower() const {
   double sum = 0.0;
   for (const Force& force : memory_.drives->steady) {
     const UniformWind* wind = std::get_if<UniformWind>(&force);
-    if (!work_.flown[wind ? wind->body : std::get<PointForce>(force).body])
+    const int body = wind ? wind->body : std::get<PointForce>(force).body;
+    if (!work_.flown[body] && isActive(body))
       sum += powerOfForces(std::span(&force, 1), state_.bodies);
   }
   return sum;

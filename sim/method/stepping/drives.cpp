@@ -71,6 +71,7 @@ class Share {
     own.body = place(force.body);
     group_.forces.push_back(own);
   }
+  void operator()(const Bending&) {}  // moves no group: see bending.cpp
   template <class Other>
   void operator()(const Other& force) {
     forEachMoving(model_, force.body, [&](int i) {
@@ -154,6 +155,8 @@ Drives drivesOf(const Model& model, std::span<const RigidBody> bodies) {
   }
   for (DrivenGroup& group : drives.groups) prepare(model, bodies, group);
   for (const Force& force : model.def.forces) {
+    const bool bends = std::holds_alternative<Bending>(force);
+    (bends ? drives.bendings : drives.outer).push_back(force);
     if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
       forEachMoving(model, drag->body, [&](int i) {
         int& number = drives.dragOf[i];

@@ -42,17 +42,20 @@ void Stepping::recordImpact(double t, const PairMemory& pair, double landing) {
 
 void Stepping::recordEvents(double t) {
   Segment& segment = state_.trail.back();
+  std::vector<Contact>& contacts =
+      parted_ && divided_ ? segment.pieces.back().contacts : segment.contacts;
   const std::size_t firstEvent = report_.events.size();
   const double landing = landingSpeed();
   work_.lasting.clear();
-  segment.contacts.clear();
   for (PairMemory& pair : memory_.pairs) {
     const Contact* lasting = nullptr;
-    if (!allKept_) recordImpact(t, pair, landing);
+    const bool tells = pair.touches.empty() || (!model_.bends(pair.touches[0].contact.a) &&
+                                                !model_.bends(pair.touches[0].contact.b));
+    if (!allKept_ && tells) recordImpact(t, pair, landing);
     for (Touch& touch : pair.touches) {
       const double j = touch.impulse.dot(touch.contact.point.n);
       if (j > 0.0) {
-        segment.contacts.push_back(touch.contact);
+        contacts.push_back(touch.contact);
         if (!lasting && touch.contact.lasting) lasting = &touch.contact;
       }
       // What a hit that closes its gap in this step still gets comes in the next.
@@ -60,7 +63,7 @@ void Stepping::recordEvents(double t) {
       touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
       touch.arrivalSpeed = arriving ? touch.approach : 0.0;
     }
-    if (lasting) work_.lasting.push_back(lastingPair(*lasting));
+    if (lasting && tells) work_.lasting.push_back(lastingPair(*lasting));
   }
   std::swap(work_.lasting, memory_.lasting);
   if (allKept_) return;

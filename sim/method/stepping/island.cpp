@@ -20,34 +20,51 @@ std::pair<int, int> Stepping::ends(Link link) const {
 void Stepping::solveSteadily(double h) {
   constexpr int kRounds = 10;
   allKept_ = true;
-  solveIslands(h);
-  for (int round = 0; round < kRounds && work_.crushed.empty() && seeFurther(h); ++round)
+  if (bends() && !bend(h)) return;
+  const auto solve = [&] {
     solveIslands(h);
-  if (work_.crushed.empty()) bookIslands(h);
+    for (int round = 0; round < kRounds && work_.crushed.empty() && seeFurther(h); ++round)
+      solveIslands(h);
+  };
+  solve();
+  const int most = bends() ? model_.def.stepping.linearisations : 1;
+  for (int k = 1; k < most && work_.crushed.empty() && bendFurther(h); ++k) solve();
+  if (work_.crushed.empty() && !meeting_) bookIslands(h);
 }
 
 void Stepping::solveIslands(double h) {
   const std::size_t n = state_.bodies.size();
   bindGroups(h);
   foreseeTwists(h);
-  work_.after = work_.star;
+  if (bends()) foreseeBent();
   work_.bonds.clear();
   work_.crushed.clear();
   if (!model_.joints.empty()) stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
   addSprings(h);
-  work_.touched.assign(n, 0);
-  work_.later.assign(n, 0.0);
+  work_.after.resize(n + 1);
+  work_.touched.resize(n);
+  work_.later.resize(n);
   memory_.islands.resize(n);
+  leftOpen_ = 0.0;
+  memory_.left.resize(n, 0.0);
+  for (const int i : work_.active) {
+    work_.after[i] = work_.star[i];
+    work_.touched[i] = 0;
+    work_.later[i] = 0.0;
+    memory_.left[i] = 0.0;
+  }
+  if (bends()) markBent();
   groupLinks(h);
+  work_.heads.clear();
   for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i) solveIsland(linksOf(i), h);
 }
 
 void Stepping::bookIslands(double h) {
   Certificate& certificate = report_.certificate;
-  for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i) {
-    collectBodies(linksOf(i));
-    if (work_.movers.empty()) continue;
-    const IslandMemory& memory = memory_.islands[work_.movers.front()];
+  // By their heads: near pairs, and with them the numbers of links, may be others by now.
+  for (const int head : work_.heads) {
+    const IslandMemory& memory = memory_.islands[head];
+    ++(memory.rough ? certificate.islands_rough : certificate.islands_solved);
     certificate.max_complementarity = std::max(certificate.max_complementarity, memory.residual);
     certificate.energy_lost_impact += memory.books.lostImpact;
     certificate.energy_lost_friction += memory.books.lostFriction;
@@ -58,7 +75,7 @@ void Stepping::bookIslands(double h) {
 }
 
 [[gnu::flatten]] void Stepping::foreseeTwists(double h) {
-  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+  for (const int i : work_.active) {
     const RigidBody& body = state_.bodies[i];
     Vec6& star = work_.star[i];
     star = work_.before[i];
@@ -78,7 +95,7 @@ void Stepping::bookIslands(double h) {
 
 void Stepping::partBodies() {
   work_.root.resize(state_.bodies.size());
-  std::iota(work_.root.begin(), work_.root.end(), 0);
+  for (const int i : work_.active) work_.root[i] = i;
 }
 
 void Stepping::joinBodies(int a, int b) {
@@ -100,6 +117,8 @@ void Stepping::joinBodies(int a, int b) {
   };
   const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
   partBodies();
+  for (const BendingPart& part : memory_.bendings->parts)
+    for (const int p : part.moving) joinBodies(part.bodies[p], part.bodies[part.moving[0]]);
   work_.island.assign(count, -1);
   for (Link link = 0; link < count; ++link) {
     if (!joins(link)) continue;
@@ -108,7 +127,6 @@ void Stepping::joinBodies(int a, int b) {
     work_.island[link] = fixed(a) ? b : a;
   }
   // Count, then place: `work_.local` numbers the islands for a moment.
-  work_.local.assign(world + 1, -1);
   work_.begin.assign(1, 0);
   for (int& island : work_.island) {
     if (island < 0) continue;
@@ -125,7 +143,7 @@ void Stepping::joinBodies(int a, int b) {
   work_.movers.assign(work_.begin.begin(), work_.begin.end());
   for (Link link = 0; link < count; ++link)
     if (work_.island[link] >= 0) work_.order[work_.movers[work_.island[link]]++] = link;
-  std::fill(work_.local.begin(), work_.local.end(), -1);
+  for (const int i : work_.active) work_.local[i] = -1;
 }
 
 /// The bodies of an island that move, in the order of its links.
@@ -140,68 +158,8 @@ void Stepping::collectBodies(std::span<const Link> links) {
       work_.movers.push_back(i);
     }
   }
+  if (bends()) collectBent();
   for (const int i : work_.movers) work_.local[i] = -1;
-}
-
-/// Whether an island has the bodies that it had when it was solved, and as many links.
-bool Stepping::ofSame(const IslandMemory& memory, std::span<const Link> links) const {
-  return memory.seen.size() == links.size() &&
-         std::equal(memory.movers.begin(), memory.movers.end(), work_.movers.begin(),
-                    work_.movers.end(),
-                    [](const IslandMemory::Mover& mover, int body) { return mover.body == body; });
-}
-
-/// Whether an island asks what it asked when it was solved, wherever it has gone: the same levers
-/// and inertias, and velocities that differ by far less than the tolerance on the residual.
-bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) const {
-  if (!ofSame(memory, links)) return false;
-  for (std::size_t k = 0; k < links.size(); ++k)
-    if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
-  constexpr double kKept = 0.01;  // of the tolerance: what is kept errs the same way in every step
-  const double part = kKept * model_.def.stepping.tolerance, allowed = part * memory.scale;
-  for (const IslandMemory::Mover& mover : memory.movers) {
-    const Mat3 turned = state_.bodies[mover.body].Iinv - mover.Iinv;
-    if (!((work_.star[mover.body] - mover.vStar).lpNorm<Eigen::Infinity>() <= allowed) ||
-        !(turned.lpNorm<Eigen::Infinity>() <= part * mover.Iinv.lpNorm<Eigen::Infinity>()))
-      return false;
-  }
-  for (const Link link : links)
-    for (const Touch& touch : memory_.pairs[link].touches)
-      if (touch.arrivalSpeed > 0.0) return false;
-  return true;
-}
-
-/// Whether an island that was at rest is asked for a step of another length: its forces stay,
-/// unless they are those of a short step, in whose impulses more of them is rounding.
-bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, double h) const {
-  if (memory.length == h || h > 2.0 * memory.solved || !ofSame(memory, links)) return false;
-  for (std::size_t k = 0; k < links.size(); ++k)
-    if (!isPair(links[k]) || memory.seen[k].form != memory_.pairs[links[k]].form) return false;
-  const double s = h / memory.length, still = tolerance_.rest;
-  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    const Vec6 &star = work_.star[work_.movers[i]], &before = work_.before[work_.movers[i]];
-    const Vec6 asked = before + s * (memory.movers[i].vStar - memory.movers[i].v);
-    for (const Vec6& v : {before, memory.movers[i].v, Vec6(star - asked)})
-      if (!(v.lpNorm<Eigen::Infinity>() <= still)) return false;
-  }
-  return true;
-}
-
-/// Gives the answer of an island at rest to a step of another length.
-void Stepping::stretch(IslandMemory& memory, std::span<const Link> links, double h) {
-  const double s = h / memory.length;
-  memory.length = h;
-  memory.books = {};
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    memory.seen[k].look = memory_.pairs[links[k]].look;
-    for (Touch& touch : memory_.pairs[links[k]].touches) touch.impulse *= s;
-  }
-  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    memory.movers[i].vStar = work_.star[work_.movers[i]];
-    memory.movers[i].v = work_.before[work_.movers[i]];
-    memory.books.external +=
-        state_.bodies[work_.movers[i]].M * (memory.movers[i].v - memory.movers[i].vStar).head<3>();
-  }
 }
 
 /// Bodies that joints alone hold take half of what forces give before they move, half after: their
@@ -218,36 +176,47 @@ void Stepping::swing(std::span<const Link> links, double h) {
   }
 }
 
+SolveReport Stepping::solveFine(std::span<const Link> links) {
+  const SteppingSettings& stepping = model_.def.stepping;
+  const SolveReport solved = solver_.solve(
+      work_.problem,
+      {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
+      work_.solution);
+  findCrushed(links, solved);
+  if (solved.status != SolveStatus::Solved)
+    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
+  return solved;
+}
+
 [[gnu::flatten]] void Stepping::solveIsland(std::span<const Link> links, double h) {
   collectBodies(links);
   if (work_.movers.empty()) return;
-  swing(links, h);
+  work_.heads.push_back(work_.movers.front());
+  const bool bent = anyBends();
+  if (!bent) swing(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
-  if (rests(memory, links, h)) {
+  if (!bent && rests(memory, links, h)) {
     stretch(memory, links, h);
-  } else if (!keeps(memory, links)) {
+  } else if (bent || !keeps(memory, links)) {
     allKept_ = false;
     build(links, h);
-    const SteppingSettings& stepping = model_.def.stepping;
-    const SolveReport solved = solver_.solve(
-        work_.problem,
-        {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
-        work_.solution);
-    findCrushed(links, solved);
+    if (bent) coupleBent();
+    memory.rough = !bent && isRough();
+    const SolveReport solved = memory.rough ? solveRough(links, h) : solveFine(links);
     if (!work_.crushed.empty()) return;
-    if (solved.status != SolveStatus::Solved)
-      report_.note("some steps were left above the tolerance; max_complementarity has the worst");
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
+    if (memory.rough) leaveOpen(memory.scale, h);
     share(links, memory, h);
   }
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
+    memory_.left[work_.movers[i]] = memory.residual * memory.scale;
     const Vec6 &v = memory.movers[i].v, &star = memory.movers[i].vStar;
     const bool touched =
         (v - star).lpNorm<Eigen::Infinity>() > kNothing * star.lpNorm<Eigen::Infinity>();
     work_.after[work_.movers[i]] = touched ? v : star;
-    work_.touched[work_.movers[i]] = touched;
+    work_.touched[work_.movers[i]] = touched || model_.bends(work_.movers[i]);
   }
 }
 
@@ -276,6 +245,7 @@ void Stepping::build(std::span<const Link> links, double h) {
   work_.problem.vStar.clear();
   work_.problem.rows.clear();
   work_.problem.cones.clear();
+  work_.problem.couplings.clear();
   work_.solution.lambda.clear();
   work_.solution.v.clear();
   work_.solution.pull.clear();
@@ -385,6 +355,7 @@ void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, do
   if (fixedA) books.external -= impulse;
   touch.impulse = impulse;
   touch.pull = work_.solution.pull.empty() ? unknown() : pull;
+  touch.length = h;
   contact.force = impulse / h;
   contact.sliding = contact.friction > 0.0 && slides(touch, normal);
   contact.lasting = !arrives(touch);

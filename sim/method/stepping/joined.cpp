@@ -67,8 +67,8 @@ void Stepping::divideNext(double h) {
       if (!body.fixed()) rate = std::max(rate, body.omega.norm() / kTurn);
     }
   }
-  memory_.parts = static_cast<int>(std::clamp(std::ceil(h * rate), 1.0, double{kMostParts}));
-  if (memory_.parts > 1)
+  memory_.division = static_cast<int>(std::clamp(std::ceil(h * rate), 1.0, double{kMostParts}));
+  if (memory_.division > 1)
     report_.note(
         "steps were divided: what joints hold swings fast under the loads that they carry");
 }

@@ -36,17 +36,20 @@ Vec3 Stepping::carried(const Contact& contact, double h) const {
   return -(turned * axis.cross(v) + along * across);
 }
 
+bool Stepping::isLed(std::span<const Link> links) const {
+  const auto driven = [&](int i) {
+    return i < model_.count() && drives(model_, state_.bodies[i], i);
+  };
+  return std::any_of(links.begin(), links.end(), [&](Link link) {
+    return driven(ends(link).first) || driven(ends(link).second);
+  });
+}
+
 /// Asks only where the solver has failed and a fixed body that moves is in the island.
 void Stepping::findCrushed(std::span<const Link> links, const SolveReport& solved) {
   constexpr double kFailed = 1e-3;
   if (solved.status == SolveStatus::Solved || !(solved.residual > kFailed)) return;
-  const auto driven = [&](int i) {
-    return i < model_.count() && drives(model_, state_.bodies[i], i);
-  };
-  if (std::none_of(links.begin(), links.end(), [&](Link link) {
-        return driven(ends(link).first) || driven(ends(link).second);
-      }))
-    return;
+  if (!isLed(links)) return;
   const std::vector<double> push = endlessPush(work_.problem);
   if (push.empty()) return;
   std::vector<std::pair<int, int>> pairs;

@@ -1,8 +1,42 @@
 // Any instant inside a step: between its two ends by the parabola that meets both. Contacts ride on
 // the features that touched at its start.
+#include <algorithm>
+
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
+namespace {
+
+/// A body at the part s of the way from one state to another, which takes h seconds.
+RigidBody between(const RigidBody& start, const RigidBody& end, double s, double h) {
+  if (!(s > 0.0) || !(s < 1.0)) return s < 1.0 ? start : end;
+  const Vec3 way = end.x - start.x, bend = h * end.v - way;
+  RigidBody body = end;
+  body.x = start.x + s * way + (s * s - s) * bend;
+  // The turn of one step is small: the chord between the two quaternions, back on the sphere.
+  const double sign = start.q.dot(end.q) < 0.0 ? -s : s;
+  body.q.coeffs() = ((1.0 - s) * start.q.coeffs() + sign * end.q.coeffs()).normalized();
+  if (!body.fixed()) body.P = body.M * (way + (2.0 * s - 1.0) * bend) / h;
+  updateDerived(body);
+  return body;
+}
+
+/// Whether an instant of a segment falls into a piece of it, its end included.
+bool holds(const Segment& segment, const ClusterPart& piece, double t) {
+  return t <= piece.t1 && (piece.t0 < t || piece.t0 == segment.t0);
+}
+
+/// Takes contacts along that touched at the start of a part.
+void carry(std::span<const Contact> found, std::span<const RigidBody* const> start,
+           std::span<const RigidBody> bodies, std::vector<Contact>& contacts) {
+  for (Contact c : found) {
+    c.anchor = anchorOf(*start[c.a], *start[c.b], c.point);
+    follow(bodies[c.a], bodies[c.b], c);
+    contacts.push_back(c);
+  }
+}
+
+}  // namespace
 
 void lookStepping(const Model& /*model*/, const State& state, double t,
                   std::vector<RigidBody>& bodies, std::vector<Contact>& contacts,
@@ -17,26 +51,34 @@ void lookStepping(const Model& /*model*/, const State& state, double t,
     joints.clear();
     return;
   }
-  const double h = segment->t1 - segment->t0, s = (t - segment->t0) / h;
-  bodies = s < 1.0 ? segment->start : segment->end;
-  for (std::size_t i = 0; i < bodies.size() && s > 0.0 && s < 1.0; ++i) {
-    const RigidBody &start = segment->start[i], &end = segment->end[i];
-    RigidBody& body = bodies[i];
-    const Vec3 way = end.x - start.x, bend = h * end.v - way;
-    body = end;
-    body.x = start.x + s * way + (s * s - s) * bend;
-    // The turn of one step is small: the chord between the two quaternions, back on the sphere.
-    const double sign = start.q.dot(end.q) < 0.0 ? -s : s;
-    body.q.coeffs() = ((1.0 - s) * start.q.coeffs() + sign * end.q.coeffs()).normalized();
-    if (!body.fixed()) body.P = body.M * (way + (2.0 * s - 1.0) * bend) / h;
-    updateDerived(body);
+  const auto at = [&](const RigidBody& start, const RigidBody& end, const auto& part) {
+    const double h = part.t1 - part.t0;
+    return between(start, end, (t - part.t0) / h, h);
+  };
+  bodies.clear();
+  std::vector<const RigidBody*> start;
+  for (std::size_t i = 0; i < segment->start.size(); ++i) {
+    bodies.push_back(at(segment->start[i], segment->end[i], *segment));
+    start.push_back(&segment->start[i]);
   }
+  const auto forPieces = [&](const auto& visit) {
+    for (const ClusterPart& piece : segment->pieces)
+      if (holds(*segment, piece, t)) visit(piece);
+  };
+  forPieces([&](const ClusterPart& piece) {
+    for (std::size_t k = 0; k < piece.bodies.size(); ++k)
+      bodies[piece.bodies[k]] = at(piece.start[k], piece.end[k], piece);
+  });
   joints = segment->joints;
-  contacts = segment->contacts;
-  for (Contact& c : contacts) {
-    c.anchor = anchorOf(segment->start[c.a], segment->start[c.b], c.point);
-    follow(bodies[c.a], bodies[c.b], c);
-  }
+  contacts.clear();
+  carry(segment->contacts, start, bodies, contacts);
+  forPieces([&](const ClusterPart& piece) {
+    for (std::size_t k = 0; k < piece.bodies.size(); ++k) start[piece.bodies[k]] = &piece.start[k];
+    carry(piece.contacts, start, bodies, contacts);
+  });
+  std::stable_sort(contacts.begin(), contacts.end(), [](const Contact& p, const Contact& q) {
+    return std::pair(p.b, p.a) < std::pair(q.b, q.a);
+  });
 }
 
 }  // namespace tumble

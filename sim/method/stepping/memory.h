@@ -3,15 +3,20 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sim/collide/witness.h"
 #include "sim/contact/bonds.h"
 #include "sim/contact/contact.h"
 #include "sim/joint/swing.h"
+#include "sim/method/report.h"
+#include "sim/method/stepping/bending.h"
 #include "sim/method/stepping/drives.h"
 #include "sim/problem/problem.h"
+#include "sim/shape/outline.h"
 
 namespace tumble {
 
@@ -33,6 +38,7 @@ struct Touch {
   Lever lever;                  ///< when its look was numbered
   Vec3 impulse = Vec3::Zero();  ///< [N·s] on a
   Vec3 pull = unknown();        ///< [N·s] as Solution::pull
+  double length = 0.0;          ///< [s] of the part of a step that gave it
   bool rebounds = false;        ///< when it is struck
   double due = 0.0;             ///< [s] until it is struck or, of free bodies, until they meet
   double approach = 0.0;        ///< [m/s] how fast it came
@@ -46,8 +52,11 @@ struct PairMemory {
   double margin = -1.0;  ///< [m] up to which points were looked for; < 0: never looked at
   long look = 0;         ///< number of the look that found them: the same number, the same levers
   long form = 0;         ///< number of the look that found these features first, in a row
+  long asked = 0;        ///< the look after which it was asked whether the two meet at a seam
   double deepest = 0.0;  ///< [m] largest overlap
   bool bounces = false;  ///< it has restitution
+  bool tumbles = false;  ///< it turned too far for parabolas
+  bool crowded = false;  ///< one of more near pairs than are watched so closely
   std::vector<Touch> touches;
 };
 
@@ -83,12 +92,49 @@ struct IslandMemory {
   double solved = 0.0;        ///< [s] of the step that it was solved in
   double scale = 1.0;         ///< [m/s] velocityScale of the problem
   double residual = 0.0;
+  bool rough = false;  ///< solved as far as is planned for crowds
   IslandBooks books;
+};
+
+/// What acted on a body in the last part of a step.
+struct Push {
+  double t0 = 0.0, t1 = 0.0;  ///< [s]
+  Vec3 P0 = Vec3::Zero(), L0 = Vec3::Zero(), P1 = Vec3::Zero(), L1 = Vec3::Zero();
+};
+
+/// Near pairs, and what is known of them.
+struct NearPairs {
+  std::vector<std::pair<int, int>> near;
+  std::vector<PairMemory> pairs;
+  std::vector<PairWitness> witnesses;
+  std::vector<LastingPair> lasting;
+};
+
+/// All that a step changes beside the bodies, to begin it once more.
+struct StepStart {
+  NearPairs known;
+  std::vector<IslandMemory> islands;
+  std::vector<Push> pushes;
+  Certificate certificate;
+  Vec3 externalImpulse = Vec3::Zero();
+  std::size_t events = 0;
+};
+
+/// Clusters of bodies, while each goes through a step by itself: what is theirs.
+struct Clusters {
+  std::vector<std::vector<int>> bodies, solids;  ///< as SteppingWork::active and solids
+  std::vector<NearPairs> before, after;          ///< and when its step is done
 };
 
 /// What a step works with and then forgets; kept for the sake of its storage.
 struct SteppingWork {
-  std::vector<Aabb> boxes;
+  std::vector<Aabb> boxes;    ///< that hold each body of Model::solid throughout the step
+  std::vector<int> active;    ///< bodies whose clock runs: all, or a cluster and what carries it
+  std::vector<int> solids;    ///< those of them that move freely and can touch, as in Model::solid
+  std::vector<int> carriers;  ///< fixed bodies that move
+  std::vector<int> cluster;   ///< per body: its cluster; < 0 of a fixed one
+  Clusters clusters;
+  StepStart start;
   std::vector<std::pair<int, int>> near;
   std::vector<PairMemory> passed;
   Manifold found;
@@ -97,6 +143,7 @@ struct SteppingWork {
   Bonds bonds;                            ///< rows of joints
   std::vector<int> root, order, begin;    ///< of islands: forest of bodies; links by island
   std::vector<int> island;                ///< per link: its island; < 0: it joins nothing now
+  std::vector<int> heads;                 ///< of islands that were solved: their first bodies
   std::vector<char> open;                 ///< per root: an overlap in its island
   std::vector<double> pull;               ///< of one island: as SolveSettings::pull
   std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
@@ -120,16 +167,19 @@ struct SteppingWork {
 };
 
 struct SteppingMemory {
-  std::vector<PairMemory> pairs;      ///< as State::near
-  std::vector<IslandMemory> islands;  ///< by the first of their bodies
-  std::vector<LastingPair> lasting;   ///< of the step before, in order of pairs
-  int parts = 1;                      ///< equal ones that the next step is made in
-  Swing swing;                        ///< the fastest in joints
-  std::optional<Drives> drives;       ///< once dealt out
-  std::vector<FreeSpin> spins;        ///< per body
+  std::vector<PairMemory> pairs;       ///< as State::near
+  std::vector<IslandMemory> islands;   ///< by the first of their bodies
+  std::vector<LastingPair> lasting;    ///< of the step before, in order of pairs
+  std::vector<double> left;            ///< [m/s] per body: what the last solve left of its contacts
+  int division = 1;                    ///< equal parts that the next step is made in
+  Swing swing;                         ///< the fastest in joints
+  std::optional<Drives> drives;        ///< once dealt out
+  std::shared_ptr<Bendings> bendings;  ///< once dealt out
+  std::vector<FreeSpin> spins;         ///< per body
+  std::vector<Push> pushes;            ///< per body
+  std::vector<std::vector<Convex>> parts;  ///< per body, once asked for
   SteppingWork work;
   long looks = 0;
-  long asked = 0;  ///< looks up to which pairs were asked whether they meet at a seam
 };
 
 }  // namespace tumble

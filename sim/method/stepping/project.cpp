@@ -14,7 +14,8 @@ bool Stepping::project() {
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
   };
-  const auto isOpen = [&] { return deepest > tolerance_.drift || largestGap() > tolerance_.drift; };
+  const double allowed = std::max(tolerance_.drift, leftOpen_);
+  const auto isOpen = [&] { return deepest > allowed || largestGap() > tolerance_.drift; };
   bool open = isOpen();
   const bool lifts = open;
   const double before = lifts ? potential() : 0.0;
@@ -77,8 +78,8 @@ int Stepping::lift(int most) {
   work_.solution.lambda.clear();
   work_.solution.v.clear();
   const SolveReport solved = solveByIslands(
-      solver_, work_.problem, {.tolerance = kTolerance, .maxIterations = std::min(most, kMost)},
-      work_.solution);
+      leftOpen_ > 0.0 ? *findSolver(model_.def.stepping.crowdSolver) : solver_, work_.problem,
+      {.tolerance = kTolerance, .maxIterations = std::min(most, kMost)}, work_.solution);
 
   // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
   constexpr double kLargestTurn = 0.1;  // [rad]

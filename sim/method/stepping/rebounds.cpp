@@ -11,23 +11,36 @@
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
+namespace {
+
+constexpr double kSoon = 1e-4,
+                 kNext = 1e-10;  ///< of a step: what is struck at once, and after that
+
+}  // namespace
+
+void Stepping::findOut(double h) {
+  if (known_) return;
+  if (!parted_) sumForces(model_.def.gravity, memory_.drives->outer, state_.bodies);
+  findTouching(h);
+  known_ = true;
+}
 
 double Stepping::meet(double h, Hits divide) {
-  constexpr double kSoon = 1e-4,
-                   kNext = 1e-10;  // of a step: what is struck at once, and after that
   const double step = model_.def.stepping.step, soon = kSoon * step;
   // Of hits for which no step is divided those come to rest that are slower than what a step of
   // free fall gives.
   const double least =
       divide == Hits::All ? tolerance_.keep : std::max(tolerance_.keep, -landingSpeed());
   const bool divides = divide != Hits::None;
-  sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
-  findTouching(h);
+  findOut(h);
+  known_ = false;
+  if (halted()) return h;
   double first = untilHit(soon, h, least);
   if (strike(divides ? soon : h)) {
     if (report_.stopped) return h;
-    sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
-    findTouching(h);
+    findOut(h);
+    known_ = false;
+    if (halted()) return h;
     first = untilHit(kNext * step, h, least);
   }
   if (!divides) first = h;
@@ -50,13 +63,28 @@ void Stepping::hold(const Contact& c) {
 
 double Stepping::untilHit(double soon, double h, double least) {
   double first = h;
-  const auto bounces = [](const PairMemory& pair) { return pair.bounces; };
-  if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), bounces)) return first;
+  const std::size_t count = memory_.pairs.size();
+  const auto hits = [&](std::size_t k) {
+    return memory_.pairs[k].bounces || memory_.pairs[k].tumbles || tumbles(k, h);
+  };
+  std::size_t k = 0;
+  while (k < count && !hits(k)) ++k;
+  if (k == count) return first;
   findHeld();
-  for (PairMemory& pair : memory_.pairs) {
-    if (!pair.bounces) continue;
+  for (; k < count; ++k) {
+    if (!hits(k)) continue;
+    PairMemory& pair = memory_.pairs[k];
+    pair.tumbles = tumbles(k, h);
     for (Touch& touch : pair.touches) {
-      foresee(touch, least);
+      if (pair.bounces) {
+        foresee(touch, least);
+      } else {
+        touch.rebounds = false;
+        touch.due = 0.0;
+      }
+    }
+    if (pair.tumbles) foreseeMeeting(k, h);
+    for (Touch& touch : pair.touches) {
       if (touch.rebounds && touch.due > soon) first = std::min(first, touch.due);
       if (flies(touch, 0.0)) touch.impulse.setZero();
     }
@@ -65,7 +93,8 @@ double Stepping::untilHit(double soon, double h, double least) {
 }
 
 void Stepping::findHeld() {
-  work_.held.assign(state_.bodies.size() + 1, 0);
+  work_.held.resize(state_.bodies.size() + 1, 0);
+  for (const int i : work_.active) work_.held[i] = 0;
   for (const PairMemory& pair : memory_.pairs) {
     for (const Touch& touch : pair.touches) {
       const Contact& c = touch.contact;
@@ -81,13 +110,12 @@ void Stepping::findHeld() {
 
 RigidBody Stepping::underWay(int i) const {
   RigidBody body = state_.bodies[i];
-  if (state_.trail.empty() || !work_.held[i]) return body;
-  const Segment& last = state_.trail.back();
-  const RigidBody &start = last.start[i], &end = last.end[i];
-  const bool struck = end.P != body.P || end.L != body.L;
+  const Push& last = memory_.pushes[i];
+  if (!(last.t1 > last.t0) || !work_.held[i]) return body;
+  const bool struck = last.P1 != body.P || last.L1 != body.L;
   if (struck) return body;
-  body.force = (end.P - start.P) / (last.t1 - last.t0);
-  body.torque = (end.L - start.L) / (last.t1 - last.t0);
+  body.force = (last.P1 - last.P0) / (last.t1 - last.t0);
+  body.torque = (last.L1 - last.L0) / (last.t1 - last.t0);
   return body;
 }
 
@@ -135,7 +163,7 @@ void Stepping::foresee(Touch& touch, double least) const {
       row.bend = 2.0 * push;
     }
   }
-  touch.rebounds = way.meets() && c.restitution * way.speed() > least;
+  touch.rebounds = way.meets() && c.restitution * way.speed() > leastRebound(touch, least);
   touch.due = 0.0;
   if (touch.rebounds) touch.due = way.due();
   if (touch.rebounds && held && row.meets()) touch.due = std::min(touch.due, row.due());
@@ -149,8 +177,15 @@ bool Stepping::anyHit(double within) const {
            approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < 0.0;
   };
   return std::any_of(memory_.pairs.begin(), memory_.pairs.end(), [&](const PairMemory& pair) {
-    return pair.bounces && std::any_of(pair.touches.begin(), pair.touches.end(), hits);
+    return (pair.bounces || pair.tumbles) &&
+           std::any_of(pair.touches.begin(), pair.touches.end(), hits);
   });
+}
+
+void Stepping::bookShift(const Touch& touch) {
+  if (closed(touch) || touch.due <= kSoon * model_.def.stepping.step) return;
+  ++report_.certificate.hits_early;
+  report_.certificate.max_hit_shift = std::max(report_.certificate.max_hit_shift, touch.due);
 }
 
 bool Stepping::strike(double within) {
@@ -160,7 +195,9 @@ bool Stepping::strike(double within) {
   for (const PairMemory& pair : memory_.pairs) {
     for (const Touch& touch : pair.touches) {
       const Contact& c = touch.contact;
-      if (!closed(touch) && !(touch.rebounds && touch.due <= within)) continue;
+      const bool hits = touch.rebounds && touch.due <= within;
+      if (!closed(touch) && !hits) continue;
+      if (hits) bookShift(touch);
       contacts.push_back(c);
       vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
       const bool leans = vrel.back() < 0.0 && -c.restitution * vrel.back() <= tolerance_.keep;
@@ -176,13 +213,14 @@ bool Stepping::strike(double within) {
   std::vector<Vec3> impulse(contacts.size(), Vec3::Zero());
   Bonds bonds;
   impactBonds(state_.bodies, model_.joints, tolerance_.touch, bonds);
-  bookImpact(findImpactLaw(model_.def.impact)
+  bookImpact(findImpactLaw(strikesAsCrowd() ? "crowd" : std::string_view(model_.def.impact))
                  ->apply({.bodies = state_.bodies,
                           .contacts = contacts,
                           .restitution = restitution,
                           .impulse = impulse,
                           .tolerance = tolerance_,
-                          .bonds = &bonds}),
+                          .bonds = &bonds,
+                          .goesOn = true}),
              report_);
   if (!bonds.empty()) state_.externalImpulse += outerBonds(bonds, state_.bodies).force;
   for (const Event& event : impactEvents(model_, state_, state_.t, contacts, vrel, impulse))

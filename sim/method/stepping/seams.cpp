@@ -21,16 +21,22 @@ void Stepping::leaveSeams() {
   const auto isPlane = [&](int i) { return std::holds_alternative<HalfSpace>(model_.shapes[i]); };
   work_.crossing.clear();
   for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
-    const std::vector<Touch>& touches = memory_.pairs[k].touches;
-    if (memory_.pairs[k].look <= memory_.asked || touches.empty()) continue;
+    PairMemory& pair = memory_.pairs[k];
+    const std::vector<Touch>& touches = pair.touches;
+    if (pair.asked == pair.look) continue;
+    pair.asked = pair.look;
+    if (touches.empty()) continue;
     if (isPlane(state_.near[k].first) || isPlane(state_.near[k].second)) continue;
     if (std::count_if(touches.begin(), touches.end(), isClosed) < kFace)
       work_.crossing.push_back(k);
   }
-  memory_.asked = memory_.looks;
   if (work_.crossing.empty()) return;
 
-  work_.holders.assign(state_.bodies.size(), {});
+  work_.holders.resize(state_.bodies.size());
+  for (const auto& [b, a] : state_.near) {
+    work_.holders[b].clear();
+    work_.holders[a].clear();
+  }
   for (int k = 0; k < static_cast<int>(memory_.pairs.size()); ++k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
     if (std::none_of(touches.begin(), touches.end(), isClosed)) continue;

@@ -7,6 +7,32 @@
 #include "sim/math/rotation.h"
 
 namespace tumble {
+namespace {
+
+/// What bends needs a solver that knows couplings, and is driven by gravity and winds alone.
+void checkBending(const Model& model) {
+  if (model.bending.empty()) return;
+  const SteppingSettings& stepping = model.def.stepping;
+  if (!findSolver(stepping.solver)->couples)
+    throw Refusal("stepping.solver", "\"" + stepping.solver +
+                                         "\" needs a block-diagonal mass, which what bends has "
+                                         "not; take \"newton\"");
+  for (std::size_t k = 0; k < model.def.forces.size(); ++k) {
+    const Force& force = model.def.forces[k];
+    const auto on = [&](int body) { return body == kNoBody || model.bends(body); };
+    const auto* drag = std::get_if<LinearDrag>(&force);
+    const auto* field = std::get_if<CircularField>(&force);
+    const auto* spring = std::get_if<Spring>(&force);
+    if ((drag && on(drag->body)) || (field && on(field->body)) ||
+        (spring && (model.bends(spring->a) || (spring->b != kNoBody && model.bends(spring->b)))))
+      throw Refusal("forces[" + std::to_string(k) + "]",
+                    "\"stepping\" drives points of what bends by gravity and wind alone; name the "
+                    "bodies that this force is for, or take method = \"course\"");
+  }
+}
+
+}  // namespace
+
 void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
   const SteppingSettings& stepping = model.def.stepping;
   if (!findSolver(stepping.solver))
@@ -14,6 +40,7 @@ void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
   requireStep("stepping.step", stepping.step, model.def.duration);
   if (!(stepping.tolerance > 0.0) || !std::isfinite(stepping.tolerance))
     throw Refusal("stepping.tolerance", "a tolerance must be a positive number");
+  checkBending(model);
   if (!model.pivots.empty())
     throw Refusal("bodies[" + std::to_string(model.pivots[0].body) + "].pivot_body",
                   "\"stepping\" knows no pivots; take method = \"course\" or leave it out");
@@ -35,10 +62,26 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       gravity_(model.def.gravity.norm()),
       solver_(*findSolver(model.def.stepping.solver)) {
   if (!memory_.drives) memory_.drives = drivesOf(model, state.bodies);
+  memory_.pushes.resize(state.bodies.size());
+  work_.touched.resize(state.bodies.size());
+  work_.local.resize(state.bodies.size() + 1, -1);
+  activateAll();
+  if (!memory_.bendings) memory_.bendings = std::make_shared<Bendings>(bendingsOf(model));
 }
 
+namespace {
+
+Vec6 twistOf(const RigidBody& body) {
+  Vec6 twist;
+  twist << body.v, body.omega;
+  return twist;
+}
+
+}  // namespace
+
 bool Stepping::finite() const {
-  return std::all_of(state_.bodies.begin(), state_.bodies.end(), [](const RigidBody& body) {
+  return std::all_of(work_.active.begin(), work_.active.end(), [&](int i) {
+    const RigidBody& body = state_.bodies[i];
     return body.x.allFinite() && body.q.coeffs().allFinite() && body.v.allFinite() &&
            body.omega.allFinite();
   });
@@ -47,47 +90,65 @@ bool Stepping::finite() const {
 void Stepping::stop(const std::string& what) {
   report_.stopped = true;
   report_.reason = what;
+  if (parted_) return;  // until the clusters are one again
   state_.bodies = state_.trail.back().start;
   state_.trail.pop_back();
 }
 
 void Stepping::step() {
   const double t0 = state_.t, t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
-  const double whole = lengthTo(t1), h = whole / memory_.parts;
-  for (int k = 1; k <= memory_.parts && !report_.stopped; ++k)
-    stepTo(k == memory_.parts ? t1 : t0 + k * h, h);
+  const double whole = lengthTo(t1), h = whole / memory_.division;
+  for (int k = 1; k <= memory_.division && !report_.stopped; ++k)
+    stepTo(k == memory_.division ? t1 : t0 + k * h, h);
   if (report_.stopped) return;
   ++state_.gridIndex;
   divideNext(whole);
 }
 
-/// In as many parts as impacts ask for: first for every hit, then for those that rebound for longer
-/// than a step, while the pairs of bodies that could be looked at are few.
 void Stepping::stepTo(double t1, double h) {
+  findOut(h);
+  if (report_.stopped) return;
+  findCrowded(h);
+  if (hasClusters() && findClusters(h)) return stepClusters(t1, h);
+  go(t1, h);
+}
+
+/// First for every hit, then for those that rebound for longer than a step, while the pairs of
+/// bodies that could be looked at are few.
+void Stepping::go(double t1, double h) {
   constexpr int kFew = 2, kMany = 16, kBodies = 256;
   constexpr double kPairs = 2e4;
-  const int n = static_cast<int>(std::count_if(model_.solid.begin(), model_.solid.end(),
-                                               [&](int i) { return !model_.fixed(i); }));
-  const int every = std::clamp(kBodies / model_.count(), kFew, kMany);
-  const int most = std::max(every, static_cast<int>(kPairs / std::max(1, n) / std::max(1, n)));
-  for (int k = 0; !report_.stopped; ++k) {
-    const double part = meet(h, k < every ? Hits::All : k < most ? Hits::Fast : Hits::None);
+  const int n = std::max(1, static_cast<int>(work_.solids.size()));
+  const int every = std::clamp(kBodies / n, kFew, kMany);
+  const int most = std::max(every, static_cast<int>(kPairs / n / n));
+  crowd_ = isCrowd();
+  divided_ = false;
+  int parts = 1;
+  for (; !halted(); ++parts) {
+    const bool all = n == 1 && parts <= every;
+    const double part = meet(h, strikesAsCrowd() || parts > most ? Hits::None
+                                : all                            ? Hits::All
+                                                                 : Hits::Fast);
     if (part >= h) break;
+    divided_ = true;
     moveTo(state_.t + part, part);
     h -= part;
   }
-  if (!report_.stopped) moveTo(t1, h);
+  parts_ = std::max(parts_, parts);
+  if (!halted()) moveTo(t1, h);
 }
 
 void Stepping::moveTo(double t1, double h) {
-  beginSegment(t1);
+  beginPart(t1);
   solveSteadily(h);
+  if (meeting_) return;
   if (report_.stopped) return stop(report_.reason);
   if (!work_.crushed.empty()) return stop(work_.crushed);
   applyTwists(h);
   recordEvents(t1);
   moveBodies(h);
   bookSprings(h);
+  if (bends()) bookBent(h);
   if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
   if (!project()) {
     if (const Joint* open = brokenJoint()) {
@@ -96,7 +157,7 @@ void Stepping::moveTo(double t1, double h) {
     }
   }
   meetJoints(h);
-  endSegment(t1);
+  endPart(t1);
 }
 
 /// The length [s] of a step: that of the grid, free of the rounding of its ends, but for a shorter
@@ -119,16 +180,49 @@ void Stepping::beginSegment(double t1) {
   segment.t0 = state_.t;
   segment.t1 = t1;
   segment.start = state_.bodies;
+  segment.contacts.clear();
+  segment.pieces.clear();
 
   const std::size_t n = state_.bodies.size();
   work_.before.resize(n + 1);  // the last is the world, for joints
   work_.star.resize(n + 1);
   work_.before[n].setZero();
   work_.star[n].setZero();
-  for (std::size_t i = 0; i < n; ++i) {
-    work_.before[i].head<3>() = state_.bodies[i].v;
-    work_.before[i].tail<3>() = state_.bodies[i].omega;
+  work_.after.resize(n + 1);
+  for (std::size_t i = 0; i < n; ++i)
+    work_.before[i] = work_.star[i] = work_.after[i] = twistOf(state_.bodies[i]);
+}
+
+void Stepping::beginPart(double t1) {
+  partStart_ = state_.t;
+  if (!parted_) beginSegment(t1);
+  for (const int i : work_.active) {
+    const RigidBody& body = state_.bodies[i];
+    if (parted_) work_.before[i] = twistOf(body);
+    memory_.pushes[i].P0 = body.P;
+    memory_.pushes[i].L0 = body.L;
   }
+  if (!parted_ || !divided_) return;
+  ClusterPart& piece = state_.trail.back().pieces.emplace_back();
+  piece.t0 = state_.t;
+  piece.t1 = t1;
+  piece.bodies = work_.active;
+  for (const int i : work_.active) piece.start.push_back(state_.bodies[i]);
+}
+
+void Stepping::endPart(double t1) {
+  for (const int i : work_.active) {
+    Push& push = memory_.pushes[i];
+    push.t0 = partStart_;
+    push.t1 = t1;
+    push.P1 = state_.bodies[i].P;
+    push.L1 = state_.bodies[i].L;
+  }
+  if (!parted_) return endSegment(t1);
+  state_.t = t1;
+  if (!divided_) return;
+  ClusterPart& piece = state_.trail.back().pieces.back();
+  for (const int i : work_.active) piece.end.push_back(state_.bodies[i]);
 }
 
 void Stepping::endSegment(double t1) {
@@ -144,11 +238,16 @@ void Stepping::endSegment(double t1) {
 [[gnu::flatten]] void Stepping::applyTwists(double h) {
   Certificate& books = report_.certificate;
   const double powerBefore = steadyPower();
-  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+  for (const int i : work_.active) {
     RigidBody& body = state_.bodies[i];
     if (body.fixed() || work_.flown[i]) continue;
+    if (model_.bends(static_cast<int>(i))) {
+      state_.externalImpulse += h * body.force;
+      setVelocity(body, work_.after[i].head<3>(), Vec3::Zero());
+      continue;
+    }
     if (memory_.drives->dragOf[i] >= 0) {
-      applyDragged(static_cast<int>(i), h);
+      applyDragged(i, h);
       continue;
     }
     body.P += h * body.force;
@@ -183,7 +282,7 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
 
 [[gnu::flatten]] void Stepping::moveBodies(double h) {
   flyGroups(h);
-  for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
+  for (const int i : work_.active) {
     RigidBody& body = state_.bodies[i];
     if (work_.flown[i]) continue;
     if (body.fixed() && body.v.isZero(0.0) && body.omega.isZero(0.0)) continue;
@@ -191,11 +290,13 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
     if (body.fixed()) {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
+    } else if (model_.bends(static_cast<int>(i))) {
+      body.x += h * body.v;
     } else if (work_.touched[i]) {  // with the velocity that the contact problem found
       body.x += h * (body.v - work_.later[i] * body.invM * body.force);
       turn(body, body.L - work_.later[i] * body.torque, h);
     } else {
-      coast(static_cast<int>(i), h);
+      coast(i, h);
     }
     if (body.fixed() || work_.touched[i]) body.q.normalize();
     // What is derived follows from q and from momenta, which stay.

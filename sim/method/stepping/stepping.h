@@ -35,15 +35,40 @@ class Stepping {
   using Link = int;
 
   void stepTo(double t1, double h);
+  /// Takes the bodies whose clock runs to t1, in as many parts as their hits ask for.
+  void go(double t1, double h);
   void moveTo(double t1, double h);
+  void beginPart(double t1);
+  void endPart(double t1);
+  /// Whether the step ends here: the run stops, or clusters meet.
+  bool halted() const { return report_.stopped || meeting_; }
   double lengthTo(double t1) const;
   void beginSegment(double t1);
   void endSegment(double t1);
   bool finite() const;
   void stop(const std::string& what);
 
+  // clusters.cpp: bodies that are near each other have a clock of their own, where one of them
+  // hits.
+  /// Whether clusters can be told apart: contacts alone join bodies, and forces are constant.
+  bool hasClusters() const;
+  bool isActive(int body) const { return !parted_ || work_.cluster[body] == cluster_; }
+  void activateAll();
+  /// Tells clusters apart by near pairs. @return whether something hits within h seconds, and not
+  /// all bodies are near it
+  bool findClusters(double h);
+  void dealOut();
+  void enter(int cluster);
+  void leave();
+  void gather();
+  void stepClusters(double t1, double h);
+  void save();
+  void restore();
+  void moveCarriers(double h);
+
   // touching.cpp: which pairs are near, and where they touch.
   void findTouching(double h);
+  void lookAtAll(double h);
   /// @return whether other pairs are near than before.
   bool findNear(double h);
   /// Brings the near pairs up to date with the boxes. @return whether they are others than before
@@ -54,7 +79,9 @@ class Stepping {
   /// Looks where velocities that contacts gave lead, beyond what was foreseen. @return whether
   /// something is met there that the contact problem must know.
   bool seeFurther(double h);
-  bool growBoxes(double h);
+  /// Widens the boxes of bodies that leave them in h seconds at the velocities `after`, to which
+  /// forces still come if they fall. @return whether there was one
+  bool growBoxes(double h, bool fall);
   bool lookFurther(std::size_t pair, double h);
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
@@ -73,6 +100,8 @@ class Stepping {
   enum class Hits { All, Fast, None };
   /// Strikes what is due, and @return how long [s], at most h, the bodies go until the next hit.
   double meet(double h, Hits divide);
+  /// Forces and touches of the bodies as they are.
+  void findOut(double h);
   /// The first hit [s] after `soon` and before h, else h, of those that rebound faster than `least`
   /// [m/s].
   double untilHit(double soon, double h, double least);
@@ -81,16 +110,51 @@ class Stepping {
   /// Holds the bodies of hits that the contact problem of the next h seconds stops, or of all.
   void holdStopped(double h, bool all);
   void foresee(Touch& touch, double least) const;
+
+  // tumbling.cpp: the hits of bodies that turn too fast for parabolas.
+  /// Tells pairs of few bodies from those in a crowd, whose hits divide no step.
+  void findCrowded(double h);
+  /// Whether a pair turns so far in h seconds that its points go by no parabolas.
+  bool tumbles(std::size_t pair, double h) const;
+  /// Whether a body flies in closed form.
+  bool fliesFree(int body) const;
+  /// Finds when the two first touch within h seconds; all points of theirs that are open wait.
+  void foreseeMeeting(std::size_t pair, double h);
+  const std::vector<Convex>& partsOf(int body);
+
   /// The body under its forces and, if it is held, under all that acted on it in the step before.
   RigidBody underWay(int body) const;
   bool anyHit(double within) const;
   /// Applies the law of impact to what touches, and to what is due within that time [s].
   bool strike(double within);
+  void bookShift(const Touch& touch);
   /// Whether a touch is left out of the contact problem of a step, being struck at its end or
   /// later.
   bool flies(const Touch& touch, double h) const {
     return touch.due >= h && !work_.held[touch.contact.a] && !work_.held[touch.contact.b];
   }
+
+  // crowds.cpp: where more contacts meet than reflections are for.
+  /// Whether the bodies whose clock runs are one: they rebound, and touch at more points than
+  /// reflections are for.
+  bool isCrowd() const;
+  /// What the points of a pair, of which there are some, weigh in it.
+  static int weightOf(const PairMemory& pair);
+  /// Whether their hits divide no step.
+  bool strikesAsCrowd() const;
+  /// Whether the problem at hand is that of many contacts that move by far more than its solver may
+  /// leave.
+  bool isRough() const;
+  SolveReport solveFine(std::span<const Link> links);
+  SolveReport solveRough(std::span<const Link> links, double h);
+  /// The λ that the contacts had in the step before.
+  void startFromBefore(std::span<const Link> links, double h);
+  /// Overlap up to a part of what the solver may leave in a step is not lifted at once.
+  void leaveOpen(double scale, double h);
+  /// The part of λ that takes most energy, where the whole of it would add some.
+  void keepFromGaining();
+  /// The rebound [m/s] up to which a touch is a contact that lasts: what a solver leaves is none.
+  double leastRebound(const Touch& touch, double least) const;
 
   // island.cpp: the contact problem of each island.
   /// Solves until nothing comes to meet what was not looked at.
@@ -123,12 +187,14 @@ class Stepping {
   /// What a step adds to the relative velocity of two bodies that turn together: each goes along
   /// its chord, not along its tangent.
   Vec3 carried(const Contact& contact, double h) const;
-  bool atStart() const { return state_.trail.back().t0 == 0.0; }
+  bool atStart() const { return partStart_ == 0.0; }
   Row& addRow(const Row& row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
   bool slides(const Touch& touch, const Row& row) const;
   int localOf(int body);
+  /// Whether a fixed body that moves takes part.
+  bool isLed(std::span<const Link> links) const;
   /// Words on what is crushed in an island, if no velocities obey its contacts, into work_.crushed.
   void findCrushed(std::span<const Link> links, const SolveReport& solved);
 
@@ -173,6 +239,23 @@ class Stepping {
   void bookSprings(double h);
   double storedInStiff() const;
 
+  // bent.cpp: what bends.
+  bool bends() const { return !model_.bending.empty(); }
+  /// @return false, with words in work_.crushed, if nothing can be made of it.
+  bool bend(double h);
+  bool bendFurther(double h);
+  std::span<const Force> forcesOf(const BendingPart& part) const;
+  std::string unbent(const BendingPart& part) const;
+  /// The velocities at the end of the step without contacts.
+  void foreseeBent();
+  /// Points of what bends go where the step takes them, not along a flight.
+  void markBent();
+  /// Whether a body of the island is a point of what bends.
+  bool anyBends() const;
+  void collectBent();
+  void coupleBent();
+  void bookBent(double h);
+
   // project.cpp
   /// @return whether all that overlapped or gaped is closed
   bool project();
@@ -201,6 +284,16 @@ class Stepping {
   const Solver& solver_;
 
   bool allKept_ = false;
+  bool known_ = false;      ///< the touches are those of the bodies as they are
+  bool parted_ = false;     ///< clusters go through the step one by one
+  bool divided_ = false;    ///< the bodies whose clock runs have gone a part of the step
+  bool meeting_ = false;    ///< two clusters come near each other: they are one
+  int cluster_ = 0;         ///< whose clock runs
+  bool crowd_ = false;      ///< the bodies whose clock runs are one
+  double leftOpen_ = 0.0;   ///< [m] overlap that is left, where a crowd is solved so far
+  int parts_ = 0;           ///< of the step that is most divided
+  double partStart_ = 0.0;  ///< [s] of the part under way
+  double bent_ = 0.0;  ///< [m/s] by which the last linearisation of what bends changed the motion
 };
 
 }  // namespace tumble

@@ -25,26 +25,27 @@ bool isSame(const Lever& p, const Lever& q, double size) {
          std::abs(p.separation - q.separation) <= kRounding * size;
 }
 
-/// The box that holds a body for h seconds at this velocity, grown by `margin` [m].
-Aabb sweptBox(const Shape& shape, const Pose& pose, const Vec6& twist, double h, double margin) {
-  const double radius = boundingRadius(shape);
-  const double turn = std::isfinite(radius) ? twist.tail<3>().norm() * radius * h : 0.0;
-  Aabb box = boundingBox(shape, pose, margin + turn);
-  const Vec3 way = h * twist.head<3>();
-  box.lo += way.cwiseMin(0.0);
-  box.hi += way.cwiseMax(0.0);
-  return box;
-}
-
 }  // namespace
 
 void Stepping::findTouching(double h) {
-  if (findNear(h) && stopAtUnknownPair(model_, state_.near, report_)) return;
+  if (findNear(h) && (meeting_ || stopAtUnknownPair(model_, state_.near, report_))) return;
+  lookAtAll(h);
+}
+
+void Stepping::lookAtAll(double h) {
   for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, marginOf(k, h));
   leaveSeams();
 }
 
 bool Stepping::findNear(double h) {
+  if (parted_) {  // what stays in its box meets nobody else
+    for (const int k : work_.solids) {
+      const int i = model_.solid[k];
+      work_.after[i] << state_.bodies[i].v, state_.bodies[i].omega;
+      work_.touched[i] = 1;
+    }
+    return growBoxes(h, true) && takePairs();
+  }
   sweptBoxes(model_, state_.bodies, h, gravity_, tolerance_.touch, work_.boxes);
   return takePairs();
 }
@@ -54,7 +55,13 @@ bool Stepping::takePairs() {
   work_.near.clear();
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];
-    if (model_.mayTouch(a, b)) work_.near.emplace_back(b, a);
+    if (!model_.mayTouch(a, b)) continue;
+    if (parted_) {
+      if (!isActive(a) && !isActive(b)) continue;
+      meeting_ =
+          meeting_ || !((isActive(a) || model_.fixed(a)) && (isActive(b) || model_.fixed(b)));
+    }
+    work_.near.emplace_back(b, a);
   }
   if (work_.near == state_.near && memory_.pairs.size() == work_.near.size()) return false;
 
@@ -81,10 +88,8 @@ bool Stepping::takePairs() {
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &b = state_.bodies[ib], &a = state_.bodies[ia];
   double speed = (a.v - b.v).norm();
-  for (int i : {ib, ia}) {
-    const double radius = boundingRadius(model_.shapes[i]);
-    if (std::isfinite(radius)) speed += state_.bodies[i].omega.norm() * radius;
-  }
+  for (int i : {ib, ia})
+    if (std::isfinite(model_.radius[i])) speed += state_.bodies[i].omega.norm() * model_.radius[i];
   return marginFor(speed, h);
 }
 
@@ -95,19 +100,21 @@ double Stepping::marginFor(double speed, double h) const {
   return below < margin ? 2.0 * below : below;
 }
 
-bool Stepping::growBoxes(double h) {
+bool Stepping::growBoxes(double h, bool fall) {
+  const double bend = gravity_ * h * h;
   bool grew = false;
-  for (std::size_t k = 0; k < model_.solid.size(); ++k) {
+  for (const int k : work_.solids) {
     const int i = model_.solid[k];
     if (!work_.touched[i]) continue;
+    const Vec3 v = work_.after[i].head<3>(), omega = work_.after[i].tail<3>();
     const auto box = [&](double margin) {
-      return sweptBox(model_.shapes[i], state_.bodies[i].pose(), work_.after[i], h, margin);
+      return sweptBox(model_, i, state_.bodies[i], v, omega, h, margin);
     };
     Aabb& known = work_.boxes[k];
-    const Aabb needed = box(tolerance_.touch);
+    const Aabb needed = box(tolerance_.touch + (fall ? bend : 0.0));
     if ((needed.lo - known.lo).minCoeff() >= 0.0 && (known.hi - needed.hi).minCoeff() >= 0.0)
       continue;
-    const Aabb wide = box(tolerance_.touch + gravity_ * h * h);
+    const Aabb wide = box(tolerance_.touch + bend);
     known.lo = known.lo.cwiseMin(wide.lo);
     known.hi = known.hi.cwiseMax(wide.hi);
     grew = true;
@@ -121,10 +128,9 @@ bool Stepping::lookFurther(std::size_t k, double h) {
   if (!work_.touched[ia] && !work_.touched[ib]) return false;
   const Vec6 &va = work_.after[ia], &vb = work_.after[ib];
   double speed = (va - vb).head<3>().norm();
-  for (int i : {ib, ia}) {
-    const double radius = boundingRadius(model_.shapes[i]);
-    if (std::isfinite(radius)) speed += work_.after[i].tail<3>().norm() * radius;
-  }
+  for (int i : {ib, ia})
+    if (std::isfinite(model_.radius[i]))
+      speed += work_.after[i].tail<3>().norm() * model_.radius[i];
   PairMemory& memory = memory_.pairs[k];
   const double margin = marginFor(speed, h);
   if (margin > memory.margin) {
@@ -146,7 +152,9 @@ bool Stepping::lookFurther(std::size_t k, double h) {
 }
 
 bool Stepping::seeFurther(double h) {
-  if (growBoxes(h) && takePairs() && stopAtUnknownPair(model_, state_.near, report_)) return false;
+  if (growBoxes(h, false) && takePairs() &&
+      (meeting_ || stopAtUnknownPair(model_, state_.near, report_)))
+    return false;
   bool meets = false;
   for (std::size_t k = 0; k < state_.near.size(); ++k) meets = lookFurther(k, h) || meets;
   if (meets) leaveSeams();
@@ -218,6 +226,7 @@ void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
     for (const Touch& before : old) {
       if (before.contact.point.feature != work_.found[i].feature) continue;
       memory.touches[i].pull = before.pull;
+      memory.touches[i].impulse = before.impulse;
       memory.touches[i].arrivalSpeed = before.arrivalSpeed;
       memory.touches[i].arrivalImpulse = before.arrivalImpulse;
     }

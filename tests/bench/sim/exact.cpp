@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "sim/body/mass_properties.h"
+#include "sim/collide/approach.h"
 #include "sim/collide/collide.h"
 #include "sim/math/root.h"
 #include "sim/math/rotation.h"
-#include "sim/method/exact/approach.h"
 #include "tests/world/scenes.h"
 
 namespace {

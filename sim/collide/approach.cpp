@@ -1,12 +1,12 @@
-#include "sim/method/exact/approach.h"
+#include "sim/collide/approach.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "sim/collide/collide.h"
+#include "sim/math/first_zero.h"
 #include "sim/math/frames.h"
-#include "sim/method/exact/quadratic.h"
 
 namespace tumble {
 namespace {

@@ -1,5 +1,5 @@
 // Chapter 9, method: when two bodies in flight first touch.
-#include "sim/method/exact/approach.h"
+#include "sim/collide/approach.h"
 
 #include <algorithm>
 

@@ -1,0 +1,153 @@
+#include "sim/method/stepping/bending.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr std::array<std::pair<int, int>, 6> kPairs = {
+    {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// Calls act(slot, i, j) for every pair of the points of an element.
+template <class Act>
+void forPairs(const Element& element, Act act) {
+  for (std::size_t k = 0; k < kPairs.size(); ++k)
+    if (kPairs[k].second < element.count) act(k, kPairs[k].first, kPairs[k].second);
+}
+
+void findEdges(const std::vector<int>& pointOf, BendingPart& part) {
+  const auto edgeOf = [&](const Element& element, int i, int j) {
+    return BlockEdge(std::minmax(pointOf[element.points[i]], pointOf[element.points[j]]));
+  };
+  for (const Element& element : part.body->elements)
+    forPairs(element,
+             [&](std::size_t, int i, int j) { part.edges.push_back(edgeOf(element, i, j)); });
+  std::sort(part.edges.begin(), part.edges.end());
+  part.edges.erase(std::unique(part.edges.begin(), part.edges.end()), part.edges.end());
+  for (const Element& element : part.body->elements) {
+    std::array<int, 6>& slots = part.edgesOf.emplace_back();
+    forPairs(element, [&](std::size_t k, int i, int j) {
+      const auto at = std::lower_bound(part.edges.begin(), part.edges.end(), edgeOf(element, i, j));
+      slots[k] = static_cast<int>(at - part.edges.begin());
+    });
+  }
+}
+
+/// The graph of the points that move.
+void findStructure(BendingPart& part) {
+  std::vector<BlockEdge> moving;
+  for (std::size_t e = 0; e < part.edges.size(); ++e) {
+    const int i = part.mover[part.edges[e].first], j = part.mover[part.edges[e].second];
+    if (i < 0 || j < 0) continue;
+    part.movingEdges.emplace_back(static_cast<int>(e), static_cast<int>(moving.size()));
+    moving.emplace_back(i, j);
+  }
+  part.structure = std::make_unique<BlockStructure>(static_cast<int>(part.moving.size()), moving);
+}
+
+BendingPart partOf(const Model& model, const ElasticBody& body, std::vector<int>& pointOf) {
+  BendingPart part;
+  part.body = &body;
+  part.bodies = body.bodies;
+  for (const int i : body.bodies) {
+    const int point = static_cast<int>(part.mover.size());
+    pointOf[i] = point;
+    part.mover.push_back(model.fixed(i) ? -1 : static_cast<int>(part.moving.size()));
+    if (!model.fixed(i)) part.moving.push_back(point);
+  }
+  findEdges(pointOf, part);
+  findStructure(part);
+  part.own.resize(part.bodies.size());
+  part.off.resize(part.edges.size());
+  part.constant.resize(part.bodies.size());
+  part.about.assign(part.bodies.size(), Vec3::Zero());
+  part.star.resize(part.bodies.size());
+  return part;
+}
+
+}  // namespace
+
+void BendingPart::timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) const {
+  out.resize(v.size());
+  for (std::size_t p = 0; p < v.size(); ++p) out[p] = own[p] * v[p];
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [p, q] = edges[e];
+    out[p] += off[e] * v[q];
+    out[q] += off[e].transpose() * v[p];
+  }
+}
+
+Bendings bendingsOf(const Model& model) {
+  Bendings bendings;
+  bendings.pointOf.assign(model.count(), -1);
+  for (const Force& force : model.def.forces)
+    if (const Bending* bending = std::get_if<Bending>(&force))
+      bendings.parts.push_back(partOf(model, *bending->body, bendings.pointOf));
+  return bendings;
+}
+
+void linearise(BendingPart& part, const std::vector<int>& pointOf,
+               std::span<const RigidBody> bodies, double h) {
+  std::fill(part.own.begin(), part.own.end(), Mat3::Zero());
+  std::fill(part.off.begin(), part.off.end(), Mat3::Zero());
+  std::fill(part.constant.begin(), part.constant.end(), Vec3::Zero());
+  ElementTerms terms;
+  ElementPlaces x;
+  for (std::size_t n = 0; n < part.body->elements.size(); ++n) {
+    const Element& element = part.body->elements[n];
+    x.fill(Vec3::Zero());
+    ElementVector u = ElementVector::Zero();
+    std::array<int, kElementPoints> at = {};
+    for (int k = 0; k < element.count; ++k) {
+      at[k] = pointOf[element.points[k]];
+      u.segment<3>(3 * k) = part.about[at[k]];
+      x[k] = bodies[element.points[k]].x + h * part.about[at[k]];
+    }
+    differentiate(element.energy, x, ElementAsk::Projected, terms);
+    const ElementVector c = h * (h * (terms.hessian * u) - terms.gradient);
+    const ElementMatrix K = h * (h * terms.hessian + terms.damping);
+    for (int k = 0; k < element.count; ++k) {
+      part.constant[at[k]] += c.segment<3>(3 * k);
+      part.own[at[k]] += K.block<3, 3>(3 * k, 3 * k);
+    }
+    forPairs(element, [&](std::size_t k, int i, int j) {
+      const bool inOrder = at[i] < at[j];
+      part.off[part.edgesOf[n][k]] +=
+          inOrder ? K.block<3, 3>(3 * i, 3 * j) : K.block<3, 3>(3 * j, 3 * i);
+    });
+  }
+}
+
+bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h) {
+  part.factor.begin(*part.structure);
+  part.side.resize(part.moving.size());
+  for (std::size_t m = 0; m < part.moving.size(); ++m) {
+    const int p = part.moving[m];
+    const RigidBody& body = bodies[part.bodies[p]];
+    Mat3& block = part.factor.diagonal(static_cast<int>(m));
+    block = part.own[p];
+    block.diagonal().array() += body.M;
+    part.side[m] = body.P + h * body.force + part.constant[p];
+  }
+  for (const auto& [e, number] : part.movingEdges) {
+    const bool firstIsRow = part.factor.edgeRow(number) == part.mover[part.edges[e].first];
+    part.factor.lower(number) = firstIsRow ? part.off[e] : Mat3(part.off[e].transpose());
+  }
+  // Points that are led along have a velocity already.
+  for (std::size_t e = 0; e < part.edges.size(); ++e) {
+    const auto [p, q] = part.edges[e];
+    if ((part.mover[p] < 0) == (part.mover[q] < 0)) continue;
+    if (part.mover[q] < 0)
+      part.side[part.mover[p]] -= part.off[e] * bodies[part.bodies[q]].v;
+    else
+      part.side[part.mover[q]] -= part.off[e].transpose() * bodies[part.bodies[p]].v;
+  }
+  if (!part.factor.factor()) return false;
+  part.factor.solve(part.side);
+  for (std::size_t p = 0; p < part.bodies.size(); ++p)
+    part.star[p] = part.mover[p] < 0 ? bodies[part.bodies[p]].v : part.side[part.mover[p]];
+  return true;
+}
+
+}  // namespace tumble

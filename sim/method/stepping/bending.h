@@ -1,0 +1,57 @@
+// What bends, in a step: its part of the matrix and of the right side of the contact problem.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "sim/method/model.h"
+#include "sim/problem/block_cholesky.h"
+
+namespace tumble {
+
+/// One elastic body. The velocities v at the end of a step of h are those of implicit Euler with
+/// forces linear about the motion u (Baraff and Witkin, Large Steps in Cloth Simulation, 1998, §3):
+///   A v = M v⁻ + h F + c + Jᵀλ,   A = M + K,   K = h D + h² H,   c = −h ∂E/∂x + h² H u,
+/// with E, H and D at x + h u, and F the forces from outside. First u = 0; u = v, again and again,
+/// is Newton's method for the step.
+struct BendingPart {
+  const ElasticBody* body = nullptr;
+  std::vector<int> bodies;       ///< of the world, per point
+  std::vector<int> mover;        ///< per point: its number among those that move, or −1
+  std::vector<int> moving;       ///< those that move, by point
+  std::vector<BlockEdge> edges;  ///< points that share an element, in order
+  std::vector<std::array<int, 6>> edgesOf;  ///< per element: of its pairs (0,1), (0,2), (1,2), …
+  std::vector<std::pair<int, int>> movingEdges;  ///< of two that move: edge, and its number in A
+
+  std::vector<Mat3> own,
+      off;  ///< [kg] blocks of K: of points, and of edges with row first < second
+  std::vector<Vec3> constant;  ///< [N·s] c
+  std::vector<Vec3> about;     ///< [m/s] u
+  std::vector<Vec3> star;      ///< [m/s] per point: v without λ
+  double stored = 0.0;         ///< [J] at the start of the step
+
+  std::unique_ptr<BlockStructure> structure;  ///< of A
+  BlockCholesky<3> factor;
+  std::vector<Vec3> side;
+
+  /// K v of the points at these velocities, per point.
+  void timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) const;
+};
+
+/// All of a model; and per body its place in them.
+struct Bendings {
+  std::vector<BendingPart> parts;
+  std::vector<int> pointOf;  ///< per body: its number in its part
+};
+Bendings bendingsOf(const Model& model);
+
+/// K and c about the motion u, with D of the start. Projected, so that A is positive definite.
+void linearise(BendingPart& part, const std::vector<int>& pointOf,
+               std::span<const RigidBody> bodies, double h);
+
+/// The velocities at the end of the step, were there no λ. @return false if A is not positive
+/// definite to rounding
+bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h);
+
+}  // namespace tumble

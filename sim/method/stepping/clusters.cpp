@@ -1,0 +1,242 @@
+// Clusters: bodies that are near each other within a step. Where something hits, its cluster goes
+// through the step by a clock of its own, divided by its own hits; all others take the step whole,
+// and nothing that happens in one cluster changes a bit of another.
+#include <algorithm>
+#include <numeric>
+
+#include "sim/body/force.h"
+#include "sim/math/rotation.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+namespace {
+
+/// Moves pair k from one list to the end of another.
+void pass(NearPairs& from, std::size_t k, NearPairs& to) {
+  to.near.push_back(from.near[k]);
+  to.pairs.push_back(std::move(from.pairs[k]));
+  to.witnesses.push_back(std::move(from.witnesses[k]));
+}
+
+void clear(NearPairs& known) {
+  known.near.clear();
+  known.pairs.clear();
+  known.witnesses.clear();
+  known.lasting.clear();
+}
+
+}  // namespace
+
+bool Stepping::hasClusters() const {
+  const Drives& drives = *memory_.drives;
+  return model_.joints.empty() && drives.groups.empty() && drives.drags.empty() &&
+         std::all_of(model_.def.forces.begin(), model_.def.forces.end(),
+                     [](const Force& force) { return std::holds_alternative<UniformWind>(force); });
+}
+
+void Stepping::activateAll() {
+  parted_ = false;
+  work_.active.resize(state_.bodies.size());
+  std::iota(work_.active.begin(), work_.active.end(), 0);
+  work_.solids.clear();
+  for (std::size_t k = 0; k < model_.solid.size(); ++k)
+    if (!model_.fixed(model_.solid[k])) work_.solids.push_back(static_cast<int>(k));
+}
+
+bool Stepping::findClusters(double h) {
+  constexpr int kNone = -1, kCalm = -2;
+  untilHit(0.0, h, tolerance_.keep);
+  const auto hits = [&](const PairMemory& pair) {
+    return (pair.bounces || pair.tumbles) &&
+           std::any_of(pair.touches.begin(), pair.touches.end(),
+                       [&](const Touch& touch) { return touch.rebounds && touch.due < h; });
+  };
+  if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), hits)) return false;
+  partBodies();
+  for (const auto& [b, a] : state_.near) joinBodies(a, b);
+  const int n = model_.count();
+  std::vector<int>& number = work_.island;  // per root
+  number.assign(n, kCalm);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    if (hits(memory_.pairs[k])) number[rootOf(k)] = kNone;
+  // Those that hit in the order of their first bodies, then what is left, as one.
+  int count = 0;
+  bool calm = false;
+  work_.cluster.assign(n, kNone);
+  for (int i = 0; i < n; ++i) {
+    if (model_.fixed(i)) continue;
+    int& own = number[islandRoot(work_.root, i)];
+    if (own == kNone) own = count++;
+    work_.cluster[i] = own;
+    calm = calm || own == kCalm;
+  }
+  if (count == 0 || (count == 1 && !calm)) return false;
+  std::replace(work_.cluster.begin(), work_.cluster.end(), kCalm, count);
+  work_.clusters.bodies.resize(count + calm);
+  return true;
+}
+
+/// What belongs to each cluster, and the fixed bodies that move to every one.
+void Stepping::dealOut() {
+  Clusters& clusters = work_.clusters;
+  const std::size_t count = clusters.bodies.size();
+  clusters.solids.resize(count);
+  clusters.before.resize(count);
+  clusters.after.resize(count);
+  work_.carriers.clear();
+  for (int i = 0; i < model_.count(); ++i) {
+    const RigidBody& body = state_.bodies[i];
+    if (body.fixed() && !(body.v.isZero(0.0) && body.omega.isZero(0.0)))
+      work_.carriers.push_back(i);
+  }
+  for (std::size_t c = 0; c < count; ++c) {
+    clusters.bodies[c] = work_.carriers;
+    clusters.solids[c].clear();
+    clear(clusters.before[c]);
+    clear(clusters.after[c]);
+  }
+  for (int i = 0; i < model_.count(); ++i)
+    if (work_.cluster[i] >= 0) clusters.bodies[work_.cluster[i]].push_back(i);
+  for (std::size_t k = 0; k < model_.solid.size(); ++k)
+    if (const int c = work_.cluster[model_.solid[k]]; c >= 0)
+      clusters.solids[c].push_back(static_cast<int>(k));
+  const auto clusterOf = [&](int a, int b) { return work_.cluster[model_.fixed(a) ? b : a]; };
+  NearPairs all{.near = std::move(state_.near),
+                .pairs = std::move(memory_.pairs),
+                .witnesses = std::move(state_.witnesses),
+                .lasting = std::move(memory_.lasting)};
+  for (std::size_t k = 0; k < all.near.size(); ++k)
+    pass(all, k, clusters.before[clusterOf(all.near[k].second, all.near[k].first)]);
+  for (const LastingPair& pair : all.lasting)
+    clusters.before[clusterOf(pair.a, pair.b)].lasting.push_back(pair);
+}
+
+void Stepping::enter(int cluster) {
+  cluster_ = cluster;
+  NearPairs& own = work_.clusters.before[cluster];
+  state_.near.swap(own.near);
+  memory_.pairs.swap(own.pairs);
+  state_.witnesses.swap(own.witnesses);
+  memory_.lasting.swap(own.lasting);
+  work_.active.swap(work_.clusters.bodies[cluster]);
+  work_.solids.swap(work_.clusters.solids[cluster]);
+  state_.t = state_.trail.back().t0;
+  for (const int i : work_.carriers) state_.bodies[i] = state_.trail.back().start[i];
+  known_ = true;
+}
+
+void Stepping::leave() {
+  NearPairs& own = work_.clusters.after[cluster_];
+  state_.near.swap(own.near);
+  memory_.pairs.swap(own.pairs);
+  state_.witnesses.swap(own.witnesses);
+  memory_.lasting.swap(own.lasting);
+}
+
+/// Brings the near pairs of all clusters together, in order.
+void Stepping::gather() {
+  struct Place {
+    std::pair<int, int> near;
+    std::size_t cluster, k;
+  };
+  std::vector<Place> places;
+  NearPairs all;
+  for (std::size_t c = 0; c < work_.clusters.after.size(); ++c) {
+    NearPairs& own = work_.clusters.after[c];
+    for (std::size_t k = 0; k < own.near.size(); ++k) places.push_back({own.near[k], c, k});
+    all.lasting.insert(all.lasting.end(), own.lasting.begin(), own.lasting.end());
+  }
+  std::sort(places.begin(), places.end(),
+            [](const Place& p, const Place& q) { return p.near < q.near; });
+  for (const Place& place : places) pass(work_.clusters.after[place.cluster], place.k, all);
+  std::sort(all.lasting.begin(), all.lasting.end(), [](const LastingPair& p, const LastingPair& q) {
+    return std::pair(p.b, p.a) < std::pair(q.b, q.a);
+  });
+  state_.near.swap(all.near);
+  memory_.pairs.swap(all.pairs);
+  state_.witnesses.swap(all.witnesses);
+  memory_.lasting.swap(all.lasting);
+}
+
+void Stepping::save() {
+  StepStart& start = work_.start;
+  start.known.near = state_.near;
+  start.known.pairs = memory_.pairs;
+  start.known.witnesses = state_.witnesses;
+  start.known.lasting = memory_.lasting;
+  start.islands = memory_.islands;
+  start.pushes = memory_.pushes;
+  start.certificate = report_.certificate;
+  start.externalImpulse = state_.externalImpulse;
+  start.events = report_.events.size();
+}
+
+/// Back to the start of the step.
+void Stepping::restore() {
+  const StepStart& start = work_.start;
+  Segment& segment = state_.trail.back();
+  state_.t = segment.t0;
+  state_.bodies = segment.start;
+  state_.near = start.known.near;
+  memory_.pairs = start.known.pairs;
+  state_.witnesses = start.known.witnesses;
+  memory_.lasting = start.known.lasting;
+  memory_.islands = start.islands;
+  memory_.pushes = start.pushes;
+  report_.certificate = start.certificate;
+  state_.externalImpulse = start.externalImpulse;
+  report_.events.resize(start.events);
+  activateAll();
+  segment.contacts.clear();
+  segment.pieces.clear();
+}
+
+/// Fixed bodies go through the step as one.
+void Stepping::moveCarriers(double h) {
+  for (const int i : work_.carriers) {
+    RigidBody& body = state_.bodies[i] = state_.trail.back().start[i];
+    body.x += h * body.v;
+    body.q = rotated(body.q, h * body.omega).normalized();
+    updateDerived(body);
+  }
+}
+
+/// A cluster whose bodies leave the boxes in which they were looked for may meet another one. Then
+/// the step begins again, with boxes as wide as these bodies need: the two are one cluster.
+void Stepping::stepClusters(double t1, double h) {
+  beginSegment(t1);
+  save();
+  for (bool apart = true; apart;) {
+    meeting_ = false;
+    parts_ = 0;
+    dealOut();
+    parted_ = true;
+    for (std::size_t c = 0; c < work_.clusters.bodies.size() && !halted(); ++c) {
+      enter(static_cast<int>(c));
+      go(t1, h);
+      leave();
+    }
+    const bool again = meeting_, stopped = report_.stopped;
+    if (!again && !stopped) break;
+    restore();
+    meeting_ = false;
+    if (stopped) return state_.trail.pop_back();
+    takePairs();
+    lookAtAll(h);
+    apart = findClusters(h);
+  }
+  if (!parted_) {
+    state_.trail.pop_back();
+    known_ = true;
+    return go(t1, h);
+  }
+  gather();
+  activateAll();
+  moveCarriers(h);
+  report_.certificate.steps += parts_ - 1;
+  report_.certificate.evaluations += parts_ - 1;
+  endSegment(t1);
+  sortEvents(report_, work_.start.events);
+}
+
+}  // namespace tumble

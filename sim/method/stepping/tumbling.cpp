@@ -1,0 +1,83 @@
+// Free bodies that turn far in a step: no parabola tells when a corner of theirs arrives, nor
+// which one. Their flight is known in closed form, and so is the instant of their first touch.
+#include <algorithm>
+#include <limits>
+
+#include "sim/collide/approach.h"
+#include "sim/contact/impact.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+
+void Stepping::findCrowded(double h) {
+  std::vector<PairMemory>& pairs = memory_.pairs;
+  std::size_t k = 0;
+  for (; k < pairs.size(); ++k) pairs[k].crowded = false;
+  for (k = 0; k < pairs.size() && !tumbles(k, h); ++k) {
+  }
+  if (k == pairs.size()) return;
+  partBodies();
+  for (const auto& [b, a] : state_.near) joinBodies(a, b);
+  std::vector<int>& weight = work_.island;  // per root
+  weight.assign(state_.bodies.size(), 0);
+  for (k = 0; k < pairs.size(); ++k)
+    if (!pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(pairs[k]);
+  for (k = 0; k < pairs.size(); ++k) pairs[k].crowded = weight[rootOf(k)] > kReflectionsReach;
+}
+
+bool Stepping::tumbles(std::size_t pair, double h) const {
+  if (memory_.pairs[pair].crowded) return false;
+  constexpr double kRebounds = 0.02, kStays = 0.2;  // [rad] in a step
+  const double most = memory_.pairs[pair].bounces ? kRebounds : kStays;
+  const auto turns = [&](int i) {
+    return h * state_.bodies[i].omega.norm() > most &&
+           !std::holds_alternative<Sphere>(model_.shapes[i]);
+  };
+  return turns(state_.near[pair].first) || turns(state_.near[pair].second);
+}
+
+bool Stepping::fliesFree(int i) const {
+  const RigidBody& body = state_.bodies[i];
+  return body.fixed() || (!work_.held[i] && !isDriven(i) && memory_.drives->dragOf[i] < 0 &&
+                          body.torque.isZero(0.0));
+}
+
+const std::vector<Convex>& Stepping::partsOf(int body) {
+  memory_.parts.resize(state_.bodies.size());
+  std::vector<Convex>& parts = memory_.parts[body];
+  if (parts.empty()) parts = outlinedParts(model_.shapes[body]);
+  return parts;
+}
+
+void Stepping::foreseeMeeting(std::size_t pair, double h) {
+  const auto [ib, ia] = state_.near[pair];
+  std::vector<Touch>& touches = memory_.pairs[pair].touches;
+  if (!fliesFree(ia) || !fliesFree(ib)) return;
+  const auto hitsNow = [](const Touch& touch) { return touch.rebounds && touch.due == 0.0; };
+  if (touches.empty() || std::any_of(touches.begin(), touches.end(), hitsNow)) return;
+  Touch* nearest = nullptr;
+  for (Touch& touch : touches) {
+    touch.rebounds = false;
+    touch.due = std::numeric_limits<double>::infinity();
+    const auto gap = [](const Touch& t) { return t.contact.point.separation; };
+    if (!nearest || gap(touch) < gap(*nearest)) nearest = &touch;
+  }
+  const auto flightOf = [&](int i) {
+    const RigidBody& body = state_.bodies[i];
+    return Flight(body, body.invM * body.force, 0.0);
+  };
+  const Flight flights[] = {flightOf(ia), flightOf(ib)};
+  RigidBody a = state_.bodies[ia], b = state_.bodies[ib];
+  double first = h;
+  for (const Convex& partA : partsOf(ia))
+    for (const Convex& partB : partsOf(ib)) {
+      Approach approach({&flights[0], &partA, &a}, {&flights[1], &partB, &b},
+                        1e-2 * tolerance_.touch);
+      if (const auto t = approach.firstTouch(0.0, first, true)) first = *t;
+    }
+  if (first == h) return;
+  nearest->rebounds = true;
+  nearest->due = first;
+}
+
+}  // namespace tumble

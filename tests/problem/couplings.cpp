@@ -1,0 +1,127 @@
+// Problems whose mass matrix has blocks off its diagonal: points that something bends joins.
+#include <Eigen/Dense>
+#include <vector>
+
+#include "tests/catch.h"
+#include "tests/problem/check.h"
+#include "tests/problem/problems.h"
+
+using namespace tumble;
+using namespace tumble::test;
+
+namespace {
+
+/// A point of mass [kg].
+int addPoint(Problem& problem, double mass, const Vec3& v) {
+  problem.invM.push_back(1.0 / mass);
+  problem.Iinv.push_back(Mat3::Zero());
+  Vec6 twist = Vec6::Zero();
+  twist.head<3>() = v;
+  problem.vStar.push_back(twist);
+  return static_cast<int>(problem.invM.size()) - 1;
+}
+
+/// A net of points under a block that moves, above a floor; every point may touch both.
+Problem net(std::uint64_t seed, int points, bool block, bool rubs) {
+  Draw draw(seed);
+  Problem problem;
+  addCube(problem, 0.0, 1.0, Vec3::Zero());
+  if (block) addCube(problem, 50.0, 1.0, Vec3(0.3, -2.0, 0.1), Vec3(0.2, 1.0, -0.3));
+  for (int k = 0; k < points; ++k) {
+    const double vx = draw(-1.0, 1.0), vy = draw(-2.0, 0.5), vz = draw(-1.0, 1.0);
+    const int point = addPoint(problem, draw(0.5, 2.0), Vec3(vx, vy, vz));
+    addContact(problem, point, 0, Vec3::Zero(), Vec3::Zero(), rubs ? 0.4 : 0.0);
+    const Vec3 arm(draw(-0.5, 0.5), -0.5, draw(-0.5, 0.5));
+    if (block && k % 2 == 0) addContact(problem, 1, point, arm, Vec3::Zero(), rubs ? 0.3 : 0.0);
+  }
+  return problem;
+}
+
+struct SpringOf {
+  int a, b;
+  Vec3 along;
+  double stiff, bias;
+};
+
+std::vector<SpringOf> springsOf(const Problem& problem, std::uint64_t seed, int first) {
+  Draw draw(seed + 100);
+  std::vector<SpringOf> springs;
+  const int last = static_cast<int>(problem.invM.size()) - 1;
+  for (int i = first; i <= last; ++i)
+    for (int j = i + 1; j <= std::min(last, i + 2); ++j) {
+      const double x = draw(-1.0, 1.0), y = draw(-1.0, 1.0), z = draw(-1.0, 1.0);
+      const double stiff = draw(1.0, 200.0);
+      springs.push_back({i, j, Vec3(x, y, z).normalized(), stiff, draw(-0.5, 0.5)});
+    }
+  return springs;
+}
+
+/// The same springs as rows that yield:  λ = −stiff (u + bias).
+void addRows(Problem& problem, const std::vector<SpringOf>& springs) {
+  for (const SpringOf& s : springs) {
+    const int row = static_cast<int>(problem.rows.size());
+    problem.cones.push_back({ConeKind::Equality, row, 0.0});
+    problem.rows.push_back(
+        {.a = s.a, .b = s.b, .linear = s.along, .bias = s.bias, .compliance = 1.0 / s.stiff});
+  }
+}
+
+/// The same springs as couplings, with vStar what they make of the free motion.
+void addCouplings(Problem& problem, const std::vector<SpringOf>& springs) {
+  const int n = static_cast<int>(problem.invM.size());
+  MatX A = MatX::Zero(3 * n, 3 * n);
+  VecX b = VecX::Zero(3 * n);
+  for (int i = 0; i < n; ++i) {
+    const double mass = problem.invM[i] > 0.0 ? 1.0 / problem.invM[i] : 1.0;
+    A.block<3, 3>(3 * i, 3 * i).diagonal().setConstant(mass);
+    b.segment<3>(3 * i) = mass * problem.vStar[i].head<3>();
+  }
+  std::vector<Mat3> own(n, Mat3::Zero());
+  for (const SpringOf& s : springs) {
+    const Mat3 K = s.stiff * s.along * s.along.transpose();
+    own[s.a] += K;
+    own[s.b] += K;
+    problem.couplings.push_back({s.a, s.b, -K});
+    b.segment<3>(3 * s.a) -= s.stiff * s.bias * s.along;
+    b.segment<3>(3 * s.b) += s.stiff * s.bias * s.along;
+    A.block<3, 3>(3 * s.a, 3 * s.b) -= K;
+    A.block<3, 3>(3 * s.b, 3 * s.a) -= K;
+  }
+  for (int i = 0; i < n; ++i) {
+    if (own[i].isZero(0.0)) continue;
+    problem.couplings.push_back({i, i, own[i]});
+    A.block<3, 3>(3 * i, 3 * i) += own[i];
+  }
+  const VecX star = A.ldlt().solve(b);
+  for (int i = 0; i < n; ++i) problem.vStar[i].head<3>() = star.segment<3>(3 * i);
+}
+
+}  // namespace
+
+// Oracle: two ways. A spring that is a coupling and one that is a row which yields are the same
+// problem. Under a block with friction several motions obey Coulomb's law: there each answer is
+// held to its residual alone. Allowed 1e-9: conditioning times the tolerance.
+TEST_CASE("points coupled by springs move as points whose springs are rows") {
+  const bool block = GENERATE(false, true), rubs = GENERATE(false, true);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Problem rows = net(seed, 8, block, rubs), coupled = rows;
+    const auto springs = springsOf(rows, seed, block ? 2 : 1);
+    addRows(rows, springs);
+    addCouplings(coupled, springs);
+    Solution a, b;
+    const Solver& newton = *findSolver("newton");
+    CAPTURE(seed, block, rubs);
+    CHECK(newton.solve(rows, {}, a).status == SolveStatus::Solved);
+    const SolveReport report = newton.solve(coupled, {}, b);
+    CHECK(report.status == SolveStatus::Solved);
+    CHECK(report.balance <= 1e-12);
+    CHECK(naturalResidual(coupled, b) <= 1e-11);
+    for (std::size_t i = 0; i < a.v.size() && !(block && rubs); ++i)
+      CHECK((a.v[i] - b.v[i]).lpNorm<Eigen::Infinity>() <= 1e-9);
+    CHECK(islands(coupled).size() == 1);
+  }
+}
+
+TEST_CASE("only solvers that know couplings say so") {
+  for (const Solver& solver : solvers()) CHECK(solver.couples == (solver.name == "newton"));
+}
