@@ -43,7 +43,9 @@ Camera frame(std::span<const Eigen::Vector3d> points, double azimuth, double ele
   const double infinity = std::numeric_limits<double>::infinity();
   Slab across{-infinity, infinity, tRight, tLeft}, upright{-infinity, infinity, tTop, tBottom};
   double nearest = infinity, farthest = -infinity;
+  double size = 0.0;
   for (const Eigen::Vector3d& point : points) {
+    size = std::max(size, (point - points[0]).norm());
     const double x = point.dot(right), y = point.dot(up), z = point.dot(forward);
     across.low = std::max(across.low, x - tRight * z);
     across.high = std::min(across.high, x + tLeft * z);
@@ -55,7 +57,8 @@ Camera frame(std::span<const Eigen::Vector3d> points, double azimuth, double ele
 
   // As near as both slabs allow; a single point gets a metre of distance.
   const double limit = std::min(across.depth(), upright.depth());
-  const double depth = std::min(limit, nearest - std::max(1e-3, 0.05 * (farthest - nearest)));
+  const double room = 1e-3 * std::min(1.0, size);
+  const double depth = std::min(limit, nearest - std::max(room, 0.05 * (farthest - nearest)));
   const double z = points.size() == 1 ? nearest - 1.0 : depth;
   const Eigen::Vector3d eye = right * across.middle(z) + up * upright.middle(z) + forward * z;
   return {eye, eye + forward * (0.5 * (nearest + farthest) - z), fov};

@@ -130,14 +130,29 @@ bool collides(const Ticks& ticks, const Boxes& boxes) {
   return false;
 }
 
+struct Unit {
+  double length;  ///< [m]
+  const char* name;
+};
+
+/// The unit in which a step takes few digits.
+Unit unitOf(double step) {
+  if (step < 5e-9) return {1e-9, "nm"};
+  if (step < 5e-6) return {1e-6, "\u00B5m"};
+  if (step < 5e-3) return {1e-3, "mm"};
+  return step < 1e3 ? Unit{1.0, "m"} : Unit{1e3, "km"};
+}
+
 void drawTicks(const Ticks& ticks, double step, Canvas& canvas) {
+  const Unit unit = unitOf(step);
   canvas.stroke(ticks.front().place, ticks.back().place, 1.8, ink::secondary);
   const bool leftToRight = ticks.front().place.x() < ticks.back().place.x();
   const double unitAt = leftToRight ? ticks.back().value : ticks.front().value;
   for (const Tick& tick : ticks) {
     canvas.stroke(tick.place - 5.0 * tick.inward, tick.place + 5.0 * tick.inward, 1.8,
                   ink::secondary);
-    const std::string text = formatTick(tick.value, step) + (tick.value == unitAt ? " m" : "");
+    const std::string text = formatTick(tick.value / unit.length, step / unit.length) +
+                             (tick.value == unitAt ? std::string(" ") + unit.name : "");
     canvas.text(tick.place + Vector2d(2.0, 21.0), text,
                 {13.0, Face::Regular, Align::Centre, ink::secondary});
   }

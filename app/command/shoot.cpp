@@ -24,6 +24,7 @@ namespace tumble {
 
 Shoot::Shoot(const Scene& scene, std::string folder, Studio& studio)
     : scene_(scene), folder_(std::move(folder)), studio_(studio) {
+  makeWorld(scene_);  // what its method refuses leaves no folder behind
   makeFolder(folder_);
 }
 

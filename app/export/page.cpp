@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 // Four digits are more than a screen shows; the page stays small.
 double brief(double value) {
-  return std::stod(fmt::format("{:.7g}", value));
+  return std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr);
 }
 
 Json list(const Vec3& v) {
@@ -127,7 +128,6 @@ class Writer {
                      {"glass", scene_.show.glass},
                      {"strobe", false},
                      {"paths", scene_.show.path}};
-    for (const Instance& instance : picture.instances) known_.push_back(instance);
   }
 
   // Bodies as the first image has them: shape 0 box, 1 cylinder, 2 ellipsoid, 3 ball, 4 … meshes.
@@ -137,7 +137,8 @@ class Writer {
     std::string facets;
     std::size_t corners = 0;
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
-      const Instance& instance = known_[i];
+      const Instance instance =
+          presenter_.body(recording_.samples.front(), static_cast<std::size_t>(drawn_[i].body));
       int shape = 0;
       if (instance.form == Form::Facets) {
         const auto [mesh, isNew] =
@@ -268,7 +269,6 @@ class Writer {
   const Recording& recording_;
   Presenter presenter_;
   std::vector<DrawnBody> drawn_;
-  std::vector<Instance> known_;  ///< the bodies of the first image, in the order of drawn_
   Vec3 low_, high_;
   Json json_;
 };

@@ -54,6 +54,18 @@ bool isFloor(const BodyDef& body) {
   return plane && plane->n.y() > 0.9999;
 }
 
+bool hides(const BodyDef& body, const Vec3& eye) {
+  const HalfSpace* plane = std::get_if<HalfSpace>(&body.shape);
+  return plane && plane->n.dot(eye) < plane->d;
+}
+
+double decadeOf(double value, double least) {
+  double decade = 1.0;
+  while (value >= 1e3 * least * decade) decade *= 1e3;
+  while (value < least * decade && decade > 1e-30) decade *= 1e-3;
+  return decade;
+}
+
 int movingCount(const Scene& scene) {
   return static_cast<int>(
       std::count_if(scene.world.bodies.begin(), scene.world.bodies.end(), moves));

@@ -21,6 +21,12 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
 /// A half-space that looks up (n·Y > 0.9999) and so is drawn as the floor of the page.
 bool isFloor(const BodyDef& body);
 
+/// Whether a half-space would hide everything from an eye [m]: one that lies inside it.
+bool hides(const BodyDef& body, const Vec3& eye);
+
+/// The power of 1000 that brings a positive value into [least, 1000 least).
+double decadeOf(double value, double least);
+
 /// How many bodies move.
 int movingCount(const Scene& scene);
 

@@ -7,6 +7,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/arrows.h"
+#include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/boxes.h"
 #include "app/present/diagram.h"
@@ -106,6 +107,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
       recording_(recording),
       colours_(bodyColours(scene)),
       turns_(turning(recording)),
+      inSurface_(partsOfSurfaces(scene)),
       framing_(framing) {
   facets_ = facetsOfBodies(scene.world.bodies);
   fastest_ = framing.fastest > 0.0 ? framing.fastest : fastestOf(scene, recording);
@@ -183,7 +185,9 @@ Picture Presenter::blank(const Framing& framing) const {
     picture.floor.height = std::get<HalfSpace>(body.shape).d;
   }
   if (scene_.show.speed) picture.bar = speedBar(fastest_);
-  picture.floor.grid = framing.radius < 0.8 ? 0.1 : framing.radius < 15.0 ? 1.0 : 10.0;
+  const double decade = decadeOf(framing.radius, 0.08);
+  const double size = framing.radius / decade;
+  picture.floor.grid = decade * (size < 0.8 ? 0.1 : size < 15.0 ? 1.0 : 10.0);
   picture.floor.fineGrid = 0.2 * picture.floor.grid;
   return picture;
 }
@@ -195,19 +199,26 @@ std::shared_ptr<const Facets> Presenter::surfaceOf(std::size_t i, const BodySamp
   return facetsOf(scene_.world.bodies[i].shape, rotationMatrix(body.q).transpose() * *body.R);
 }
 
+Instance Presenter::body(const Sample& sample, std::size_t i) const {
+  const BodyDef& def = scene_.world.bodies[i];
+  Instance instance =
+      instanceOf(def, sample.bodies[i].x, sample.bodies[i].q, colourOf(sample, i), framing_.centre,
+                 3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
+  instance.back = backOf(scene_, i);
+  instance.banded = turns_[i];
+  if (scene_.show.glass && moves(def)) instance.finish = Finish::Glass;
+  return instance;
+}
+
 void Presenter::addBodies(const Sample& sample, bool byTime, Picture& picture) const {
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-    const BodyDef& body = scene_.world.bodies[i];
-    if (isFloor(body)) continue;
-    const Colour colour = byTime && moves(body) ? timeStops().back() : colourOf(sample, i);
-    Instance instance =
-        instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
-                   3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
-    instance.back = backOf(scene_, i);
-    instance.banded = turns_[i];
-    if (scene_.show.glass && moves(body)) instance.finish = Finish::Glass;
-    picture.instances.push_back(instance);
+    const BodyDef& def = scene_.world.bodies[i];
+    if (isFloor(def) || inSurface_[i] || hides(def, picture.camera.eye)) continue;
+    picture.instances.push_back(body(sample, i));
+    if (byTime && moves(def)) picture.instances.back().colour = timeStops().back();
   }
+  for (Instance& surface : bentSurfaces(scene_, sample, colours_))
+    picture.instances.push_back(std::move(surface));
 }
 
 Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {

@@ -51,6 +51,8 @@ class Presenter {
   Picture still(double t) const;
   /// The whole motion: ghosts every show.strobe seconds, paler the longer ago, and the last pose.
   Picture strobe() const;
+  /// A body of the scene as a sample has it, whether pictures show it or not.
+  Instance body(const Sample& sample, std::size_t number) const;
 
  private:
   Picture blank(const Framing& framing) const;
@@ -73,7 +75,8 @@ class Presenter {
   const Scene& scene_;
   const Recording& recording_;
   std::vector<Colour> colours_;
-  std::vector<bool> turns_;                            ///< per body: in the run, at all
+  std::vector<bool> turns_;      ///< per body: in the run, at all
+  std::vector<bool> inSurface_;  ///< per body: drawn as part of a surface that bends
   std::vector<std::shared_ptr<const Facets>> facets_;  // per body; null for simple shapes
   std::vector<Curve> theory_;
   std::vector<Expectation> expectations_;

@@ -7,6 +7,7 @@
 
 #include "app/claim/free_body.h"
 #include "app/present/arrows.h"
+#include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/joints.h"
 #include "app/present/labels.h"
@@ -83,7 +84,7 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
     const double u = end > 0.0 ? sample.t / end : 1.0;
     for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
       const BodyDef& body = scene_.world.bodies[i];
-      if (!moves(body)) continue;
+      if (!moves(body) || inSurface_[i]) continue;
       const Colour colour = byTime ? ramp(timeStops(), u) : colourOf(sample, i);
       Instance ghost =
           instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,
@@ -94,11 +95,18 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);
     }
+    for (Instance& surface : bentSurfaces(scene_, sample, colours_)) {
+      surface.finish = Finish::Ghost;
+      surface.alpha = static_cast<float>(0.22 + 0.48 * u);
+      picture.instances.push_back(std::move(surface));
+    }
     if (scene_.show.forces && n % 5 == 0) addForces(scene_, sample, typicalHeight(scene_), picture);
   }
   if (!byTime) return;
   ColourBar bar{"time / s", {timeStops().begin(), timeStops().end()}, 0.0, end, {}};
-  const double tick = end > 20.0 ? 10.0 : end > 8.0 ? 2.0 : end > 1.5 ? 1.0 : 0.2;
+  const double decade = decadeOf(end, 0.5);
+  const double part = end / decade;
+  const double tick = decade * (part > 20.0 ? 10.0 : part > 8.0 ? 2.0 : part > 1.5 ? 1.0 : 0.2);
   for (int n = 0; n * tick <= end; ++n) bar.ticks.push_back(n * tick);
   picture.bar = bar;
 }
