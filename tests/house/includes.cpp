@@ -15,8 +15,8 @@ using tumble::test::Pattern;
 
 namespace {
 
-constexpr std::array kChapters = {"math",    "ode",     "shape", "body",   "flight", "collide",
-                                  "problem", "contact", "joint", "method", "audit"};
+constexpr std::array kChapters = {"math",    "ode",     "shape",   "elastic", "body",   "flight",
+                                  "collide", "problem", "contact", "joint",   "method", "audit"};
 // The rooms of the program, in the order of its data; the last ones know nothing of each other.
 constexpr std::array kRooms = {"file", "scene", "record", "claim", "present", "panel"};
 constexpr std::array kLastRooms = {"golden", "report", "viewer"};

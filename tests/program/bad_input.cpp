@@ -101,6 +101,16 @@ TEST_CASE("a scene that is refused is refused by check too, with claims and with
   CHECK(outcome.out.empty());
 }
 
+TEST_CASE("a scene that its method refuses leaves no folder of images") {
+  const Scratch scratch;
+  scratch.file("scene.toml", kBall + "[[force]]\nkind = \"drag\"\nlinear = 1.0\n");
+  const Outcome outcome =
+      tumbleRun(scratch, "render scene.toml --set world.method=exact --still 0 -o out");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == kScene);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
 TEST_CASE("several mistakes of one file are told together, first first") {
   const Scratch scratch;
   std::string text = spoilt("mass = 1.0", "mass = -1.0");

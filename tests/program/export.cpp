@@ -24,6 +24,53 @@ TEST_CASE("export writes by the ending of the name, and refuses another") {
   CHECK(filesBelow(scratch.path) == 1);
 }
 
+// A room whose nearest walls no picture shows, and places too small to have all their digits.
+TEST_CASE("a page and a glTF file hold every body, whatever the pictures leave out") {
+  const Scratch scratch;
+  scratch.file("room.toml", R"([world]
+duration = 0.1
+[[body]]
+name = "left"
+shape = { plane = [1, 0, 0, -1] }
+[[body]]
+name = "front"
+shape = { plane = [0, 0, -1, -1] }
+[[body]]
+name = "grain"
+shape = { sphere = 0.1 }
+mass = 1.0
+position = [1e-310, 1, 0]
+)");
+  scratch.file("towel.toml", R"([world]
+duration = 0.1
+[[body]]
+name = "post"
+shape = { sphere = 0.1 }
+fixed = true
+[[cloth]]
+name = "towel"
+columns = 3
+rows = 3
+size = [0.4, 0.4]
+density = 0.3
+stretch = 100
+shear = 10
+bend = 1e-5
+damping = 0.1
+position = [0, 0.2, 0]
+)");
+  for (const char* scene : {"room", "towel"})
+    for (const char* what : {"render {}.toml --html {}.html -q", "export {}.toml -o {}.glb -q"}) {
+      std::string line = what;
+      for (std::size_t at; (at = line.find("{}")) != std::string::npos;) line.replace(at, 2, scene);
+      const Outcome outcome = tumbleRun(scratch, line);
+      CAPTURE(line, outcome.err);
+      CHECK(outcome.code == 0);
+    }
+  const std::string page = textOf(scratch.path / "room.html");
+  CHECK(page.find("\"name\":\"grain\",\"shape\":3") != std::string::npos);
+}
+
 TEST_CASE("a page of the pile weighs less than half a megabyte") {
   const Scratch scratch;
   CHECK(tumbleRun(scratch, "render pile --html pages/pile.html -q").code == 0);
