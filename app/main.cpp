@@ -16,6 +16,7 @@ int render(int argc, char** argv);
 int report(int argc, char** argv);
 int simulate(int argc, char** argv);
 int sweep(int argc, char** argv);
+int verify(int argc, char** argv);
 int view(int argc, char** argv);
 }  // namespace tumble::command
 
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
       {"converge", "halved steps and all methods: differences, order, error, cost",
        command::converge},
       {"golden", "hold small images and numbers against the approved ones", command::golden},
+      {"verify", "hold a run to the bits of another", command::verify},
       {"report", "speed against error: numbers, figures, a table", command::report},
       {"view", "the window: play, step, scrub, turn", command::view},
       {"doctor", "what this machine offers for drawing, and what is missing", command::doctor},

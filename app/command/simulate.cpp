@@ -9,36 +9,46 @@
 #include "app/command/run.h"
 #include "app/export/scene_json.h"
 #include "app/file/file.h"
+#include "app/record/hashes.h"
 #include "app/record/output.h"
 
 namespace tumble::command {
 
 int simulate(int argc, char** argv) {
   SceneOptions options;
-  std::string folder;
+  std::string folder, hashFile;
   double rate = 0.0;
-  CommandLine line("simulate", "Runs a scene and writes its numbers.",
-                   {"path-of-brick                       # trajectory.csv, events.csv, "
-                    "contacts.csv, summary.json, scene.json",
-                    "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
-                    "path-of-brick --set materials.brick.restitution=0.4"});
+  CommandLine line(
+      "simulate", "Runs a scene and writes its numbers.",
+      {"path-of-brick                       # trajectory.csv, events.csv, "
+       "contacts.csv, summary.json, scene.json",
+       "my-scene.toml -o out/mine --rate 240 # 240 samples a second",
+       "path-of-brick --set materials.brick.restitution=0.4",
+       "pile --hash pile.txt                 # its bits, for `tumble verify` elsewhere"});
   addSceneOptions(line, options);
   line.option("-o,--output", folder, "folder for the files [out/<scene>]");
   addRate(line, rate);
+  line.option("--hash", hashFile, "a file for the hash of each sample's bits", {.type = "FILE"});
   if (!line.read(argc, argv)) return kOk;
 
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;
   // The files are begun with the first sample: a scene that the world refuses makes none.
   std::optional<OutputFiles> files;
+  RunHashes hashes = hashesFor(scene, rate > 0.0 ? rate : scene.image.rate);
   const auto write = [&](Sample&& sample) {
     if (!files) files.emplace(folder, scene);
     files->add(sample);
+    if (!hashFile.empty()) hashes.samples.push_back(hashOf(sample));
   };
   const Recording recording = runWithProgress(scene, rate, write);
   if (!files) files.emplace(folder, scene);
   files->finish(recording);
   writeFile(folder + "/scene.json", sceneJson(scene));
+  if (!hashFile.empty()) {
+    addEvents(hashes, recording.report);
+    writeFile(hashFile, hashText(hashes));
+  }
   printCertificate(recording);
   say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json");
   return exitOf(recording);
