@@ -12,6 +12,34 @@
 #include "app/record/hashes.h"
 #include "app/record/output.h"
 
+namespace tumble {
+namespace {
+
+// Runs the scene, and writes its files and, if they are named, its hashes.
+Recording runInto(const std::string& folder, const std::string& hashFile, const Scene& scene,
+                  double rate) {
+  // The files are begun with the first sample: a scene that the world refuses makes none.
+  std::optional<OutputFiles> files;
+  RunHashes hashes = hashesFor(scene, rate > 0.0 ? rate : scene.image.rate);
+  const auto write = [&](Sample&& sample) {
+    if (!files) files.emplace(folder, scene);
+    files->add(sample);
+    if (!hashFile.empty()) hashes.samples.push_back(hashOf(sample));
+  };
+  Recording recording = runWithProgress(scene, rate, write);
+  if (!files) files.emplace(folder, scene);
+  files->finish(recording);
+  writeFile(folder + "/scene.json", sceneJson(scene));
+  if (!hashFile.empty()) {
+    addEvents(hashes, recording.report);
+    writeFile(hashFile, hashText(hashes));
+  }
+  return recording;
+}
+
+}  // namespace
+}  // namespace tumble
+
 namespace tumble::command {
 
 int simulate(int argc, char** argv) {
@@ -33,22 +61,7 @@ int simulate(int argc, char** argv) {
 
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;
-  // The files are begun with the first sample: a scene that the world refuses makes none.
-  std::optional<OutputFiles> files;
-  RunHashes hashes = hashesFor(scene, rate > 0.0 ? rate : scene.image.rate);
-  const auto write = [&](Sample&& sample) {
-    if (!files) files.emplace(folder, scene);
-    files->add(sample);
-    if (!hashFile.empty()) hashes.samples.push_back(hashOf(sample));
-  };
-  const Recording recording = runWithProgress(scene, rate, write);
-  if (!files) files.emplace(folder, scene);
-  files->finish(recording);
-  writeFile(folder + "/scene.json", sceneJson(scene));
-  if (!hashFile.empty()) {
-    addEvents(hashes, recording.report);
-    writeFile(hashFile, hashText(hashes));
-  }
+  const Recording recording = runInto(folder, hashFile, scene, rate);
   printCertificate(recording);
   say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json");
   return exitOf(recording);
