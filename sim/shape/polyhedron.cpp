@@ -13,6 +13,8 @@ namespace tumble {
 namespace {
 
 constexpr double kFlat = 1e-12;  // of a face's size: what rounding of its points may bend it by
+constexpr double kThin = 1e-12;  // of size × area: a volume below it may be rounding alone
+constexpr double kFar = 1e60;    // m: fifth powers, as inertia tensors have, stay finite
 
 std::string number(double value) {
   char text[32];
@@ -84,17 +86,23 @@ void checkEdges(const Polyhedron& solid, const std::vector<Vec3>& given) {
                       f);
 }
 
-/// Σ p₀·(p₁ × p₂) over all triangles, six times the volume.
-void checkOutside(const Polyhedron& solid, const std::vector<Vec3>& given) {
-  double sum = 0.0;
-  for (const std::vector<int>& face : solid.faces)
-    sum += at(solid, face[0]).dot(areaVector(solid, face));
+/// Σ p₀·(p₁ × p₂) over all triangles, six times the volume, is positive and more than rounding.
+void checkVolume(const Polyhedron& solid, const std::vector<Vec3>& given) {
+  double sum = 0.0, area = 0.0, size = 0.0;
+  for (const std::vector<int>& face : solid.faces) {
+    const Vec3 n = areaVector(solid, face);
+    sum += at(solid, face[0]).dot(n);
+    area += n.norm();
+    for (const int i : face) size = std::max(size, at(solid, i).norm());
+  }
   if (!(sum > 0.0))
     throw NotASolid(
         "the surface is inside out: " + edgeText(given, solid.faces[0][0], solid.faces[0][1]) +
             " and all others should run counter-clockwise about their faces, "
             "seen from outside",
         0);
+  if (!(sum > kThin * size * area))
+    throw NotASolid("the surface is too thin: what it holds may be rounding alone", -1);
 }
 
 bool isFlat(const Polyhedron& solid, const std::vector<int>& face) {
@@ -185,7 +193,11 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
     if (!given[i].allFinite())
       throw NotASolid("point " + std::to_string(i + 1) + " is not finite", -1);
   Polyhedron solid{given, std::move(faces)};
-  for (Vec3& p : solid.points) p -= given[0];
+  for (Vec3& p : solid.points) {
+    p -= given[0];
+    if (!(p.cwiseAbs().maxCoeff() < kFar))
+      throw NotASolid("the points are too far apart: 1e60 m or more", -1);
+  }
   checkFaces(solid, given);
   checkEdges(solid, given);
   checkShells(solid);  // first: it names the shell that is inside out
@@ -210,7 +222,7 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
     }
   }
   solid.faces = std::move(flat);
-  checkOutside(solid, given);  // a face that is bent holds what its triangles hold
+  checkVolume(solid, given);  // a face that is bent holds what its triangles hold
   findEdges(solid);
   return solid;
 }

@@ -47,7 +47,8 @@ class NotASolid : public std::invalid_argument {
 /// flat to 1e-12 of its size is cut into triangles.
 /// @throws NotASolid  with the offending edge, for an index without a point, an edge of no length,
 ///                    a face without area, an edge with one face, with three, or two that run the
-///                    same way, shells that overlap or are inside out, or a list without faces.
+///                    same way, shells that overlap or are inside out, points 1e60 m apart, a
+///                    volume that may be rounding alone, or a list without faces.
 Polyhedron makePolyhedron(std::vector<Vec3> points, std::vector<std::vector<int>> faces);
 
 /// Twice the area vector [m²] of a face, outward:  Σ (pᵢ − p₀) × (pᵢ₊₁ − p₀)  (Newell).

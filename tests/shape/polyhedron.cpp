@@ -2,8 +2,11 @@
 #include "sim/shape/polyhedron.h"
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include "sim/body/mass_properties.h"
+#include "sim/body/mass_surface.h"
 #include "sim/math/rotation.h"
 #include "tests/body/solids.h"
 #include "tests/catch.h"
@@ -159,4 +162,30 @@ TEST_CASE("a bent face that leaves a triangle without area is refused") {
                                             {3, 4, 10, 9},        {4, 5, 11, 10},    {5, 0, 6, 11},
                                             {6, 7, 8, 9, 10, 11}, {5, 4, 3, 2, 1, 0}};
   CHECK(says(refusal({points, faces}), "face 7 is not flat, and one of the triangles"));
+}
+
+// Oracle: the volume integrals, which are summed in another way. Flakes of a thickness of 1e-9 to
+// 1e-17 of their size, turned at random: each is refused, or has a volume that is positive.
+TEST_CASE("a solid is thicker than rounding, and its points are not too far apart") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto point = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+  int kept = 0, refused = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 a = point(), b = point(), c = point();
+    const double thickness = std::pow(10.0, -9.0 - trial % 9);
+    const Vec3 top = (a + b + c) / 3.0 + thickness * (b - a).cross(c - a).normalized();
+    const solids::Raw flake{{a, b, c, top}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    if (refusal(flake).empty()) {
+      ++kept;
+      CHECK(integrate(flake.made()).volume > 0.0);
+    } else {
+      ++refused;
+    }
+  }
+  CHECK(kept > 400);
+  CHECK(refused > 800);
+
+  for (const double size : {1e-60, 1e59}) CHECK(refusal(cube(Vec3::Zero(), size)).empty());
+  CHECK(says(refusal(cube(Vec3::Zero(), 1e60)), "too far apart"));
 }
