@@ -58,13 +58,6 @@ void crossing(const Vec3& a, const Vec3& ea, const Vec3& b, const Vec3& eb, Plan
   plane.pb = b + ((db - k * da) / det) * eb;
 }
 
-// All edges as unit vectors.
-Few<Vec3> directions(const Core& core) {
-  Few<Vec3> unit;
-  for (const Polyhedron::Edge& e : core.edges) unit.push_back(core.along(e).normalized());
-  return unit;
-}
-
 // The plane along edges i of a and j of b with directions ea and eb; `up` tells its side.
 void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const Vec3& eb, double up,
               double bias, Plane& best) {
@@ -90,30 +83,50 @@ void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const 
   crossing(p, ea, q, eb, best);
 }
 
-// What the search over pairs of edges asks of one solid.
-struct Edges {
-  Few<Vec3> along;
-  const Polyhedron::Edge* edges;
-  const Vec3* normals;  // none if the solid is a segment
-  int count, faces;
+// Rounding of a point's height over a face, as a share of its distance from a corner of the face.
+constexpr double kSlack = 1e-12;
 
-  explicit Edges(const Core& core)
-      : along(directions(core)),
-        edges(core.edges.data()),
-        normals(core.normals.data()),
-        count(static_cast<int>(core.edges.size())),
-        faces(static_cast<int>(core.normals.size())) {}
+// The edges of a solid across which the gap to another can be above a floor, for the search over
+// pairs. Let m be an axis in the arc of normals of an edge, p on the edge, q any point of the other
+// solid: the gap along m is at most m·(q − p), and where q lies below both faces of the edge, not
+// above the higher of its heights over them. So a q near the contact leaves the edges around it.
+struct Edges {
+  const Core& core;
+  Few<int> number;  // of those edges across which a gap above a floor can be
+  Few<Vec3> along;  // their unit vectors
+  Few<double> heights;
+
+  Edges(const Core& solid, const Vec3& other, double floor) : core(solid) {
+    const std::size_t faces = solid.normals.size();
+    Few<char> low(faces);
+    for (std::size_t f = 0; f < faces; ++f) {
+      const Vec3 d = other - solid.points[solid.faces[f][0]];
+      low[f] = solid.normals[f].dot(d) <= std::min(floor, 0.0) - kSlack * d.norm();
+    }
+    for (int i = 0; i < static_cast<int>(solid.edges.size()); ++i) {
+      const Polyhedron::Edge& edge = solid.edges[i];
+      if (faces > 0 && low[edge.left] && low[edge.right]) continue;
+      number.push_back(i);
+      along.push_back(solid.along(edge).normalized());
+    }
+    heights.resize(faces);
+  }
+  bool isSegment() const { return core.normals.empty(); }
+  const Polyhedron::Edge& edge(int k) const { return core.edges[number[k]]; }
+  int count() const { return static_cast<int>(number.size()); }
 };
 
 // The edges of b whose arcs of normals cross the great circle that edge `ea` of a stands square on;
 // the heights of b's normals over that circle. Written without branches, which would be guessed
 // wrong half the time.
-int crossingEdges(const Vec3& ea, const Edges& b, double* heights, int* crossing) {
-  for (int f = 0; f < b.faces; ++f) heights[f] = b.normals[f].dot(ea);
+int crossingEdges(const Vec3& ea, Edges& b, int* crossing) {
+  const bool segment = b.isSegment();
+  double* const heights = b.heights.data();
+  for (std::size_t f = 0; f < b.heights.size(); ++f) heights[f] = b.core.normals[f].dot(ea);
   int count = 0;
-  for (int j = 0; j < b.count; ++j) {
-    crossing[count] = j;
-    count += b.faces == 0 || heights[b.edges[j].left] * heights[b.edges[j].right] < 0.0 ? 1 : 0;
+  for (int k = 0; k < b.count(); ++k) {
+    crossing[count] = k;
+    count += segment || heights[b.edge(k).left] * heights[b.edge(k).right] < 0.0 ? 1 : 0;
   }
   return count;
 }
@@ -122,29 +135,31 @@ int crossingEdges(const Vec3& ea, const Edges& b, double* heights, int* crossing
 // an edge of b and the mirrored arc of one of a cross if each has its ends on two sides of the
 // other, and both are on one side of the sphere.
 void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best) {
-  const Edges a(coreA), b(coreB);
-  Few<double> heights(b.faces);
-  Few<int> crossing(b.count + 1);
-  for (int i = 0; i < a.count; ++i) {
-    const Polyhedron::Edge& edgeA = a.edges[i];
-    const Vec3& ea = a.along.data()[i];
-    const int found = crossingEdges(ea, b, heights.data(), crossing.data());
+  int vertex = -1;
+  Edges a(coreA, outermost(coreB, best.n, vertex), best.gap);
+  Edges b(coreB, outermost(coreA, -best.n, vertex), best.gap);
+  Few<int> crossing(b.number.size() + 1);
+  for (int i = 0; i < a.count(); ++i) {
+    const Vec3& ea = a.along[i];
+    const int found = crossingEdges(ea, b, crossing.data());
     for (int k = 0; k < found; ++k) {
-      const int j = crossing.data()[k];
-      const Vec3& eb = b.along.data()[j];
+      const int j = crossing[k];
+      const Vec3& eb = b.along[j];
       double up = 0.0;  // the side of ea × eb on which both have their normals
-      if (a.faces > 0) {
-        const double left = a.normals[edgeA.left].dot(eb), right = a.normals[edgeA.right].dot(eb);
+      if (!a.isSegment()) {
+        const double left = coreA.normals[a.edge(i).left].dot(eb);
+        const double right = coreA.normals[a.edge(i).right].dot(eb);
         if (!(left * right < 0.0)) continue;
         up = left < 0.0 ? 1.0 : -1.0;
       }
-      if (b.faces > 0) {
-        const double side = heights.data()[b.edges[j].left] < 0.0 ? 1.0 : -1.0;
-        if (a.faces > 0 && side != up) continue;
+      if (!b.isSegment()) {
+        const double side = b.heights[b.edge(j).left] < 0.0 ? 1.0 : -1.0;
+        if (!a.isSegment() && side != up) continue;
         up = side;
       }
-      if (up == 0.0) tryEdges(coreA, i, ea, coreB, j, eb, -1.0, bias, best);
-      tryEdges(coreA, i, ea, coreB, j, eb, up == 0.0 ? 1.0 : up, bias, best);
+      const int m = a.number[i], n = b.number[j];
+      if (up == 0.0) tryEdges(coreA, m, ea, coreB, n, eb, -1.0, bias, best);
+      tryEdges(coreA, m, ea, coreB, n, eb, up == 0.0 ? 1.0 : up, bias, best);
     }
   }
 }

@@ -18,16 +18,16 @@ namespace {
 
 using namespace tumble;
 
-enum class Solids { Boxes, Hulls, BoxCapsule, BoxCylinder, Cylinders };
+enum class Solids { Boxes, Hulls, RoundHulls, BoxCapsule, BoxCylinder, Cylinders };
 
 struct Pair {
   Shape a, b;
   Pose poseA, poseB;
 };
 
-Shape ball20(Random& random) {  // a hull of 20 corners
+Shape ballOf(int corners, Random& random) {  // a hull
   std::vector<Vec3> points;
-  for (int k = 0; k < 20; ++k) points.push_back(0.5 * random.direction());
+  for (int k = 0; k < corners; ++k) points.push_back(0.5 * random.direction());
   return hullOf(points);
 }
 
@@ -40,9 +40,10 @@ std::vector<Pair> pairsAt(Solids solids, double gap) {
     const Box box = random.box(0.3, 0.5), other = random.box(0.3, 0.5);
     pair.a = box;
     pair.b = other;
-    if (solids == Solids::Hulls) {
-      pair.a = ball20(random);
-      pair.b = ball20(random);
+    if (solids == Solids::Hulls || solids == Solids::RoundHulls) {
+      const int corners = solids == Solids::Hulls ? 20 : 300;
+      pair.a = ballOf(corners, random);
+      pair.b = ballOf(corners, random);
     }
     if (solids == Solids::BoxCapsule) pair.b = Capsule{0.2, 0.6};
     if (solids == Solids::BoxCylinder || solids == Solids::Cylinders) pair.b = Cylinder{0.4, 0.6};
@@ -161,6 +162,7 @@ BENCHMARK_CAPTURE(fullSearch, boxes_apart, Solids::Boxes, 0.01);
 BENCHMARK_CAPTURE(fullSearch, boxes_overlapping, Solids::Boxes, -0.01);
 BENCHMARK_CAPTURE(fullSearch, hulls_of_20_corners_apart, Solids::Hulls, 0.01);
 BENCHMARK_CAPTURE(fullSearch, hulls_of_20_corners_overlapping, Solids::Hulls, -0.01);
+BENCHMARK_CAPTURE(fullSearch, hulls_of_300_corners_overlapping, Solids::RoundHulls, -0.001);
 BENCHMARK_CAPTURE(fullSearch, box_capsule_touching, Solids::BoxCapsule, 0.0);
 BENCHMARK_CAPTURE(fullSearch, box_cylinder_touching, Solids::BoxCylinder, 0.0);
 BENCHMARK_CAPTURE(fullSearch, cylinders_touching, Solids::Cylinders, 0.0);
