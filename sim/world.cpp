@@ -2,282 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <stdexcept>
 
 #include "sim/audit/audit.h"
-#include "sim/collide/overlap.h"
-#include "sim/collide/parts.h"
-#include "sim/contact/impact.h"
-#include "sim/joined.h"
-#include "sim/method/auto.h"
 #include "sim/method/method.h"
 #include "sim/neighbours.h"
 #include "sim/shape/pieces.h"
+#include "sim/world_parts.h"
 
 namespace tumble {
-namespace {
-
-/// Error of a substep, where the exact method has to make steps.
-constexpr double kJointTolerance = 1e-13;
-
-std::string bodyPath(std::size_t i, const char* field = "") {
-  return "bodies[" + std::to_string(i) + "]" + field;
-}
-
-void need(bool holds, const std::string& where, const std::string& what) {
-  if (!holds) throw Refusal(where, what);
-}
-
-/// What the inertia method of a body finds.
-template <class Find>
-auto byMethod(const BodyDef& def, std::size_t i, Find find) {
-  need(findInertiaMethod(def.inertiaBy), bodyPath(i, ".inertia_by"),
-       "no inertia method is called \"" + def.inertiaBy + "\"");
-  need(def.samples > 0, bodyPath(i, ".samples"), "samples must be 1 or more");
-  try {
-    return find(def);
-  } catch (const std::invalid_argument& reason) {
-    throw Refusal(bodyPath(i, ".samples"), "\"" + def.name + "\": " + reason.what());
-  }
-}
-
-/// Mass and inertia as the author wants them; mass wins over density, inertia over the shape's.
-MassProperties checkedMass(const BodyDef& def, std::size_t i) {
-  need(def.mass || def.density, bodyPath(i),
-       "body \"" + def.name + "\" moves, so it needs a mass or a material with a density");
-  const double mass = bodyMass(def);
-  need(mass > 0.0 && std::isfinite(mass), bodyPath(i, ".mass"),
-       "the mass of \"" + def.name + "\" must be a positive number of kg");
-  if (def.inertia) {
-    need(def.inertia->allFinite() && def.inertia->minCoeff() > 0.0, bodyPath(i, ".inertia"),
-         "the inertia of \"" + def.name + "\" must be three positive numbers in kg m²");
-  }
-  return byMethod(def, i, massOf);
-}
-
-/// A particle has a mass of its own, and nothing that turns.
-RigidBody particleOf(const BodyDef& def, std::size_t i) {
-  const std::string name = "particle \"" + def.name + "\" ";
-  need(def.mass.has_value(), bodyPath(i), name + "needs a mass");
-  need(*def.mass > 0.0 && std::isfinite(*def.mass), bodyPath(i, ".mass"),
-       "the mass of " + name + "must be a positive number of kg");
-  need(!def.inertia, bodyPath(i, ".inertia"), name + "has no inertia");
-  RigidBody body = makeParticle(*def.mass);
-  body.x = def.position;
-  setVelocity(body, def.velocity, Vec3::Zero());
-  return body;
-}
-
-/// A solid at rest. A surface with pieces inside out takes mass away where there is none.
-RigidBody solidOf(const BodyDef& def, std::size_t i) {
-  const MassProperties mass = checkedMass(def, i);
-  try {
-    return makeBody(mass);
-  } catch (const std::invalid_argument& reason) {
-    throw Refusal(bodyPath(i, ".shape"), "\"" + def.name + "\" is no solid: " + reason.what());
-  }
-}
-
-RigidBody bodyOf(const BodyDef& def, std::size_t i) {
-  need(def.position.allFinite(), bodyPath(i, ".position"), "a position must be finite");
-  need(def.velocity.allFinite(), bodyPath(i, ".velocity"), "a velocity must be finite");
-  need(def.angularVelocity.allFinite(), bodyPath(i, ".angular_velocity"),
-       "an angular velocity must be finite");
-  need(def.restitution >= 0.0 && def.restitution <= 1.0, bodyPath(i, ".restitution"),
-       "restitution must lie in [0, 1]");
-  need(def.friction >= 0.0 && std::isfinite(def.friction), bodyPath(i, ".friction"),
-       "friction must be 0 or more");
-  need(def.orientation.coeffs().allFinite() && def.orientation.norm() > 0.0,
-       bodyPath(i, ".orientation"), "an orientation must be a quaternion that is not zero");
-  if (std::holds_alternative<Particle>(def.shape)) {
-    need(def.angularVelocity.isZero(0.0), bodyPath(i, ".angular_velocity"),
-         "a particle does not turn");
-    need(def.orientation.vec().isZero(0.0), bodyPath(i, ".orientation"),
-         "a particle has no orientation");
-  }
-  const Pose pose{def.position, def.orientation.normalized()};
-  if (const HalfSpace* plane = std::get_if<HalfSpace>(&def.shape)) {
-    need(def.fixed, bodyPath(i, ".fixed"), "a plane is always fixed");
-    const double scale = def.velocity.norm() + def.angularVelocity.norm();
-    need(std::abs(plane->n.dot(def.velocity)) <= 1e-12 * scale &&
-             plane->n.cross(def.angularVelocity).norm() <= 1e-12 * scale,
-         bodyPath(i, ".velocity"),
-         "a plane can only move within itself, and turn about its normal");
-  }
-  if (def.fixed) return makeFixedBody(pose, def.velocity, def.angularVelocity);
-  if (std::holds_alternative<Particle>(def.shape)) return particleOf(def, i);
-  RigidBody body = solidOf(def, i);
-  body.x = pose.x;
-  body.q = pose.q;
-  updateDerived(body);
-  setVelocity(body, def.velocity, def.angularVelocity);
-  return body;
-}
-
-/// Lengths of a shape are positive and finite; a plane has a direction.
-void checkShape(const Shape& shape, std::size_t i) {
-  const bool sound = std::visit(
-      [](const auto& s) {
-        using S = std::decay_t<decltype(s)>;
-        const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
-        if constexpr (std::is_same_v<S, Sphere>) return positive(s.r);
-        if constexpr (std::is_same_v<S, Box>)
-          return positive(s.half.minCoeff()) && s.half.allFinite();
-        if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Capsule>)
-          return positive(s.r) && positive(s.h);
-        if constexpr (std::is_same_v<S, HalfSpace>)
-          return std::abs(s.n.norm() - 1.0) < 1e-9 && std::isfinite(s.d);
-        if constexpr (std::is_same_v<S, Particle>)
-          return s.radius >= 0.0 && std::isfinite(s.radius);
-        if constexpr (std::is_same_v<S, Hull> || std::is_same_v<S, Mesh>) return s.solid != nullptr;
-        if constexpr (std::is_same_v<S, Compound>) return !s.parts.empty();
-      },
-      shape);
-  need(sound, bodyPath(i, ".shape"), "lengths of a shape must be positive, a plane's normal unit");
-}
-
-/// The parts of a compound share no volume, or it would be weighed twice.
-void checkParts(const BodyDef& def, std::size_t i) {
-  const Compound* compound = std::get_if<Compound>(&def.shape);
-  if (!compound) return;
-  need(compound->parts.size() <= kMostParts, bodyPath(i, ".shape"),
-       "\"" + def.name + "\" has " + std::to_string(compound->parts.size()) +
-           " parts; one body has room for " + std::to_string(kMostParts) +
-           ", so cut it into several");
-  const auto [a, b] = overlappingParts(*compound);
-  need(a < 0, bodyPath(i, ".shape"),
-       "parts " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " of \"" + def.name +
-           "\" overlap; the parts of a compound may touch at most");
-}
-
-/// The bodies that forces name exist.
-void checkForces(const WorldDef& def) {
-  const int count = static_cast<int>(def.bodies.size());
-  for (std::size_t k = 0; k < def.forces.size(); ++k) {
-    const auto exists = [&](int body, bool orNone) {
-      const bool known = body >= 0 && body < count;
-      need(known || (orNone && body == kNoBody), "forces[" + std::to_string(k) + "]",
-           "a force names a body that is not there");
-    };
-    const Force& force = def.forces[k];
-    if (const auto* wind = std::get_if<UniformWind>(&force)) exists(wind->body, true);
-    if (const auto* drag = std::get_if<LinearDrag>(&force)) exists(drag->body, true);
-    if (const auto* point = std::get_if<PointForce>(&force)) exists(point->body, false);
-    if (const auto* field = std::get_if<CircularField>(&force)) exists(field->body, true);
-    if (const auto* bending = std::get_if<Bending>(&force))
-      for (const int body : bending->body->bodies) exists(body, false);
-    if (const auto* spring = std::get_if<Spring>(&force)) {
-      exists(spring->a, false);
-      exists(spring->b, true);
-    }
-  }
-}
-
-/// The pivots of bodies that have one, which begin without moving there.
-void addPivots(Model& model, std::vector<RigidBody>& bodies) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const BodyDef& def = model.def.bodies[i];
-    if (!def.pivot_B) continue;
-    const std::string where = bodyPath(i, ".pivot_body"), name = "\"" + def.name + "\"";
-    need(def.pivot_B->allFinite(), where, "a pivot must be a finite point");
-    need(!def.fixed, where, name + " is fixed; leave out the pivot or let it move");
-    need(!bodies[i].particle, where, name + " is a particle, which cannot turn about a pivot");
-    need(def.velocity.isZero(0.0), bodyPath(i, ".velocity"),
-         name + " turns about its pivot: give it an angular velocity alone");
-    const Pivot pivot = makePivot(bodies[i], static_cast<int>(i), *def.pivot_B);
-    setVelocity(bodies[i], def.angularVelocity.cross(-(bodies[i].R * pivot.c_B)),
-                def.angularVelocity);
-    model.pivots.push_back(pivot);
-  }
-}
-
-/// Which bodies are points of what bends.
-void addBending(Model& model) {
-  for (std::size_t k = 0; k < model.def.forces.size(); ++k) {
-    const auto* bending = std::get_if<Bending>(&model.def.forces[k]);
-    if (!bending) continue;
-    if (model.bending.empty()) model.bending.assign(model.shapes.size(), -1);
-    const std::string where = "forces[" + std::to_string(k) + "]";
-    const int number = *std::max_element(model.bending.begin(), model.bending.end()) + 1;
-    for (const int i : bending->body->bodies) {
-      need(std::holds_alternative<Particle>(model.def.bodies[i].shape), where,
-           "\"" + model.def.bodies[i].name +
-               "\" is no particle, so nothing bends between it and others");
-      need(model.bending[i] < 0, where,
-           "\"" + model.def.bodies[i].name + "\" is a point of two things that bend");
-      model.bending[i] = number;
-    }
-    for (const Element& element : bending->body->elements)
-      for (int p = 0; p < element.count; ++p)
-        need(model.bending[element.points[p]] == number, where,
-             "\"" + bending->body->name + "\" has an element with points that are not its own");
-  }
-}
-
-double worldSize(const Model& model) {
-  double size = 0.0;
-  for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
-    const double radius = model.radius[i];
-    if (std::isfinite(radius)) size = std::max(size, radius + model.def.bodies[i].position.norm());
-  }
-  return size > 0.0 ? size : 1.0;
-}
-
-}  // namespace
-
-struct World::Parts {
-  /// Everything but the rules for neighbours and the books.
-  void build(const WorldDef& def);
-
-  Model model;
-  State state;
-  Report report;
-  const Method* method = nullptr;
-  std::optional<Audit> audit;
-  double lastAdvance = 0.0;
-  std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
-  std::vector<Contact> seenContacts;
-  std::vector<JointForce> seenJoints;
-};
-
-void World::Parts::build(const WorldDef& def) {
-  model.def = def;
-  method = findMethod(def.method);
-  need(method, "method", "no method is called \"" + def.method + "\"");
-  need(findImpactLaw(def.impact), "impact", "no impact law is called \"" + def.impact + "\"");
-  need(def.duration > 0.0 && std::isfinite(def.duration), "duration",
-       "a duration must be a positive number of seconds");
-  need(def.gravity.allFinite(), "gravity", "gravity must be finite");
-  need(!def.bodies.empty(), "bodies", "a scene needs at least one body");
-  for (std::size_t i = 0; i < def.bodies.size(); ++i) {
-    checkShape(def.bodies[i].shape, i);
-    checkParts(def.bodies[i], i);
-    model.shapes.push_back(readyShape(contactShape(byMethod(def.bodies[i], i, centredShape))));
-    model.radius.push_back(boundingRadius(model.shapes[i]));
-    if (touchesAnything(def.bodies[i].shape)) model.solid.push_back(static_cast<int>(i));
-    state.bodies.push_back(bodyOf(def.bodies[i], i));
-  }
-  checkForces(def);
-  addBending(model);
-  addPivots(model, state.bodies);
-  model.size = worldSize(model);
-  joinBodies(model, state.bodies);
-  model.runs = method->name;
-  if (def.method == "auto") {
-    model.runs = chooseMethod(model, state.bodies);
-    if (model.runs == "exact") state.effort.most = mostEffort(model);
-  }
-  if (model.runs == "exact" && !model.joints.empty()) {
-    // Where the closed forms end, the most accurate steps that there are.
-    model.def.course = {.integrator = "dopri5", .tolerance = kJointTolerance};
-  }
-  method->check(model, state.bodies);
-}
 
 World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   parts_->build(def);
   Model& model = parts_->model;
-  State& state = parts_->state;
+  State& state = parts_->now->state;
   checkNeighbours(model, state.bodies);
 
   std::vector<RigidBody> loaded = state.bodies;
@@ -288,14 +26,14 @@ World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
     state.loadPower += body.invM * body.force.squaredNorm();
   }
   for (const RigidBody& body : state.bodies) state.momentumStart += body.P;
-  Certificate& books = parts_->report.certificate;
+  Certificate& books = parts_->now->report.certificate;
   for (const BodyDef& body : def.bodies)
     if (const Mesh* mesh = std::get_if<Mesh>(&body.shape); mesh && mesh->pieces)
       books.mesh_excess = std::max(books.mesh_excess, mesh->pieces->excess);
   books.energy_start =
       kineticEnergy(state.bodies) + potentialEnergy(def.gravity, def.forces, state.bodies);
-  account(model, state, parts_->report);
-  parts_->audit.emplace(model, state.bodies);
+  account(model, state, parts_->now->report);
+  parts_->now->audit.emplace(model, state.bodies);
 }
 
 World::~World() = default;
@@ -303,12 +41,28 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::advance(double t) {
-  const double end = std::min(t, parts_->model.def.duration);
-  trimTrail(parts_->state, parts_->lastAdvance);
-  parts_->method->advance(parts_->model, parts_->state, end, parts_->report);
-  parts_->lastAdvance = end;
-  parts_->audit->follow(parts_->state);
-  parts_->audit->report(parts_->state, parts_->report);
+  const Model& model = parts_->model;
+  auto& [state, report, audit, lastAdvance] = *parts_->now;
+  const double end = std::min(t, model.def.duration);
+  trimTrail(state, lastAdvance);
+  parts_->method->advance(model, state, end, report);
+  lastAdvance = end;
+  audit->follow(state);
+  audit->report(state, report);
+}
+
+SavedWorld World::save() const {
+  SavedWorld saved;
+  saved.held_ =
+      std::make_shared<const SavedWorld::Held>(SavedWorld::Held{parts_->made, *parts_->now});
+  return saved;
+}
+
+void World::restore(const SavedWorld& saved) {
+  if (!saved.held_ || saved.held_->of != parts_->made)
+    throw std::invalid_argument(
+        "a world restores what it saved itself, not what another world saved");
+  parts_->now = std::make_unique<Changing>(saved.held_->moment);
 }
 
 namespace {
@@ -340,14 +94,14 @@ Sample World::sample(double t) const {
   std::vector<RigidBody>& bodies = parts_->seen;
   std::vector<Contact>& contacts = parts_->seenContacts;
   std::vector<JointForce>& joints = parts_->seenJoints;
-  parts_->method->look(parts_->model, parts_->state, t, bodies, contacts, joints);
+  parts_->method->look(parts_->model, parts_->now->state, t, bodies, contacts, joints);
   return sampleOf(parts_->model, t, bodies, contacts, joints);
 }
 
 StartCheck World::checkStart(const WorldDef& def) {
   Parts parts;
   parts.build(def);
-  std::vector<RigidBody> bodies = parts.state.bodies;
+  std::vector<RigidBody> bodies = parts.now->state.bodies;
   std::vector<Contact> contacts = touchingContacts(parts.model, bodies);
   StartCheck check;
   check.faults = overlapping(parts.model, contacts);
@@ -373,15 +127,15 @@ const Model& World::model() const {
 std::string World::method() const {
   const Model& model = parts_->model;
   if (model.def.method != "auto") return model.def.method;
-  return "auto: " + std::string(model.runs) + (parts_->state.before ? ", then stepping" : "");
+  return "auto: " + std::string(model.runs) + (parts_->now->state.before ? ", then stepping" : "");
 }
 
 std::string_view World::runs() const {
-  return parts_->state.before ? "stepping" : parts_->model.runs;
+  return parts_->now->state.before ? "stepping" : parts_->model.runs;
 }
 
 const Report& World::report() const {
-  return parts_->report;
+  return parts_->now->report;
 }
 
 std::vector<std::string> World::features(bool used) const {

@@ -51,6 +51,17 @@ struct StartCheck {
   Sample sample;
 };
 
+/// A world at one moment, with all that its method remembers: a value that World::save makes and
+/// that the same world restores, as often as one likes. Copies share their content.
+class SavedWorld {
+ public:
+  struct Held;
+
+ private:
+  friend class World;
+  std::shared_ptr<const Held> held_;
+};
+
 /// A scene that lives.
 class World {
  public:
@@ -73,6 +84,13 @@ class World {
   /// The instant t ≤ the last advance, and no earlier than the one before. At an event: the state
   /// after it.
   Sample sample(double t) const;
+
+  /// The world as it is now; from there, `restore` lets it go on again to the same bits. Costs a
+  /// copy of the state and of the events so far.
+  SavedWorld save() const;
+  /// Back to a moment: times of `advance` and `sample` begin again where they were then.
+  /// @throws std::invalid_argument for what another world saved.
+  void restore(const SavedWorld& saved);
 
   const Model& model() const;
   /// The scene's method; of "auto", what it chose: "auto: exact", "auto: exact, then stepping".

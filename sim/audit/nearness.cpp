@@ -24,7 +24,7 @@ Pose poseOf(const Recorded& r) {
 }  // namespace
 
 Nearness::Nearness(const Model& model, std::span<const RigidBody> bodies)
-    : model_(model), bodies_(bodies) {
+    : model_(model), bodies_(bodies.begin(), bodies.end()) {
   for (int i = 0; i < model.count(); ++i) {
     parts_.push_back(convexParts(model.shapes[i]));
     const double radius = boundingRadius(model.shapes[i]);

@@ -63,7 +63,7 @@ class Nearness {
   std::optional<Pose> midst(int body, const Part& part) const;
 
   const Model& model_;
-  std::span<const RigidBody> bodies_;  ///< what is constant of them
+  std::vector<RigidBody> bodies_;  ///< what is constant of them
   std::vector<std::vector<PosedPart>> parts_;
   std::vector<double> radius_;  ///< [m] per body; 0 of a half-space
   std::vector<double> moved_;   ///< [m] per body, of any of its points, in all

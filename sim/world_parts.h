@@ -1,0 +1,42 @@
+// Chapter 11: what a World is made of.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/audit/audit.h"
+#include "sim/method/method.h"
+#include "sim/world.h"
+
+namespace tumble {
+
+/// All of a world that changes: state with each method's memory, books, audit. A value; copies
+/// share only what is worked with and then forgotten.
+struct Changing {
+  State state;
+  Report report;
+  std::optional<Audit> audit;
+  double lastAdvance = 0.0;  ///< [s]
+};
+
+struct World::Parts {
+  /// Everything but the rules for neighbours and the books.
+  /// @throws Refusal
+  void build(const WorldDef& def);
+
+  std::shared_ptr<Model> made = std::make_shared<Model>();  ///< what was saved knows it again
+  Model& model = *made;
+  const Method* method = nullptr;
+  std::unique_ptr<Changing> now = std::make_unique<Changing>();
+  std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
+  std::vector<Contact> seenContacts;
+  std::vector<JointForce> seenJoints;
+};
+
+struct SavedWorld::Held {
+  std::shared_ptr<const Model> of;
+  Changing moment;
+};
+
+}  // namespace tumble
