@@ -119,6 +119,8 @@ void checkShape(const Shape& shape, std::size_t i) {
         if constexpr (std::is_same_v<S, Sphere>) return positive(s.r);
         if constexpr (std::is_same_v<S, Box>)
           return positive(s.half.minCoeff()) && s.half.allFinite();
+        if constexpr (std::is_same_v<S, Ellipsoid>)
+          return positive(s.half.minCoeff()) && s.half.allFinite();
         if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Capsule>)
           return positive(s.r) && positive(s.h);
         if constexpr (std::is_same_v<S, HalfSpace>)

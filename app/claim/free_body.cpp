@@ -81,6 +81,8 @@ double reach(const Shape& shape, const Quat& q, const Vec3& n) {
     return 0.5 * cylinder->h * std::abs(n_B.y()) + cylinder->r * std::hypot(n_B.x(), n_B.z());
   if (const Capsule* capsule = std::get_if<Capsule>(&shape))
     return 0.5 * capsule->h * std::abs(n_B.y()) + capsule->r;
+  if (const Ellipsoid* ellipsoid = std::get_if<Ellipsoid>(&shape))
+    return ellipsoid->half.cwiseProduct(n_B).norm();
   double far = -std::numeric_limits<double>::infinity();
   const auto reachOf = [&](const auto& s) {
     for (const Vec3& point : s.solid->points) far = std::max(far, n_B.dot(point - s.origin));

@@ -38,6 +38,7 @@ struct ShapeJson {
   Json operator()(const Box& box) const { return {{"edges", list(Vec3(2.0 * box.half))}}; }
   Json operator()(const Cylinder& c) const { return {{"radius", c.r}, {"height", c.h}}; }
   Json operator()(const Capsule& c) const { return {{"radius", c.r}, {"height", c.h}}; }
+  Json operator()(const Ellipsoid& e) const { return {{"semi_axes", list(e.half)}}; }
   Json operator()(const Hull& hull) const { return surfaceOf(*hull.solid, hull.origin); }
   Json operator()(const Mesh& mesh) const { return surfaceOf(*mesh.solid, mesh.origin); }
   Json operator()(const HalfSpace& plane) const {

@@ -34,6 +34,9 @@ Instance instanceOf(const BodyDef& body, const Vec3& x, const Quat& q, const Col
   } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&body.shape)) {
     instance.form = Form::Cylinder;
     instance.scale = {cylinder->r, 0.5 * cylinder->h, cylinder->r};
+  } else if (const Ellipsoid* ellipsoid = std::get_if<Ellipsoid>(&body.shape)) {
+    instance.form = Form::Ellipsoid;
+    instance.scale = ellipsoid->half;
   } else if (const Particle* particle = std::get_if<Particle>(&body.shape)) {
     instance.form = Form::Sphere;
     instance.scale.setConstant(particle->radius > 0.0 ? particle->radius : kDot * extent);

@@ -155,6 +155,24 @@ Polyhedron solidOf(const Sphere& sphere) {
   return turnedSolid(rings);
 }
 
+// A ball, stretched.
+Polyhedron solidOf(const Ellipsoid& e) {
+  Polyhedron solid = solidOf(Sphere{1.0});
+  for (Vec3& p : solid.points) p = p.cwiseProduct(e.half);
+  return solid;
+}
+
+// Normals of the surface itself: a flat one is bent too sharply at its rim for those of faces.
+void smooth(const Ellipsoid& e, const Mat3& stretch, Facets& facets) {
+  const Mat3 back = stretch.inverse();
+  const Vec3 inverse = e.half.cwiseAbs2().cwiseInverse();
+  for (Facets::Corner& corner : facets.corners) {
+    const Vec3 p = back * corner.position.cast<double>();
+    corner.normal = (back.transpose() * inverse.cwiseProduct(p)).normalized().cast<float>();
+    corner.toEdge = Eigen::Vector3f::Constant(kNoEdge);
+  }
+}
+
 void measure(Facets& facets) {
   Eigen::Vector3f lo = facets.corners[0].position, hi = lo;
   for (const Facets::Corner& corner : facets.corners) {
@@ -182,6 +200,8 @@ void forEachSolid(const Shape& shape, Action act) {
     act(solidOf(*cylinder), Pose{});
   } else if (const Capsule* capsule = std::get_if<Capsule>(&shape)) {
     act(solidOf(*capsule), Pose{});
+  } else if (const Ellipsoid* ellipsoid = std::get_if<Ellipsoid>(&shape)) {
+    act(solidOf(*ellipsoid), Pose{});
   } else if (const Hull* hull = std::get_if<Hull>(&shape)) {
     act(solidOf(*hull), Pose{});
   }
@@ -230,6 +250,8 @@ std::shared_ptr<const Facets> facetsOf(const Shape& shape, const Mat3& stretch) 
     addSolid(solid, {}, *facets);
   });
   if (facets->corners.empty()) return nullptr;
+  if (const Ellipsoid* ellipsoid = std::get_if<Ellipsoid>(&shape))
+    smooth(*ellipsoid, stretch, *facets);
   measure(*facets);
   return facets;
 }

@@ -5,6 +5,7 @@
 #include "app/scene/choices.h"
 #include "app/scene/settings.h"
 #include "app/scene/shape.h"
+#include "sim/body/principal_axes.h"
 #include "sim/math/frames.h"
 
 namespace tumble {
@@ -18,9 +19,13 @@ constexpr int kMostSamples = 10'000'000;
 void readMass(Section& section, BodyDef& def) {
   section.read("mass", def.mass, positive("kg"));
   section.read("inertia", def.inertia, positive("kg m²"));
+  section.read("products", def.products, any("kg m²"));
+  if (!def.inertia && section.find("products"))
+    section.complain("products", "needs `inertia` beside it: the moments about the body axes");
   if (!def.inertia) return;
-  const Vec3& I = *def.inertia;
-  if (2.0 * I.maxCoeff() > I.sum() * (1.0 + 1e-12))
+  // Each principal moment is at most the sum of the other two.
+  const Vec3 I = principalAxes(givenInertia(def)).moments;
+  if (!(I.minCoeff() > 0.0) || 2.0 * I.maxCoeff() > I.sum() * (1.0 + 1e-12))
     section.complain("inertia", "no body has these: one is larger than the sum of the other two");
 }
 
@@ -102,7 +107,8 @@ void checkPlane(Section& section, BodyDef& def) {
 
 // A particle has no inertia, and it does not turn.
 void checkParticle(Section& section) {
-  for (const char* key : {"inertia", "orientation", "angular_velocity", "angular_velocity_body"})
+  for (const char* key :
+       {"inertia", "products", "orientation", "angular_velocity", "angular_velocity_body"})
     if (section.find(key))
       section.complain(key, "a particle has no inertia and does not turn; leave this out");
 }

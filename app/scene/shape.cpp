@@ -29,6 +29,12 @@ std::optional<Shape> readBox(Section& shape) {
   return Box{0.5 * edges};
 }
 
+std::optional<Shape> readEllipsoid(Section& shape) {
+  Ellipsoid ellipsoid;
+  shape.read("ellipsoid", ellipsoid.half, kLength);
+  return ellipsoid;
+}
+
 std::optional<Shape> readCylinder(Section& shape) {
   double size[2] = {0.5, 1.0};
   shape.read("cylinder", size, 2, kLength);
@@ -108,16 +114,17 @@ std::optional<Shape> readCompound(Section& shape);
 struct ShapeRow {
   const char* name;
   std::optional<Shape> (*read)(Section&);
-  bool convex;  // and finite: it can be a part of a compound
+  bool part;  // it can be a part of a compound
 };
-constexpr std::array<ShapeRow, 8> kShapes = {{{"sphere", readSphere, true},
+constexpr std::array<ShapeRow, 9> kShapes = {{{"sphere", readSphere, true},
                                               {"box", readBox, true},
                                               {"cylinder", readCylinder, true},
                                               {"capsule", readCapsule, true},
                                               {"hull", readHull, true},
                                               {"plane", readPlane, false},
                                               {"mesh", readMeshFile, false},
-                                              {"compound", readCompound, false}}};
+                                              {"compound", readCompound, false},
+                                              {"ellipsoid", readEllipsoid, false}}};
 
 // The one shape that a table names.
 std::optional<Shape> readOne(Section& section, bool part) {
@@ -125,7 +132,7 @@ std::optional<Shape> readOne(Section& section, bool part) {
   std::string names;
   int given = 0;
   for (const ShapeRow& row : kShapes) {
-    if (part && !row.convex) continue;
+    if (part && !row.part) continue;
     names += (names.empty() ? "" : ", ") + std::string(row.name);
     if (!section.find(row.name)) continue;
     shape = row.read(section);

@@ -25,6 +25,9 @@ double reachInBody(const Cylinder& c, const Vec3& d) {
 double reachInBody(const Capsule& c, const Vec3& d) {
   return 0.5 * c.h * std::abs(d.y()) + c.r * d.norm();
 }
+double reachInBody(const Ellipsoid& e, const Vec3& d) {
+  return e.half.cwiseProduct(d).norm();
+}
 double reachInBody(const Hull& hull, const Vec3& d) {
   double most = -kInfinity;
   for (const Vec3& p : hull.solid->points) most = std::max(most, d.dot(p - hull.origin));

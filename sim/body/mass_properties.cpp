@@ -38,6 +38,9 @@ double volumeOf(const Capsule& c) {
 double volumeOf(const Hull& hull) {
   return integrate(*hull.solid).volume;
 }
+double volumeOf(const Ellipsoid& e) {
+  return 4.0 / 3.0 * kPi * e.half.prod();
+}
 double volumeOf(const HalfSpace&) {
   return kInfinity;
 }
@@ -80,6 +83,13 @@ Vec3 momentsOf(const Capsule& c) {
   const double across = middle * (3.0 * square + c.h * c.h) / 12.0 +
                         caps * (0.4 * square + c.h * (0.25 * c.h + 0.375 * c.r));
   return {across, along, across};
+}
+
+/// ∫ x² dV / V = a²/5: a ball, stretched.
+Vec3 momentsOf(const Ellipsoid& e) {
+  const Vec3 squares = e.half.cwiseAbs2();
+  return 0.2 *
+         Vec3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
 }
 
 Vec3 momentsOf(const HalfSpace&) {

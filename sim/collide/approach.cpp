@@ -157,6 +157,13 @@ Approach::Reach Approach::outermost(const Side& side, const Seen& seen, double s
     most = height;
     best = rim.centre + (length > 0.0 ? rim.r / length : 0.0) * (x * rim.u + y * rim.v);
   }
+  for (const Outline::Oval& oval : outline.ovals) {
+    const Vec3 x = oval.E.transpose() * (sign * m);
+    const double length = x.norm(), height = sign * m.dot(oval.centre) + length;
+    if (height <= most) continue;
+    most = height;
+    best = oval.centre + oval.E * (length > 0.0 ? Vec3(x / length) : x);
+  }
   return {seen.n.dot(best) + sign * side.round, seen.rate.dot(best)};
 }
 

@@ -34,6 +34,7 @@ int dimension(const Shape& shape, const std::vector<Vec3>& points, double tolera
   if (!convex::hasCore(shape)) return 2;
   const Core core = convex::coreOf(shape, Mat3::Identity(), Vec3::Zero());
   const auto all = [&](auto near) { return std::all_of(points.begin(), points.end(), near); };
+  if (core.isEllipsoid()) return 0;
   if (core.isCylinder()) return collinear(points, tolerance) ? 1 : 2;
   for (const Vec3& vertex : core.points)
     if (all([&](const Vec3& p) { return (p - vertex).norm() <= tolerance; })) return 0;

@@ -32,6 +32,7 @@ void mirror(ContactPoint& c) {
   std::swap(c.ra, c.rb);
   std::swap(c.ea, c.eb);
   std::swap(c.rimA, c.rimB);
+  std::swap(c.halfA, c.halfB);
 }
 
 }  // namespace tumble

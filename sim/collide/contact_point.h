@@ -34,6 +34,9 @@ struct ContactPoint {
   /// [m] Radius of the rim, a circle, whose outermost point pa or pb is, 0 if it is none; then ea
   /// or eb is the axis of the circle, and the point wanders along it as the solid rolls.
   double rimA = 0.0, rimB = 0.0;
+  /// [m] Semi-axes of an ellipsoid, else 0: then radius and rim are those of the torus that bends
+  /// as it does here (ellipsoid.h).
+  Vec3 halfA = Vec3::Zero(), halfB = Vec3::Zero();
   /// Of a contact of a face: pa and pb are where an edge of a crosses one of b, along ea and eb,
   /// and wander along both. Of a rim, ea or eb is then the unit vector from its centre to the
   /// point.

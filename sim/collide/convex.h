@@ -31,7 +31,7 @@ Plane widestAxis(const Core& a, const Core& b, double bias);
 /// they are not.
 Plane nearestPlane(const Core& a, const Core& b);
 
-/// The widest plane where a or b is a cylinder.
+/// The widest plane where a or b is a cylinder or an ellipsoid.
 Plane widestPlaneRound(const Core& a, const Core& b);
 
 /// Of the planes between features that a and b show along n, or nearly, the widest; where several

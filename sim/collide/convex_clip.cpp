@@ -122,6 +122,11 @@ void sortAndMerge(PlacedList& points, double tolerance) {
 
 void clipFacets(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
                 Manifold& out) {
+  if (a.isEllipsoid() || b.isEllipsoid()) {
+    const ContactPoint c = pointOf(plane, a, b);
+    if (c.separation <= margin) out.push_back(c);
+    return;
+  }
   if (a.isCylinder() || b.isCylinder()) return roundPoints(a, b, plane, tolerance, margin, out);
   const double radii = a.radius + b.radius;
   PlacedList points;
@@ -169,6 +174,8 @@ ContactPoint pointOf(const Plane& plane, const Core& a, const Core& b) {
   c.eb = plane.eb;
   c.rimA = plane.rimA;
   c.rimB = plane.rimB;
+  if (plane.ra > 0.0) c.halfA = a.half;
+  if (plane.rb > 0.0) c.halfB = b.half;
   c.ra = a.radius + plane.ra;
   c.rb = b.radius + plane.rb;
   c.separation = plane.gap - a.radius - b.radius;
@@ -177,11 +184,11 @@ ContactPoint pointOf(const Plane& plane, const Core& a, const Core& b) {
   c.pa = plane.pa;
   switch (plane.tie) {
     case NormalTie::FaceOfB:
-      if (!a.isCylinder()) c.pa = outermost(a, -plane.n, i);
+      if (!a.isCylinder() && !a.isEllipsoid()) c.pa = outermost(a, -plane.n, i);
       break;
     case NormalTie::FaceOfA:
       c.pa = plane.pb + reach * plane.n;
-      if (!b.isCylinder()) c.pa = outermost(b, plane.n, j) + reach * plane.n;
+      if (!b.isCylinder() && !b.isEllipsoid()) c.pa = outermost(b, plane.n, j) + reach * plane.n;
       break;
     default:
       break;

@@ -5,6 +5,7 @@
 
 #include "sim/collide/align.h"
 #include "sim/collide/convex.h"
+#include "sim/collide/ellipsoid.h"
 #include "sim/collide/facet.h"
 #include "sim/collide/rim_points.h"
 
@@ -62,8 +63,19 @@ void showCorners(const Core& core, const Vec3& n, AllShown& all) {
     if (n.dot(core.points[k]) >= level) all.push_back({Kind::Point, core.points[k], {}, 0, 0, k});
 }
 
+// The torus that bends as the ellipsoid does where n is its normal.
+void showEllipsoid(const Core& core, const Vec3& n, AllShown& all) {
+  const Osculating torus = osculatingTorus(core.half, core.axes, n);
+  all.push_back({torus.rim > 0.0 ? Kind::Rim : Kind::Point, core.points[0] + torus.centre,
+                 torus.axis, torus.round, torus.rim, 0});
+}
+
 AllShown shownBy(const Core& core, const Vec3& n) {
   AllShown all;
+  if (core.isEllipsoid()) {
+    showEllipsoid(core, n, all);
+    return all;
+  }
   core.isCylinder() ? showCylinder(core, n, all) : showCorners(core, n, all);
   std::stable_sort(all.begin(), all.end(),
                    [](const Shown& p, const Shown& q) { return p.kind < q.kind; });
@@ -88,7 +100,15 @@ Plane onFace(const Core& a, const Shown& face, bool faceOfB) {
       (faceOfB ? plane.ea : plane.eb) = a.axis();
     }
   }
-  const Vec3 foot = p - height * face.e;
+  if (a.isEllipsoid()) {
+    const Osculating torus = osculatingTorus(a.half, a.axes, -face.e);
+    (faceOfB ? plane.i : plane.j) = 0;
+    (faceOfB ? plane.ra : plane.rb) = torus.round;
+    (faceOfB ? plane.rimA : plane.rimB) = torus.rim;
+    (faceOfB ? plane.ea : plane.eb) = torus.axis;
+    p += torus.round * face.e;
+  }
+  const Vec3 foot = p - (height + (faceOfB ? plane.ra : plane.rb)) * face.e;
   plane.pa = faceOfB ? p : foot;
   plane.pb = faceOfB ? foot : p;
   return plane;

@@ -1,6 +1,7 @@
 // Chapter 5, collide: any convex solid against a half-space, vertex by vertex; of a cylinder, the
 // lowest point of the rim of each cap, and of one that faces the plane others around it.
 #include "sim/collide/core.h"
+#include "sim/collide/ellipsoid.h"
 #include "sim/collide/facet.h"
 #include "sim/collide/pairs.h"
 #include "sim/collide/rim_points.h"
@@ -33,6 +34,20 @@ ContactPoint pointAt(const Core& core, const Vec3& p, std::uint32_t code, const 
 // All points of a solid that could be the lowest.
 template <class Visit>
 void visitPoints(const Core& core, const Pose& poseA, const HalfSpace& b, Visit visit) {
+  if (core.isEllipsoid()) {
+    const Osculating torus = osculatingTorus(core.half, core.axes, -b.n);
+    const Vec3 low = outermostOnEllipsoid(core.half, core.axes, -b.n);
+    ContactPoint c = pointAt(core, low + torus.round * b.n, convex::vertexCode(0), poseA, b);
+    c.separation = (b.n.dot(poseA.x) - b.d) + b.n.dot(low);
+    c.ra = torus.round;
+    c.pb = c.pa - (c.separation + c.ra) * b.n;
+    c.p = c.pb + 0.5 * c.separation * b.n;
+    c.rimA = torus.rim;
+    c.ea = torus.axis;
+    c.halfA = core.half;
+    visit(c);
+    return;
+  }
   if (!core.isCylinder()) {
     for (std::size_t k = 0; k < core.points.size(); ++k)
       visit(pointAt(core, core.points[k], convex::vertexCode(static_cast<int>(k)), poseA, b));

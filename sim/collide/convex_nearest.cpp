@@ -101,7 +101,8 @@ Plane nearestPlane(const Core& a, const Core& b) {
 }
 
 Plane widestPlane(const Core& a, const Core& b, double bias) {
-  if (a.isCylinder() || b.isCylinder()) return widestPlaneRound(a, b);
+  if (a.isCylinder() || b.isCylinder() || a.isEllipsoid() || b.isEllipsoid())
+    return widestPlaneRound(a, b);
   Plane axis = widestAxis(a, b, bias);
   // The difference of two segments is flat: a plane along it parts nothing, and overlaps nothing.
   const bool flat = a.normals.empty() && b.normals.empty();

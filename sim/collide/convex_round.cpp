@@ -1,6 +1,7 @@
-// Chapter 5, collide: planes between a cylinder and another solid. No list of axes holds the widest
-// here, because the normals of a rim fill a surface: candidates are tried, the best is turned until
-// it is nearly the widest near it, and the features that it meets tell it to the last digits.
+// Chapter 5, collide: planes between a cylinder or an ellipsoid and another solid. No list of axes
+// holds the widest here, because the normals of a rim fill a surface: candidates are tried, the
+// best is turned until it is nearly the widest near it, and the features that it meets tell it to
+// the last digits.
 #include <cmath>
 
 #include "sim/collide/convex.h"
@@ -17,6 +18,8 @@ constexpr double kDeep = 1e-2;
 constexpr double kLost = 1e-9;
 // [1] A plane that turns by less shows the same features.
 constexpr double kSame = 1e-6;
+constexpr double kSettled = 1e-13;  // [1] where an ellipsoid is met
+constexpr int kRounds = 3, kMostRounds = 12;
 
 gjk::Nearest search(const Core& a, const Core& b, const Vec3& shift) {
   const auto support = [&](const Vec3& n) {
@@ -63,6 +66,21 @@ void offerAll(const Core& a, const Core& b, const Core& round, const Core& other
   offer(a, b, sign * across(round.middle - other.middle, u), best);
 }
 
+// Directions that faces and points of the other suggest: an ellipsoid is met along the normal of
+// its surface scaled to go through the point.
+void offerAround(const Core& a, const Core& b, const Core& oval, const Core& other, double sign,
+                 Plane& best) {
+  const Vec3 inverse = oval.half.cwiseAbs2().cwiseInverse();
+  for (const Vec3& normal : other.normals) offer(a, b, -sign * normal, best);
+  for (const Vec3& p : other.points) {
+    const Vec3 away = oval.middle - p;
+    offer(a, b, sign * away, best);
+    offer(a, b, sign * (oval.axes * inverse.cwiseProduct(oval.axes.transpose() * away)), best);
+  }
+  for (int k = 0; k < 3; ++k)
+    for (const double side : {-1.0, 1.0}) offer(a, b, side * oval.axes.col(k), best);
+}
+
 // Turns n until it is the widest near it: pulled apart along n to a little gap, the solids' nearest
 // points lie along the new n. Where the surface is nearly as bent as it is deep, n turns too
 // slowly, and longer steps the same way are tried.
@@ -106,17 +124,22 @@ Plane widestPlaneRound(const Core& a, const Core& b) {
   if (best.gap < kClear * (a.size + b.size)) {
     if (a.isCylinder()) offerAll(a, b, a, b, 1.0, best);
     if (b.isCylinder()) offerAll(a, b, b, a, -1.0, best);
+    if (a.isEllipsoid()) offerAround(a, b, a, b, 1.0, best);
+    if (b.isEllipsoid()) offerAround(a, b, b, a, -1.0, best);
     turnToWidest(a, b, best);
     if (best.gap < -kDeep * (a.size + b.size)) startAround(a, b, best);
   }
   // What the search leaves n off by may hide a feature from it.
-  constexpr int kRounds = 3;
+  // A torus bends as an ellipsoid does at one point alone: each round is a step of Newton's method.
+  const bool oval = a.isEllipsoid() || b.isEllipsoid();
+  const int rounds = oval ? kMostRounds : kRounds;
+  const double same = oval ? kSettled : kSame;
   bool told = false, still = false;
-  for (int round = 0; round < kRounds && !still; ++round) {
+  for (int round = 0; round < rounds && !still; ++round) {
     const Plane plane = planeOfFeatures(a, b, best.n);
     if (!(plane.gap >= best.gap - kLost * (a.size + b.size))) break;
     told = true;
-    still = (plane.n - best.n).squaredNorm() < kSame * kSame;
+    still = (plane.n - best.n).squaredNorm() < same * same;
     best = plane;
   }
   if (told) return best;

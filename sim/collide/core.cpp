@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/collide/ellipsoid.h"
+
 namespace tumble::convex {
 namespace {
 
@@ -78,6 +80,13 @@ void build(const Cylinder& c, const Frame& at, Core& core) {
   core.size = std::sqrt(c.r * c.r + 0.25 * c.h * c.h);
 }
 
+void build(const Ellipsoid& e, const Frame& at, Core& core) {
+  core.points.push_back(at.x);
+  core.half = e.half;
+  core.axes = at.R;
+  core.size = e.half.maxCoeff();
+}
+
 void build(const Box& box, const Frame& at, Core& core) {
   const Polyhedron& cube = unitCube();
   const Mat3 half = at.R * box.half.asDiagonal();
@@ -120,7 +129,7 @@ const Polyhedron& unitCube() {
 bool hasCore(const Shape& shape) {
   return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) ||
          std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Capsule>(shape) ||
-         std::holds_alternative<Hull>(shape);
+         std::holds_alternative<Hull>(shape) || std::holds_alternative<Ellipsoid>(shape);
 }
 
 Core coreOf(const Shape& shape, const Mat3& R, const Vec3& x) {
@@ -141,6 +150,10 @@ int outermostVertex(const Core& core, const Vec3& n) {
 }
 
 Vec3 outermost(const Core& core, const Vec3& n, int& vertex) {
+  if (core.isEllipsoid()) {
+    vertex = -1;
+    return core.points[0] + outermostOnEllipsoid(core.half, core.axes, n);
+  }
   if (!core.isCylinder()) {
     vertex = outermostVertex(core, n);
     return core.points[vertex];

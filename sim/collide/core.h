@@ -15,7 +15,7 @@ template <class T>
 using Few = boost::container::small_vector<T, 32>;
 
 /// The points nearer than `radius` to a core, and the core: a polyhedron, the segment of a capsule,
-/// the centre of a ball, or a cylinder. Frame of b.
+/// the centre of a ball, a cylinder or an ellipsoid. Frame of b.
 struct Core {
   Few<Vec3> points;   ///< [m] vertices; of a cylinder the centres of its caps, −Y first
   Few<Vec3> normals;  ///< [1] of the faces, outward unit
@@ -23,11 +23,14 @@ struct Core {
   std::span<const std::vector<int>> faces, sides;
   double radius = 0.0;                          ///< [m] about the core
   Vec3 up = Vec3::Zero(), side = Vec3::Zero();  ///< [1] unit, along and across a cylinder's axis
-  double disc = 0.0;  ///< [m] radius of a cylinder's caps, 0 for other solids
-  double size = 0.0;  ///< [m] of the core, from its middle
+  double disc = 0.0;         ///< [m] radius of a cylinder's caps, 0 for other solids
+  Vec3 half = Vec3::Zero();  ///< [m] semi-axes of an ellipsoid, 0 of other solids,
+  Mat3 axes = Mat3::Zero();  ///< [1] and their directions; `points` has its centre
+  double size = 0.0;         ///< [m] of the core, from its middle
   Vec3 middle = Vec3::Zero();
 
   bool isCylinder() const { return disc > 0.0; }
+  bool isEllipsoid() const { return half.x() > 0.0; }
   /// Unit axis of a cylinder.
   const Vec3& axis() const { return up; }
   Vec3 along(const Polyhedron::Edge& e) const { return points[e.to] - points[e.from]; }

@@ -64,8 +64,8 @@ constexpr PairRow kConvexHalfSpace = {
        Manifold& out) {
       pairs::convexCollide(a, poseA, *std::get_if<HalfSpace>(&b), margin, out);
     }};
-constexpr std::size_t kCores[] = {indexOf<Sphere>(), indexOf<Box>(), indexOf<Cylinder>(),
-                                  indexOf<Capsule>(), indexOf<Hull>()};
+constexpr std::size_t kCores[] = {indexOf<Sphere>(),  indexOf<Box>(),  indexOf<Cylinder>(),
+                                  indexOf<Capsule>(), indexOf<Hull>(), indexOf<Ellipsoid>()};
 
 struct Entry {
   const PairRow* row = nullptr;

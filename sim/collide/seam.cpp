@@ -31,6 +31,9 @@ bool holds(const Capsule& c, const Vec3& p, double slack) {
   const double beyond = std::max(std::abs(p.y()) - 0.5 * c.h, 0.0);
   return Vec3(p.x(), beyond, p.z()).norm() <= c.r + slack;
 }
+bool holds(const Ellipsoid& e, const Vec3& p, double slack) {
+  return p.cwiseQuotient(e.half + Vec3::Constant(slack)).norm() <= 1.0;
+}
 bool holds(const Hull& hull, const Vec3& p, double slack) {
   const Polyhedron& solid = *hull.solid;
   const Vec3 q = p + hull.origin;

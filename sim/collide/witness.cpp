@@ -21,6 +21,9 @@ double reach(const Cylinder& c, const Vec3& n) {
 double reach(const Capsule& c, const Vec3& n) {
   return c.r + 0.5 * c.h * std::abs(n.y());
 }
+double reach(const Ellipsoid& e, const Vec3& n) {
+  return e.half.cwiseProduct(n).norm();
+}
 double reach(const Hull& hull, const Vec3& n) {
   double far = -kInfinity;
   for (const Vec3& p : hull.solid->points) far = std::max(far, n.dot(p));

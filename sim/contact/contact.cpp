@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/collide/align.h"
+#include "sim/collide/ellipsoid.h"
 #include "sim/math/frames.h"
 
 namespace tumble {
@@ -159,8 +160,45 @@ ContactClass classify(double vrel, double tolerance) {
   return anchor;
 }
 
+namespace {
+
+/// The same where a or b is an ellipsoid: the torus that stands for it is another one at each n.
+void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
+  constexpr int kMostRounds = 12;
+  constexpr double kSettled = 1e-15;  // [1]
+  ContactPoint& c = contact.point;
+  const Anchor& anchor = contact.anchor;
+  const bool onA = c.tie == NormalTie::FaceOfA, onB = c.tie == NormalTie::FaceOfB;
+  c.pa = toWorld(a.pose(), anchor.pa_B);
+  c.pb = toWorld(b.pose(), anchor.pb_B);
+  if (onA || onB) c.n = (onA ? a.q : b.q) * anchor.n_B;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool ovalA = c.halfA.x() > 0.0, ovalB = c.halfB.x() > 0.0;
+    c.ea = a.q * anchor.ea_B;
+    c.eb = b.q * anchor.eb_B;
+    if (ovalA) bendAsEllipsoidA(c, a.x, a.R);
+    if (ovalB) bendAsEllipsoidB(c, b.x, b.R);
+    if (onA || onB) break;
+    const Vec3 fromA = ovalA ? c.pa : toWorld(a.pose(), anchor.pa_B);
+    const Vec3 fromB = ovalB ? c.pb : toWorld(b.pose(), anchor.pb_B);
+    const Vec3 before = c.n;
+    alignNormal(c, fromA, fromB);
+    if ((c.n - before).norm() <= kSettled) break;
+  }
+  if (onA || onB) {
+    placeOnFace(c);
+    c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
+    if (onA) c.pa = c.pb + reach(c) * c.n;
+    if (onB) c.pb = c.pa - reach(c) * c.n;
+  }
+  placeBetween(c);
+}
+
+}  // namespace
+
 [[gnu::flatten]] void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   ContactPoint& c = contact.point;
+  if (c.halfA.x() > 0.0 || c.halfB.x() > 0.0) return followEllipsoid(a, b, contact);
   const Anchor& anchor = contact.anchor;
   c.pa = toWorld(a.pose(), anchor.pa_B);
   c.pb = toWorld(b.pose(), anchor.pb_B);

@@ -44,9 +44,18 @@ double bodyMass(const BodyDef& body) {
   return body.mass ? *body.mass : body.density.value_or(0.0) * volume(body.shape);
 }
 
+Mat3 givenInertia(const BodyDef& body) {
+  Mat3 I = body.inertia->asDiagonal();
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    I(i, j) = I(j, i) = body.products[k];
+  }
+  return I;
+}
+
 MassProperties massOf(const BodyDef& body) {
   MassProperties properties = methodOf(body).weigh(body.shape, bodyMass(body), body.samples, 0);
-  if (body.inertia) properties.inertia = body.inertia->asDiagonal();
+  if (body.inertia) properties.inertia = givenInertia(body);
   return properties;
 }
 

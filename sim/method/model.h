@@ -25,7 +25,8 @@ struct BodyDef {
   Shape shape = Sphere{};
   std::optional<double> density = {};  ///< [kg/m³]
   std::optional<double> mass = {};     ///< [kg]
-  std::optional<Vec3> inertia = {};    ///< [kg m²] principal
+  std::optional<Vec3> inertia = {};    ///< [kg m²] about the body axes, with
+  Vec3 products = Vec3::Zero();        ///< [kg m²] the entries Iyz, Izx, Ixy of that tensor
   std::string inertiaBy = "surface";   ///< a row of the table of inertia methods
   int samples = 10'000;                ///< points, if that row takes some
   double restitution = 0.0, friction = 0.0;
@@ -42,6 +43,8 @@ struct BodyDef {
 /// Mass [kg] of a body: its own, or its density times the volume of its shape; 0 without either.
 double bodyMass(const BodyDef& body);
 
+/// The inertia tensor [kg m²] that a body is given, body axes. It has one.
+Mat3 givenInertia(const BodyDef& body);
 /// That mass with the inertia [kg m²] that the body is given, or that its method finds for its
 /// shape.
 /// @throws std::invalid_argument if the mass is not positive or the method cannot tell.

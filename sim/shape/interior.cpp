@@ -27,6 +27,9 @@ bool holds(const Hull& hull, const Vec3& p) {
     return areaVector(solid, face).dot(p - solid.points[static_cast<std::size_t>(face[0])]) < 0.0;
   });
 }
+bool holds(const Ellipsoid& e, const Vec3& p) {
+  return p.cwiseQuotient(e.half).squaredNorm() < 1.0;
+}
 bool holds(const HalfSpace& h, const Vec3& p) {
   return h.n.dot(p) < h.d;
 }

@@ -39,6 +39,10 @@ void put(const Particle& p, Outline& out) {
   put(Sphere{p.radius}, out);
 }
 
+void put(const Ellipsoid& e, Outline& out) {
+  out.ovals.push_back({.E = e.half.asDiagonal()});
+}
+
 // Half-spaces have no outermost points; compounds and meshes are no convex solids.
 void put(const HalfSpace&, Outline&) {}
 void put(const Mesh&, Outline&) {}
@@ -62,6 +66,14 @@ Vec3 outermost(const Outline& outline, const Vec3& m) {
     best = rim.centre;
     if (length > 0.0) best += rim.r / length * (x * rim.u + y * rim.v);
   }
+  for (const Outline::Oval& oval : outline.ovals) {
+    const Vec3 x = oval.E.transpose() * m;
+    const double length = x.norm(), height = m.dot(oval.centre) + length;
+    if (height <= most) continue;
+    most = height;
+    best = oval.centre;
+    if (length > 0.0) best += oval.E * (x / length);
+  }
   return best + outline.round * m.normalized();
 }
 
@@ -78,6 +90,10 @@ Outline outlineOf(const Shape& shape, const Pose& pose) {
     rim.u = R * rim.u;
     rim.v = R * rim.v;
     out.corner = std::max(out.corner, rim.centre.norm() + rim.r);
+  }
+  for (Outline::Oval& oval : out.ovals) {
+    out.corner = std::max(out.corner, pose.x.norm() + oval.E.diagonal().maxCoeff());
+    oval = {pose.x, R * oval.E};
   }
   return out;
 }

@@ -33,6 +33,11 @@ Vec3 halfWidths(const Capsule& c, const Mat3& R) {
   return Vec3::Constant(c.r) + 0.5 * c.h * R.col(1).cwiseAbs();
 }
 
+// The image of the unit ball under R diag(half).
+Vec3 halfWidths(const Ellipsoid& e, const Mat3& R) {
+  return (R * e.half.asDiagonal()).rowwise().norm();
+}
+
 Vec3 halfWidths(const HalfSpace&, const Mat3&) {
   return Vec3::Constant(kInfinity);
 }
@@ -87,6 +92,9 @@ double radius(const Cylinder& c) {
 }
 double radius(const Capsule& c) {
   return c.r + 0.5 * c.h;
+}
+double radius(const Ellipsoid& e) {
+  return e.half.maxCoeff();
 }
 double radius(const HalfSpace&) {
   return kInfinity;
@@ -149,6 +157,9 @@ std::string_view name(const Mesh&) {
 }
 std::string_view name(const Compound&) {
   return "compound";
+}
+std::string_view name(const Ellipsoid&) {
+  return "ellipsoid";
 }
 
 }  // namespace

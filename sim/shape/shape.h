@@ -50,6 +50,12 @@ struct Particle {
   double radius = 0.0;
 };
 
+/// Ellipsoid of semi-axes [m] along the body axes, centred at the body origin:
+///   |diag(half)⁻¹ p| ≤ 1
+struct Ellipsoid {
+  Vec3 half = Vec3::Constant(0.5);
+};
+
 struct Pieces;
 
 /// A polyhedron, shared by all bodies that are made of it.
@@ -75,8 +81,8 @@ struct Compound {
   std::shared_ptr<const Parts> ready = {};  ///< for contact, as `readyShape` leaves them
 };
 
-using Shape =
-    std::variant<Sphere, Box, Cylinder, Capsule, Hull, HalfSpace, Particle, Mesh, Compound>;
+using Shape = std::variant<Sphere, Box, Cylinder, Capsule, Hull, HalfSpace, Particle, Mesh,
+                           Compound, Ellipsoid>;
 
 /// Axis-aligned box in the world frame [m].
 struct Aabb {
@@ -87,7 +93,8 @@ struct Aabb {
   }
 };
 
-/// "sphere", "box", "cylinder", "capsule", "hull", "half-space", "particle", "mesh" or "compound".
+/// "sphere", "box", "cylinder", "capsule", "hull", "half-space", "particle", "mesh", "compound" or
+/// "ellipsoid".
 std::string_view shapeName(const Shape& shape);
 
 /// The shape with its body origin at a point [m] of the frame in which it was given; others than

@@ -76,6 +76,10 @@ std::string shapeText(const Shape& shape, double factor) {
   if (const Capsule* capsule = std::get_if<Capsule>(&shape))
     std::snprintf(text, sizeof text, "{ capsule = [%.17g, %.17g] }", factor * capsule->r,
                   factor * capsule->h);
+  if (const Ellipsoid* ellipsoid = std::get_if<Ellipsoid>(&shape))
+    std::snprintf(text, sizeof text, "{ ellipsoid = [%.17g, %.17g, %.17g] }",
+                  factor * ellipsoid->half.x(), factor * ellipsoid->half.y(),
+                  factor * ellipsoid->half.z());
   if (const Hull* hull = std::get_if<Hull>(&shape)) {
     std::string points;
     for (const Vec3& p : hull->solid->points) {

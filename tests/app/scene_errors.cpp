@@ -108,7 +108,8 @@ TEST_CASE("a wrong second body is named by its number until it has a name") {
       {"[[body]]\nshape = { plane = [0, 1, 0, 0] }\nposition = [0, 1, 0]", "10:12",
        "body.1.position: a plane stands where"},
       {"[[body]]\nshape = { sphere = 1, box = [1, 1, 1] }\nmass = 1", "9:9",
-       "expected one of sphere, box, cylinder, capsule, hull, plane, mesh, compound, found 2 of "
+       "expected one of sphere, box, cylinder, capsule, hull, plane, mesh, compound, ellipsoid, "
+       "found 2 of "
        "them"},
       {"[[body]]\nshape = {}\nmass = 1", "9:9", "found 0 of them"},
       {"[[body]]\nshape = { spere = 1 }\nmass = 1", "9:11", "did you mean 'sphere'?"},
@@ -118,6 +119,12 @@ TEST_CASE("a wrong second body is named by its number until it has a name") {
        "body.1.shape.capsule: expected a list of 2 numbers [m], found 0.5"},
       {"[[body]]\nshape = { capsule = [0.5, 0] }\nmass = 1", "9:27",
        "body.1.shape.capsule: expected a number [m] in [1e-09, 1e+06], found 0"},
+      {"[[body]]\nshape = { ellipsoid = [1, 2] }\nmass = 1", "9:23",
+       "body.1.shape.ellipsoid: expected a list of 3 numbers [m]"},
+      {"[[body]]\nshape = { sphere = 1 }\nmass = 1\nproducts = [0, 0, 0]", "11:12",
+       "body.1.products: needs `inertia` beside it"},
+      {"[[body]]\nshape = { sphere = 1 }\nmass = 1\ninertia = [1, 1, 1]\nproducts = [0, 0, 2]",
+       "11:11", "body.1.inertia: no body has these"},
       {"[[body]]\nshape = { hull = \"ball\" }\nmass = 1", "9:18",
        "body.1.shape.hull: expected a list of points like [[x, y, z], …], found the string"},
       {"[[body]]\nshape = { hull = [[0, 0, 0], [1, 0], [0, 1, 0]] }\nmass = 1", "9:30",

@@ -74,6 +74,16 @@ TEST_CASE("the box around a turned capsule touches both balls at its ends") {
   REQUIRE((around.lo - lo).norm() < 1e-14);
 }
 
+// Oracle: an ellipse turned by 30 degrees, closed form: √(a² cos² + b² sin²). Measured 2e-16.
+TEST_CASE("the box around a turned ellipsoid touches it") {
+  const Aabb around =
+      boundingBox(Ellipsoid{{2.0, 1.0, 3.0}},
+                  {Vec3::Zero(), Quat(Eigen::AngleAxisd(EIGEN_PI / 6.0, Vec3::UnitZ()))});
+  const Vec3 hi(std::sqrt(3.25), std::sqrt(1.75), 3.0);
+  REQUIRE((around.hi - hi).norm() < 1e-14);
+  REQUIRE((around.lo + hi).norm() < 1e-14);
+}
+
 // Oracle: all points. The origin is off the middle.
 TEST_CASE("the box around a turned hull touches its outermost points, as body and as part") {
   std::vector<Vec3> points = corners({0.3, 1.0, 2.0});
@@ -143,6 +153,7 @@ TEST_CASE("the bounding radius reaches the farthest point of a shape") {
   REQUIRE(boundingRadius(Box{{1.0, 2.0, 2.0}}) == 3.0);
   REQUIRE(boundingRadius(Cylinder{3.0, 8.0}) == 5.0);
   REQUIRE(boundingRadius(Capsule{1.0, 8.0}) == 5.0);
+  REQUIRE(boundingRadius(Ellipsoid{{1.0, 4.0, 2.0}}) == 4.0);
   REQUIRE(boundingRadius(HalfSpace{}) == std::numeric_limits<double>::infinity());
 }
 
@@ -151,6 +162,7 @@ TEST_CASE("shapes are called by their names") {
   REQUIRE(shapeName(Box{}) == "box");
   REQUIRE(shapeName(Cylinder{}) == "cylinder");
   REQUIRE(shapeName(Capsule{}) == "capsule");
+  REQUIRE(shapeName(Ellipsoid{}) == "ellipsoid");
   REQUIRE(shapeName(Hull{}) == "hull");
   REQUIRE(shapeName(HalfSpace{}) == "half-space");
 }

@@ -125,3 +125,22 @@ TEST_CASE("sixteen bodies dropped into a tray stay in it and settle") {
 TEST_CASE("forty bodies dropped into a tray stay in it and settle", "[long]") {
   requireSettledTray(20, 20);
 }
+
+// Oracle: it turns back within a second, which without the lean of its masses it does not; the same
+// motion mirrored; energy, which nothing takes where it rolls. `exact` takes the scene: measured
+// penetration 0, energy balance 9e-14.
+TEST_CASE("a celt turns back, its mirror image mirrored, and a straight one spins on") {
+  const auto spinAt = [](const Run& run, double t) { return run.at(t, "celt").omega.y(); };
+  const Run celt("rattleback");
+  checkCertificate(celt, {1e-9, 1e-11, 1e-11});
+  CHECK(celt.recording.runs == "exact");
+  CHECK(spinAt(celt, 0.5) < -1.0);
+  CHECK(spinAt(celt, 1.5) > 1.0);
+
+  const Run mirrored("rattleback", {"body.celt.products=[0.0,-0.00076289023,0.0]",
+                                    "body.celt.angular_velocity=[0.0,3.0,0.2]"});
+  for (const double t : {0.5, 1.5, 3.0})
+    CHECK(std::abs(spinAt(mirrored, t) + spinAt(celt, t)) < 1e-9);
+  const Run straight("rattleback", {"body.celt.products=[0.0,0.0,0.0]"});
+  for (const double t : {0.5, 1.5, 3.0}) CHECK(spinAt(straight, t) < -2.5);
+}

@@ -26,6 +26,7 @@ double innerRadius(const Shape& shape) {
   if (const Box* box = std::get_if<Box>(&shape)) return box->half.minCoeff();
   if (const Cylinder* c = std::get_if<Cylinder>(&shape)) return std::min(c->r, 0.5 * c->h);
   if (const Capsule* capsule = std::get_if<Capsule>(&shape)) return capsule->r;
+  if (const Ellipsoid* e = std::get_if<Ellipsoid>(&shape)) return e->half.minCoeff();
   if (const Hull* hull = std::get_if<Hull>(&shape)) return innerRadius(*hull->solid, hull->origin);
   double least = std::numeric_limits<double>::infinity();
   if (const Compound* compound = std::get_if<Compound>(&shape))
