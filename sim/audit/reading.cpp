@@ -27,6 +27,16 @@ void Audit::follow(const State& state) {
     followFlights(state);
 }
 
+namespace {
+
+/// When step k of a stretch of them begins [s].
+double startOf(const Segment& part, long k) {
+  const double whole = static_cast<double>(part.steps);
+  return k == part.steps ? part.t1 : part.t0 + static_cast<double>(k) / whole * (part.t1 - part.t0);
+}
+
+}  // namespace
+
 void Audit::followSteps(const State& state) {
   // `stepping` strikes what is due within a step at its start: the impulse is a part of the step.
   const bool stepping = model_.runs == "stepping" || state.before;
@@ -38,15 +48,18 @@ void Audit::followSteps(const State& state) {
     const std::vector<RigidBody>& end = part.still ? part.start : part.end;
     followed_ = part.t1;
     addKinetic(end);
-    const bool all = !stored_ || parts_ < kEvery || parts_ % kEvery == 0;
-    ++parts_;
-    if (!all && nearness_.glance(end)) continue;
-    if (stepping && previous && previous->t1 == part.t0) {
-      if (part.t0 > t_) see(part.t0, previous->end, true);
-    } else {
-      see(part.t0, part.start, part.t0 > t_);
+    for (long k = 0; k < part.steps; ++k) {
+      const bool all = !stored_ || parts_ < kEvery || parts_ % kEvery == 0;
+      ++parts_;
+      if (!all && nearness_.glance(end)) continue;
+      const double t0 = startOf(part, k), t1 = startOf(part, k + 1);
+      if (stepping && (k > 0 || (previous && previous->t1 == part.t0))) {
+        if (t0 > t_) see(t0, k > 0 ? end : previous->end, true);
+      } else {
+        see(t0, part.start, t0 > t_);
+      }
+      see(t1, end);
     }
-    see(part.t1, end);
   }
   if (state.t >= model_.def.duration || state.t == t_) see(state.t, state.bodies, state.t > t_);
 }

@@ -40,7 +40,8 @@ struct Segment {
       contacts;  ///< the lasting contacts, for `stepping` with the forces of the step
   std::vector<Limit> limits = {};        ///< of joints, that hold
   std::vector<JointForce> joints = {};   ///< of `stepping`: the forces of the step
-  bool still = false;                    ///< of `course`: nothing moves in it
+  bool still = false;                    ///< nothing changes in it; of `course`: without an end
+  long steps = 1;                        ///< of `stepping`: that it is made of, 1 if not still
   bool crossing = false;                 ///< of `exact`: a step across events that crowd
   std::vector<ClusterPart> pieces = {};  ///< of `stepping`: where bodies have parts of their own
 };

@@ -58,7 +58,8 @@ void lookStepping(const Model& /*model*/, const State& state, double t,
   bodies.clear();
   std::vector<const RigidBody*> start;
   for (std::size_t i = 0; i < segment->start.size(); ++i) {
-    bodies.push_back(at(segment->start[i], segment->end[i], *segment));
+    const RigidBody &first = segment->start[i], &last = segment->end[i];
+    bodies.push_back(segment->still ? last : at(first, last, *segment));
     start.push_back(&segment->start[i]);
   }
   const auto forPieces = [&](const auto& visit) {

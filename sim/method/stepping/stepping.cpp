@@ -182,6 +182,8 @@ void Stepping::beginSegment(double t1) {
   segment.start = state_.bodies;
   segment.contacts.clear();
   segment.pieces.clear();
+  segment.still = false;
+  segment.steps = 1;
 
   const std::size_t n = state_.bodies.size();
   work_.before.resize(n + 1);  // the last is the world, for joints
@@ -232,6 +234,42 @@ void Stepping::endSegment(double t1) {
   ++report_.certificate.steps;
   ++report_.certificate.evaluations;
   account(model_, state_, report_);
+  joinStill();
+}
+
+namespace {
+
+/// Whether nothing changes from one state to another: what still moves is lost in rounding.
+bool sameState(const RigidBody& p, const RigidBody& q) {
+  return p.x == q.x && p.q.coeffs() == q.q.coeffs() && p.P == q.P && p.L == q.L && p.v == q.v &&
+         p.omega == q.omega;
+}
+
+bool sameForce(const Contact& p, const Contact& q) {
+  return p.a == q.a && p.b == q.b && p.force == q.force && p.point.p == q.point.p &&
+         p.point.separation == q.point.separation;
+}
+
+}  // namespace
+
+/// Steps in which nothing changes, nor any force, are one stretch, from the third of them in an
+/// advance on: what rests for an hour takes no memory for it.
+void Stepping::joinStill() {
+  std::vector<Segment>& trail = state_.trail;
+  Segment& now = trail.back();
+  now.still = allKept_ && !divided_ && now.pieces.empty() && now.joints.empty() &&
+              std::equal(now.start.begin(), now.start.end(), now.end.begin(), sameState);
+  const bool goesOn =
+      now.still && stillSteps_ > 0 &&
+      std::equal(now.contacts.begin(), now.contacts.end(), trail[trail.size() - 2].contacts.begin(),
+                 trail[trail.size() - 2].contacts.end(), sameForce);
+  stillSteps_ = goesOn ? stillSteps_ + 1 : now.still ? 1 : 0;
+  if (stillSteps_ < 3) return;
+  Segment& before = trail[trail.size() - 2];
+  before.t1 = now.t1;
+  ++before.steps;
+  state_.spareTrail.push_back(std::move(now));
+  trail.pop_back();
 }
 
 /// Momenta at the end of the step: those of the forces, and what contacts changed.

@@ -45,6 +45,7 @@ class Stepping {
   double lengthTo(double t1) const;
   void beginSegment(double t1);
   void endSegment(double t1);
+  void joinStill();
   bool finite() const;
   void stop(const std::string& what);
 
@@ -283,6 +284,7 @@ class Stepping {
   double gravity_;  ///< [m/s²] its size
   const Solver& solver_;
 
+  int stillSteps_ = 0;  ///< in a row that end here, in which nothing changes
   bool allKept_ = false;
   bool known_ = false;      ///< the touches are those of the bodies as they are
   bool parted_ = false;     ///< clusters go through the step one by one
