@@ -210,6 +210,8 @@ void addBending(Model& model) {
         need(model.bending[element.points[p]] == number, where,
              "\"" + bending->body->name + "\" has an element with points that are not its own");
   }
+  if (model.bending.empty()) return;
+  for (const int i : model.solid) model.solidBends.push_back(model.bends(i));
 }
 
 double worldSize(const Model& model) {

@@ -138,6 +138,7 @@ Surface actingSurface(const WorldDef& world, int body) {
   std::optional<Surface> acting;
   for (int other = 0; other < static_cast<int>(world.bodies.size()); ++other) {
     if (other == body || moves(world.bodies[other])) continue;
+    if (!touchesAnything(world.bodies[other].shape)) continue;
     const Surface met = surfaceOf(world, body, other);
     if (!acting) acting = met;
     if (met.restitution != acting->restitution) acting->restitution = own.restitution;

@@ -51,18 +51,25 @@ std::string methodLine(const WorldDef& world, const World& running) {
 }
 
 // "bends     cloth: 361 points, 1083 unknowns, 2016 energies, 0.2 kg"
-void printBent(const WorldDef& world) {
-  for (const Force& force : world.forces) {
-    const Bending* bending = std::get_if<Bending>(&force);
-    if (!bending) continue;
+void printBent(const Scene& scene) {
+  for (const BentDef& bent : scene.bent) {
     double mass = 0.0;
     int moving = 0;
-    for (const int i : bending->body->bodies) {
-      mass += bodyMass(world.bodies[i]);
-      moving += !world.bodies[i].fixed;
+    for (int i = bent.first; i < bent.first + bent.count; ++i) {
+      mass += bodyMass(scene.world.bodies[i]);
+      moving += !scene.world.bodies[i].fixed;
     }
-    fmt::print("bends     {}: {} points, {} unknowns, {} energies, {:g} kg\n", bending->body->name,
-               bending->body->bodies.size(), 3 * moving, bending->body->elements.size(), mass);
+    std::size_t energies = 0;
+    for (const Force& force : scene.world.forces) {
+      const Bending* bending = std::get_if<Bending>(&force);
+      const int first = bending ? bending->body->bodies.front() : -1;
+      if (first >= bent.first && first < bent.first + bent.count)
+        energies += bending->body->elements.size();
+    }
+    const std::string strands =
+        bent.strand > 0 ? fmt::format("{} strands, ", bent.count / bent.strand) : "";
+    fmt::print("bends     {}: {}{} points, {} unknowns, {} energies, {:g} kg\n", bent.name, strands,
+               bent.count, 3 * moving, energies, mass);
   }
 }
 
@@ -146,7 +153,7 @@ int describe(int argc, char** argv) {
   fmt::print("method    {}\n", methodLine(world, running));
   fmt::print("uses      {}\n", join(running.features()));
   fmt::print("without   {}\n", join(running.features(false)));
-  printBent(world);
+  printBent(scene);
   printMasses(scene);
   for (const PanelDef& panel : scene.panels) fmt::print("panel     {}\n", panel.variant.title);
   for (const GraphDef& graph : scene.graphs)

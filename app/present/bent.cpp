@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/present/palette.h"
+#include "app/present/strands.h"
 
 namespace tumble {
 
@@ -119,9 +120,13 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
   constexpr float kShade = 0.72f;  // of the colour: a back that has none of its own
   std::vector<Instance> surfaces;
   for (const BentDef& bent : scene.bent) {
+    const Colour front = colours[static_cast<std::size_t>(bent.first)];
+    if (bent.strand > 0) {
+      for (Instance& tube : strandTubes(bent, sample, front)) surfaces.push_back(std::move(tube));
+      continue;
+    }
     Shell shell = shellOf(bent, sample);
     const double half = 0.5 * bent.thickness;
-    const Colour front = colours[static_cast<std::size_t>(bent.first)];
     Facets facets;
     if (half == 0.0) {
       addSkin(bent, shell, facets);

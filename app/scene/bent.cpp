@@ -22,7 +22,6 @@ void readSurface(Section& section, const Materials& materials, BentTable& bent) 
   }
   section.read("friction", bent.friction, notNegative({}));
   readColour(section, "colour", bent.colour);
-  readColour(section, "colour_back", bent.back);
 }
 
 void readPose(Section& section, BodyDef& pose) {
@@ -52,12 +51,18 @@ std::string keyOf(const char* kind, const Node& node, int number) {
   return std::string(kind) + "." + (given && isName(*given) ? *given : std::to_string(number));
 }
 
-BentTable readBent(Section& section, const Materials& materials) {
+BentTable readBentNamed(Section& section, const Materials& materials) {
   BentTable bent;
   section.read("name", bent.name);
   if (!section.find("name"))
     section.complain("name", "missing; its points are called NAME.0, NAME.1, …");
   readSurface(section, materials, bent);
+  return bent;
+}
+
+BentTable readBent(Section& section, const Materials& materials) {
+  BentTable bent = readBentNamed(section, materials);
+  readColour(section, "colour_back", bent.back);
   readPose(section, bent.pose);
   return bent;
 }

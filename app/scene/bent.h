@@ -10,7 +10,7 @@ namespace tumble {
 
 inline constexpr int kMostPoints = 20'000;  ///< of one thing that bends
 
-/// The keys that cloth and soft solids share.
+/// The keys that cloth, soft solids and fur share.
 struct BentTable {
   std::string name, material;
   double friction = 0.0;
@@ -20,7 +20,10 @@ struct BentTable {
   int pinnedTo = kNoBody;
 };
 
-/// Reads name, material, friction, colour, colour_back and the pose.
+/// Reads name, material, friction and colour.
+BentTable readBentNamed(Section& section, const Materials& materials);
+
+/// Reads these, colour_back and the pose.
 BentTable readBent(Section& section, const Materials& materials);
 
 /// Reads pin_to, the body that pinned points are joined to; without it they stand.

@@ -10,6 +10,7 @@
 #include "app/scene/cloth.h"
 #include "app/scene/expect.h"
 #include "app/scene/force.h"
+#include "app/scene/fur.h"
 #include "app/scene/joint.h"
 #include "app/scene/node.h"
 #include "app/scene/override.h"
@@ -49,6 +50,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   readArrays(root, materials, scene.seed, scene.world.gravity, bodies);
   readCloths(root, materials, bodies, scene);
   readSofts(root, materials, bodies, scene);
+  readFurs(root, materials, bodies, scene);
   if (bodies.next() == 0 && root.good())
     root.complain("body",
                   "missing; a scene needs at least one [[body]], [[array]], [[cloth]] or [[soft]]");

@@ -125,6 +125,7 @@ struct BentDef {
   std::vector<int> sides = {};  ///< per triangle: each is shaded smoothly on its own; none: one
   double thickness = 0.0;       ///< [m] of a cloth, which has two faces
   double skin = 0.0;            ///< [m] that the surface of a solid is off its points
+  int strand = 0;               ///< points of each strand of fur, drawn as thick as `thickness`
   std::optional<Rgb> colour = {}, back = {};
 };
 
@@ -141,7 +142,7 @@ struct Scene {
   std::vector<std::optional<Rgb>> colours;  ///< per body; empty = by palette
   std::vector<std::optional<Rgb>> backs;    ///< per body; of the half with z < 0 in its frame
   std::vector<std::string> labels;          ///< per body; text drawn beside it, or ""
-  std::vector<BentDef> bent;                ///< cloths and soft bodies
+  std::vector<BentDef> bent;                ///< cloths, soft bodies and furs
   CameraView camera;                        ///< the first of `cameras`, unless another is chosen
   std::vector<CameraView> cameras;          ///< as the scene names them; none: the default one
   std::vector<ExpectDef> expects;

@@ -34,6 +34,7 @@ Audit::Audit(const Model& model, std::span<const RigidBody> start)
   const bool stepping = model.runs == "stepping";
   soon_ = kSoon * (stepping ? model.def.stepping.step : model.def.course.step);
   coarse_ = model.runs == "exact" && model.joints.empty() && n > kFew;
+  findBearers();
   addMotions();
   energyLast_ = energyNow_;
   energyStart_ = std::accumulate(energyNow_.begin(), energyNow_.end(), 0.0);

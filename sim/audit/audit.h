@@ -83,6 +83,7 @@ class Audit {
   void findDisagreements(Report& report) const;
   void tellWeakness(Report& report) const;
   bool moves(int body) const { return !bodies_[body].fixed(); }
+  void findBearers();
   double potentialOf(int body, std::span<const Recorded> states) const;
   RigidBody fixedAt(int body, double t) const;
   bool still(int body) const {
@@ -96,6 +97,8 @@ class Audit {
   const Model& model_;
   std::vector<RigidBody> bodies_;  ///< what is constant of them, and where fixed ones began
   Nearness nearness_;
+  std::vector<int> bears_;  ///< per body: what bends, by its number among the forces, or −1
+  std::vector<int> alone_;  ///< numbers of the other forces
   std::vector<Bond> bonds_;
   double t_ = 0.0, h_ = 0.0;  ///< [s] of the last state, and since the one before it
   bool many_ = false;         ///< more than one part since then

@@ -182,9 +182,25 @@ void Audit::addLoads() {
   }
 }
 
+/// What bends is booked with the first of its points that moves, and asked of no other.
+void Audit::findBearers() {
+  bears_.assign(bodies_.size(), -1);
+  for (std::size_t k = 0; k < model_.def.forces.size(); ++k) {
+    const Bending* bending = std::get_if<Bending>(&model_.def.forces[k]);
+    if (!bending) {
+      alone_.push_back(static_cast<int>(k));
+      continue;
+    }
+    const std::vector<int>& points = bending->body->bodies;
+    const auto first = std::find_if(points.begin(), points.end(), [&](int i) { return moves(i); });
+    if (first != points.end()) bears_[*first] = static_cast<int>(k);
+  }
+}
+
 double Audit::potentialOf(int i, std::span<const Recorded> states) const {
   double sum = -bodies_[i].M * model_.def.gravity.dot(states[i].x);
-  for (const Force& force : model_.def.forces) sum += storedIn(force, bodies_, states, i);
+  for (const int k : alone_) sum += storedIn(model_.def.forces[k], bodies_, states, i);
+  if (const int k = bears_[i]; k >= 0) sum += storedIn(model_.def.forces[k], bodies_, states, i);
   return sum;
 }
 

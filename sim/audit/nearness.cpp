@@ -47,7 +47,7 @@ void Nearness::list(const Part& part) {
   boxes_.clear();
   for (const int i : model_.solid)
     boxes_.push_back(boundingBox(model_.shapes[i], poseOf(part.end[i]), fat_));
-  broadPhase_.update(boxes_);
+  broadPhase_.update(boxes_, model_.solidBends);
   // What is known of pairs that stay is kept. Both lists are sorted.
   known_.swap(pairs_);
   pairs_.clear();

@@ -223,9 +223,10 @@ double kineticEnergy(std::span<const RigidBody> bodies) {
 double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
                        std::span<const RigidBody> bodies) {
   double sum = 0.0;
-  for (const RigidBody& body : bodies) {
-    if (!body.fixed()) sum -= body.M * gravity.dot(body.x);
-  }
+  if (!gravity.isZero(0.0))
+    for (const RigidBody& body : bodies) {
+      if (!body.fixed()) sum -= body.M * gravity.dot(body.x);
+    }
   for (const Force& force : forces) {
     sum += std::visit([&](const auto& f) { return stored(f, bodies); }, force);
   }

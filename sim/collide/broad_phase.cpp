@@ -7,19 +7,20 @@ namespace {
 using Boxes = std::span<const Aabb>;
 using Pairs = std::vector<BroadPhase::Pair>;
 
-void updateAll(BroadPhase::Memory&, Boxes boxes, Pairs& pairs) {
+void updateAll(BroadPhase::Memory&, Boxes boxes, std::span<const char>, Pairs& pairs) {
   pairs.clear();
   for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = i + 1; j < boxes.size(); ++j)
       if (boxes[i].overlaps(boxes[j])) pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
 }
 
-void updateEnds(BroadPhase::Memory& memory, Boxes boxes, Pairs& pairs) {
+void updateEnds(BroadPhase::Memory& memory, Boxes boxes, std::span<const char>, Pairs& pairs) {
   memory.ends.update(boxes, pairs);
 }
 
-void updateGrid(BroadPhase::Memory& memory, Boxes boxes, Pairs& pairs) {
-  memory.grid.update(boxes, pairs);
+void updateGrid(BroadPhase::Memory& memory, Boxes boxes, std::span<const char> apart,
+                Pairs& pairs) {
+  memory.grid.update(boxes, apart, pairs);
 }
 
 constexpr BroadPhaseRow kRows[] = {
@@ -42,9 +43,9 @@ const BroadPhaseRow& chooseBroadPhase(std::size_t boxes) {
   return boxes <= kFewBoxes ? kRows[0] : kRows[2];
 }
 
-void BroadPhase::update(std::span<const Aabb> boxes) {
+void BroadPhase::update(std::span<const Aabb> boxes, std::span<const char> apart) {
   const BroadPhaseRow& row = only_ ? *only_ : chooseBroadPhase(boxes.size());
-  row.update(memory_, boxes, pairs_);
+  row.update(memory_, boxes, apart, pairs_);
 }
 
 }  // namespace tumble

@@ -25,7 +25,9 @@ class BroadPhase {
   explicit BroadPhase(const BroadPhaseRow& row) : only_(&row) {}
 
   /// Brings the pairs up to date with the boxes [m], lo ≤ hi. Allocates nothing once warm.
-  void update(std::span<const Aabb> boxes);
+  /// @param apart  per box whether it is asked after only with those for which this does not hold:
+  ///               pairs of two for which it does may be left out; or empty
+  void update(std::span<const Aabb> boxes, std::span<const char> apart = {});
 
   /// Pairs (i, j), i < j, whose boxes overlap or touch; sorted, the same whatever the history and
   /// the row.
@@ -47,7 +49,8 @@ class BroadPhase {
 /// A way to find the pairs.
 struct BroadPhaseRow {
   std::string_view name, what;
-  void (*update)(BroadPhase::Memory&, std::span<const Aabb>, std::vector<BroadPhase::Pair>&);
+  void (*update)(BroadPhase::Memory&, std::span<const Aabb>, std::span<const char> apart,
+                 std::vector<BroadPhase::Pair>&);
 };
 
 /// The table, and the row that `BroadPhase` takes for a number of boxes.

@@ -72,7 +72,9 @@ void forEachRange(const Level& level, int x0, int x1, int y, int z, Action act) 
 
 }  // namespace
 
-void CellGrid::update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) {
+void CellGrid::update(std::span<const Aabb> boxes, std::span<const char> apart,
+                      std::vector<Pair>& pairs) {
+  apart_ = apart;
   ++calls_;
   if (boxes.size() != grown_.size() || anyLeft(boxes)) {
     build(boxes);
@@ -228,6 +230,10 @@ void CellGrid::sortIntoLevels() {
       levels_[static_cast<std::size_t>(levelOf[k])].bodies.push_back(static_cast<int>(i));
   }
   for (const int i : few_) size_[static_cast<std::size_t>(i)] = kNoLevel;
+  for (std::size_t l = 0; l < used_; ++l) {
+    const std::vector<int>& bodies = levels_[l].bodies;
+    levels_[l].apart = std::all_of(bodies.begin(), bodies.end(), [&](int i) { return bothApart(i, i); });
+  }
 }
 
 /// Rounding to a float errs by 6e-8 of a coordinate. Boxes that overlap do so when rounded too, and
@@ -294,12 +300,14 @@ void CellGrid::place(Level& level) {
 void CellGrid::test(const Entry& a, const Level& level, Range range) {
   for (int k = range.first; k < range.last; ++k) {
     const Entry& b = level.entries[static_cast<std::size_t>(k)];
-    if (!apart(a.box, b.box)) found_.push_back(std::minmax(int{a.body}, int{b.body}));
+    if (!apart(a.box, b.box) && !bothApart(a.body, b.body))
+      found_.push_back(std::minmax(int{a.body}, int{b.body}));
   }
 }
 
 /// Each cell against half of its neighbours, which stand in five rows; so each pair comes once.
 void CellGrid::findWithin(const Level& level) {
+  if (level.apart) return;
   const int nx = maskOf(level.bits[0]) + 1, ny = maskOf(level.bits[1]) + 1;
   for (std::size_t bucket = 0; bucket + 1 < level.first.size(); ++bucket) {
     const int begin = level.first[bucket], end = level.first[bucket + 1];
@@ -325,6 +333,7 @@ void CellGrid::findWithin(const Level& level) {
 /// A box of a smaller level reaches over two cells at most, and what overlaps it begins there or
 /// one cell before.
 void CellGrid::findAcross(const Level& small, const Level& large) {
+  if (small.apart && large.apart) return;
   for (const Entry& entry : small.entries) {
     const Aabb& box = wide_[static_cast<std::size_t>(entry.body)];
     const Vec3 lo = (box.lo - middle_).array() - large.reach;
@@ -344,7 +353,7 @@ void CellGrid::findOfFew() {
     const ShortBox& box = grown_[static_cast<std::size_t>(i)];
     for (int j = 0; j < static_cast<int>(grown_.size()); ++j) {
       const bool seen = size_[static_cast<std::size_t>(j)] == kNoLevel && j <= i;
-      if (!seen && !apart(box, grown_[static_cast<std::size_t>(j)]))
+      if (!seen && !apart(box, grown_[static_cast<std::size_t>(j)]) && !bothApart(i, j))
         found_.push_back(std::minmax(i, j));
     }
   }

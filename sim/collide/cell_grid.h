@@ -26,8 +26,10 @@ class CellGrid {
  public:
   using Pair = std::pair<int, int>;
 
-  /// Pairs (i, j), i < j, of boxes [m] that overlap or touch, sorted, whatever the history.
-  void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs);
+  /// Pairs (i, j), i < j, of boxes [m] that overlap or touch, sorted, whatever the history; but
+  /// none of two boxes of a set that is told apart.
+  /// @param apart  per box whether it is of that set, the same in every call; or empty
+  void update(std::span<const Aabb> boxes, std::span<const char> apart, std::vector<Pair>& pairs);
 
   /// Calls that made the grid anew.
   long builds() const { return builds_; }
@@ -47,6 +49,7 @@ class CellGrid {
     double reach = 0.0;                 ///< [m] by which rounding may enlarge a box
     std::array<unsigned, 3> bits = {};  ///< buckets along each axis are 2^bits, four or more
     std::vector<int> bodies;
+    bool apart = false;  ///< all of them are of the set
     std::vector<int> first;  ///< entry of each bucket, and one past the last
     std::vector<Entry> entries;
   };
@@ -55,6 +58,11 @@ class CellGrid {
     int first, last;
   };
 
+  /// Whether two boxes, by their numbers, are both of the set that is told apart.
+  bool bothApart(int i, int j) const {
+    return !apart_.empty() && apart_[static_cast<std::size_t>(i)] &&
+           apart_[static_cast<std::size_t>(j)];
+  }
   bool anyLeft(std::span<const Aabb> boxes);
   void build(std::span<const Aabb> boxes);
   void grow(std::span<const Aabb> boxes);
@@ -71,6 +79,7 @@ class CellGrid {
   void sortFound();
   void shorten();
 
+  std::span<const char> apart_;  ///< of this call
   std::vector<ShortBox> now_;    ///< of this call, rounded
   std::vector<ShortBox> grown_;  ///< when the grid was made, rounded outward
   std::vector<int> partner_;     ///< near bodies of each body that come after it, sorted

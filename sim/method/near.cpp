@@ -36,7 +36,7 @@ void addContacts(const Model& model, std::pair<int, int> pair, const Manifold& p
 
 std::vector<std::pair<int, int>> nearPairs(const Model& model, State& state,
                                            std::span<const Aabb> boxes) {
-  state.broadPhase.update(boxes);
+  state.broadPhase.update(boxes, model.solidBends);
   std::vector<std::pair<int, int>> near;
   for (const auto& [i, j] : state.broadPhase.pairs()) {
     const int b = model.solid[i], a = model.solid[j];

@@ -236,7 +236,10 @@ bool NewtonSystem<N>::minimise(double accuracy, int most) {
     const bool whole = free || searchLine();
     // Where Φ is quadratic, its minimum is reached but for rounding.
     if (whole && accuracy > 0.0 && !edges && factorFits()) return true;
-    if (!free && fits && change > 0.5 * before && (!edges || change < kSmall * scale)) return true;
+    // A step that a contact of what bends cut short is not rounding.
+    const bool cut = !whole && couples();
+    if (!free && fits && !cut && change > 0.5 * before && (!edges || change < kSmall * scale))
+      return true;
     before = change;
   }
   return false;

@@ -248,12 +248,12 @@ TEST_CASE("the grid is made anew only when a box has left its neighbourhood") {
   Drift drift(800, std::cbrt(4.0 * 800), 1e-9, 25);
   CellGrid grid;
   Pairs pairs;
-  for (int k = 0; k < 5; ++k) grid.update(drift.boxes(), pairs);
+  for (int k = 0; k < 5; ++k) grid.update(drift.boxes(), {}, pairs);
   const long still = grid.builds();
   CHECK(still <= 2);
   for (int k = 0; k < 40; ++k) {
     drift.step();
-    grid.update(drift.boxes(), pairs);
+    grid.update(drift.boxes(), {}, pairs);
   }
   CAPTURE(grid.builds() - still);
   CHECK(grid.builds() - still >= 2);
@@ -272,7 +272,7 @@ TEST_CASE("a few boxes that are too fast for a margin do not make the grid anew 
   int wrong = 0;
   for (int k = 0; k < 100; ++k) {
     swarm.step();
-    grid.update(swarm.now, pairs);
+    grid.update(swarm.now, {}, pairs);
     wrong += pairs != bruteForce(swarm.now);
   }
   CHECK(wrong == 0);

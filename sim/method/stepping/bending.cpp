@@ -87,11 +87,15 @@ Bendings bendingsOf(const Model& model) {
   return bendings;
 }
 
-void linearise(BendingPart& part, const std::vector<int>& pointOf,
+double linearise(BendingPart& part, const std::vector<int>& pointOf,
                std::span<const RigidBody> bodies, double h) {
   std::fill(part.own.begin(), part.own.end(), Mat3::Zero());
   std::fill(part.off.begin(), part.off.end(), Mat3::Zero());
   std::fill(part.constant.begin(), part.constant.end(), Vec3::Zero());
+  // u is 0 the first time: then H u is.
+  const bool moves = std::any_of(part.about.begin(), part.about.end(),
+                                 [](const Vec3& u) { return !u.isZero(0.0); });
+  double energy = 0.0;
   ElementTerms terms;
   ElementPlaces x;
   for (std::size_t n = 0; n < part.body->elements.size(); ++n) {
@@ -105,18 +109,23 @@ void linearise(BendingPart& part, const std::vector<int>& pointOf,
       x[k] = bodies[element.points[k]].x + h * part.about[at[k]];
     }
     differentiate(element.energy, x, ElementAsk::Projected, terms);
-    const ElementVector c = h * (h * (terms.hessian * u) - terms.gradient);
-    const ElementMatrix K = h * (h * terms.hessian + terms.damping);
+    energy += terms.energy;
+    const ElementVector c = moves ? ElementVector(h * (h * (terms.hessian * u) - terms.gradient))
+                                  : ElementVector(-h * terms.gradient);
+    const auto K = [&](int i, int j) -> Mat3 {
+      return h * (h * terms.hessian.block<3, 3>(3 * i, 3 * j) + terms.damping.block<3, 3>(3 * i, 3 * j));
+    };
     for (int k = 0; k < element.count; ++k) {
       part.constant[at[k]] += c.segment<3>(3 * k);
-      part.own[at[k]] += K.block<3, 3>(3 * k, 3 * k);
+      part.own[at[k]] += K(k, k);
     }
     forPairs(element, [&](std::size_t k, int i, int j) {
       const bool inOrder = at[i] < at[j];
       part.off[part.edgesOf[n][k]] +=
-          inOrder ? K.block<3, 3>(3 * i, 3 * j) : K.block<3, 3>(3 * j, 3 * i);
+          inOrder ? K(i, j) : K(j, i);
     });
   }
+  return energy;
 }
 
 bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h) {

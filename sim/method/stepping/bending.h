@@ -47,7 +47,8 @@ struct Bendings {
 Bendings bendingsOf(const Model& model);
 
 /// K and c about the motion u, with D of the start. Projected, so that A is positive definite.
-void linearise(BendingPart& part, const std::vector<int>& pointOf,
+/// @return the energy [J] there
+double linearise(BendingPart& part, const std::vector<int>& pointOf,
                std::span<const RigidBody> bodies, double h);
 
 /// The velocities at the end of the step, were there no λ. @return false if A is not positive

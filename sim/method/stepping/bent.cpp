@@ -12,8 +12,7 @@ bool Stepping::bend(double h) {
   work_.crushed.clear();
   for (BendingPart& part : memory_.bendings->parts) {
     std::fill(part.about.begin(), part.about.end(), Vec3::Zero());
-    part.stored = potentialEnergy(Vec3::Zero(), forcesOf(part), state_.bodies);
-    linearise(part, memory_.bendings->pointOf, state_.bodies, h);
+    part.stored = linearise(part, memory_.bendings->pointOf, state_.bodies, h);
     if (!freeMotion(part, state_.bodies, h)) work_.crushed = unbent(part);
   }
   bent_ = std::numeric_limits<double>::infinity();

@@ -51,7 +51,7 @@ bool Stepping::findNear(double h) {
 }
 
 bool Stepping::takePairs() {
-  state_.broadPhase.update(work_.boxes);
+  state_.broadPhase.update(work_.boxes, model_.solidBends);
   work_.near.clear();
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];

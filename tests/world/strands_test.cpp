@@ -1,0 +1,146 @@
+// Strands in a world: how far they bend and stretch, how they swing, and whom they go with.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "sim/elastic/strand.h"
+#include "sim/world.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+constexpr double kG = 9.81;
+
+/// A strand in a world, held by the two points of its root. @return the number of its tip
+int addStrand(WorldDef& def, const StrandDef& strand, const Quat& turn) {
+  const int first = static_cast<int>(def.bodies.size());
+  const auto places = strandPlaces(strand);
+  const auto masses = strandMasses(strand);
+  auto body = std::make_shared<ElasticBody>();
+  body->name = "strand";
+  for (int p = 0; p < strand.points; ++p) {
+    body->bodies.push_back(first + p);
+    def.bodies.push_back({.name = "strand." + std::to_string(p),
+                          .shape = Particle{},
+                          .mass = masses[p],
+                          .position = turn * places[p],
+                          .fixed = p < 2});
+  }
+  body->elements = strandElements(strand, first);
+  def.forces.push_back(Bending{body});
+  return first + strand.points - 1;
+}
+
+Quat about(const Vec3& axis, double degrees) {
+  return Quat(Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180.0, axis));
+}
+
+/// The tip of a beam that leaves a wall level, without stretch, under a weight w [N/m] and a load F
+/// [N] at its tip:  B θ″ = −(F + w (L − s)) cos θ,  θ(0) = 0,  θ′(L) = 0, downward. By shooting, in
+/// 4000 steps of Runge and Kutta's.
+Vec3 tipOfBeam(double B, double L, double w, double F) {
+  constexpr int kSteps = 4000;
+  const double h = L / kSteps;
+  using State = Eigen::Vector4d;  // θ, θ′, x, y
+  const auto rate = [&](double s, const State& y) -> State {
+    return {y[1], -(F + w * (L - s)) * std::cos(y[0]) / B, std::cos(y[0]), -std::sin(y[0])};
+  };
+  const auto end = [&](double bend) {
+    State y(0.0, bend, 0.0, 0.0);
+    for (int k = 0; k < kSteps; ++k) {
+      const double s = k * h;
+      const State a = rate(s, y), b = rate(s + 0.5 * h, y + 0.5 * h * a),
+                  c = rate(s + 0.5 * h, y + 0.5 * h * b), d = rate(s + h, y + h * c);
+      y += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+    }
+    return y;
+  };
+  double lo = 0.0, hi = (F + w * L) * L / B;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (lo + hi);
+    (end(middle)[1] < 0.0 ? lo : hi) = middle;
+  }
+  const State y = end(0.5 * (lo + hi));
+  return {y[2], y[3], 0.0};
+}
+
+}  // namespace
+
+// Oracle: closed form, of any number of pieces. Measured 4e-15 m, allowed 1e-12.
+TEST_CASE("a strand that hangs lengthens by its weight, rho g L^2 / 2EA") {
+  const StrandDef strand{
+      .points = 7, .length = 0.5, .density = 0.01, .stretch = 2.0, .bend = 1e-6, .damping = 0.05};
+  WorldDef def;
+  def.duration = 40.0;
+  def.stepping.step = 0.1;
+  const int tip = addStrand(def, strand, about(Vec3::UnitX(), 180.0));
+  World world(def);
+  world.advance(def.duration);
+  REQUIRE_FALSE(world.report().stopped);
+  const double longer = 0.01 * kG * 0.5 * 0.5 / (2.0 * 2.0);
+  const double y = world.sample(def.duration).bodies[tip].x.y();
+  CAPTURE(y + 0.5 + longer);
+  CHECK(std::abs(y + 0.5 + longer) <= 1e-12);
+}
+
+// Oracle: the elastica by another method, order of convergence. All loads make large turns.
+TEST_CASE("a strand bends as a beam under its weight and a load, to second order in its pieces") {
+  constexpr double L = 0.1, B = 6e-6, rho = 2e-3;
+  const double load = GENERATE(0.0, 2e-3);  // N
+  double off[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const StrandDef strand{
+        .points = 10 + 8 * k, .length = L, .density = rho, .stretch = 2e4, .bend = B};
+    WorldDef def;
+    def.duration = 8.0;
+    def.stepping.step = 0.02;
+    def.stepping.linearisations = 10;
+    const int tip = addStrand(def, strand, about(Vec3::UnitZ(), -90.0));
+    if (load > 0.0) def.forces.push_back(PointForce{tip, Vec3(0.0, -load, 0.0), Vec3::Zero()});
+    World world(def);
+    world.advance(def.duration);
+    REQUIRE_FALSE(world.report().stopped);
+    const Sample end = world.sample(def.duration);
+    CHECK(end.bodies[tip].v.norm() <= 1e-9);
+    off[k] = (end.bodies[tip].x - tipOfBeam(B, L, rho * kG, load)).norm() / L;
+  }
+  CAPTURE(load, off[0], off[1]);
+  CHECK(off[1] <= 2e-3);
+  CHECK(off[0] / off[1] == Approx(4.0).epsilon(0.1));
+}
+
+// Oracle: closed form, ω = j₀₁/2 √(g/L) with the first zero of J₀ (Bernoulli), order of convergence.
+TEST_CASE("a chain that hangs swings with the frequency of Bessel's function") {
+  constexpr double L = 1.0, kZero = 2.404825557695773;
+  double off[2] = {};
+  for (int k = 0; k < 2; ++k) {
+    const StrandDef chain{
+        .points = 8 * (k + 1) + 2, .length = L, .density = 1.0, .stretch = 1e6, .bend = 0.0};
+    WorldDef def;
+    def.duration = 1.4;
+    def.stepping.step = 5e-4;
+    const int tip = addStrand(def, chain, about(Vec3::UnitX(), 180.0));
+    for (BodyDef& body : def.bodies) {
+      const double fromTip = std::max(0.0, L + body.position.y()) / L;
+      body.position.x() = body.fixed ? 0.0 : 1e-4 * std::cyl_bessel_j(0.0, kZero * std::sqrt(fromTip));
+    }
+    World world(def);
+    std::vector<double> zeros;
+    double before = 1.0;
+    for (int n = 1; n <= 2800; ++n) {
+      world.advance(n * 5e-4);
+      const double x = world.sample(n * 5e-4).bodies[tip].x.x();
+      if (n > 1 && (x < 0.0) != (before < 0.0))
+        zeros.push_back((n - x / (x - before)) * 5e-4);
+      before = x;
+    }
+    REQUIRE(zeros.size() == 2);
+    const double omega = 3.14159265358979323846 / (zeros[1] - zeros[0]);
+    off[k] = std::abs(omega / (0.5 * kZero * std::sqrt(kG / L)) - 1.0);
+  }
+  CAPTURE(off[0], off[1]);
+  CHECK(off[1] <= 2e-3);
+  CHECK(off[0] / off[1] == Approx(4.0).epsilon(0.25));
+}
