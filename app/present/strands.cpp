@@ -30,8 +30,9 @@ std::vector<Vec3> curveThrough(const std::vector<Vec3>& places) {
     const Vec3 d = k + 1 < last ? places[k + 2] : Vec3(2.0 * c - b);
     for (int part = 1; part <= kParts; ++part) {
       const double s = static_cast<double>(part) / kParts;
-      curve.push_back(b + 0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d +
-                                                  s * (3.0 * (b - c) + d - a))));
+      curve.push_back(
+          b +
+          0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a))));
     }
   }
   return curve;

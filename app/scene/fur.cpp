@@ -16,8 +16,8 @@ struct FurTable {
   BentTable bent;
   StrandDef strand;
   int count = 0;
-  std::optional<int> on;   // the body it grows on
-  double thickness = 2e-3; // [m]
+  std::optional<int> on;    // the body it grows on
+  double thickness = 2e-3;  // [m]
   int seed = 0;
   RootArea area;
 };
@@ -45,8 +45,10 @@ void readArea(Section& section, RootArea& area) {
 FurTable readFur(Section& section, const Materials& materials, const BodyList& bodies) {
   FurTable fur;
   fur.bent = readBentNamed(section, materials);
-  if (!section.find("on")) section.complain("on", "missing; the body that it grows on");
-  else fur.on = bodies.named(section, "on");
+  if (!section.find("on"))
+    section.complain("on", "missing; the body that it grows on");
+  else
+    fur.on = bodies.named(section, "on");
   if (!section.find("strands")) section.complain("strands", "missing; how many");
   section.read("strands", fur.count, 1, kMostPoints);
   section.read("seed", fur.seed, 0, 1'000'000'000);
@@ -104,7 +106,8 @@ void readFurs(Section& root, const Materials& materials, BodyList& bodies, Scene
       section.complain("on", "nothing grows on " + inQuotes(body.name) + ": " + barren);
       continue;
     }
-    const std::uint64_t seed = section.find("seed") ? static_cast<std::uint64_t>(fur.seed) : scene.seed;
+    const std::uint64_t seed =
+        section.find("seed") ? static_cast<std::uint64_t>(fur.seed) : scene.seed;
     const std::vector<Root> roots =
         rootsOn(centredShape(body), fur.area, fur.count, Random(seed, fur.bent.name));
     if (static_cast<int>(roots.size()) < fur.count) {

@@ -11,8 +11,8 @@ namespace tumble {
 
 /// A place of a surface, in the body frame.
 struct Root {
-  Vec3 place = Vec3::Zero();       ///< [m]
-  Vec3 normal = Vec3::UnitY();     ///< [1] outward
+  Vec3 place = Vec3::Zero();    ///< [m]
+  Vec3 normal = Vec3::UnitY();  ///< [1] outward
 };
 
 /// Where roots may be: where the normal is at most so far from a direction of the body frame.

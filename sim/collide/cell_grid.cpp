@@ -232,7 +232,8 @@ void CellGrid::sortIntoLevels() {
   for (const int i : few_) size_[static_cast<std::size_t>(i)] = kNoLevel;
   for (std::size_t l = 0; l < used_; ++l) {
     const std::vector<int>& bodies = levels_[l].bodies;
-    levels_[l].apart = std::all_of(bodies.begin(), bodies.end(), [&](int i) { return bothApart(i, i); });
+    levels_[l].apart =
+        std::all_of(bodies.begin(), bodies.end(), [&](int i) { return bothApart(i, i); });
   }
 }
 

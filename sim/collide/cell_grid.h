@@ -49,7 +49,7 @@ class CellGrid {
     double reach = 0.0;                 ///< [m] by which rounding may enlarge a box
     std::array<unsigned, 3> bits = {};  ///< buckets along each axis are 2^bits, four or more
     std::vector<int> bodies;
-    bool apart = false;  ///< all of them are of the set
+    bool apart = false;      ///< all of them are of the set
     std::vector<int> first;  ///< entry of each bucket, and one past the last
     std::vector<Entry> entries;
   };

@@ -24,9 +24,9 @@ std::vector<Element> strandElements(const StrandDef& strand, int first) {
     elements.push_back({.points = points, .count = pointsOf(energy), .energy = energy});
   };
   for (int k = 1; k + 1 < strand.points; ++k)
-    add({first + k, first + k + 1}, StretchSpring{.stiffness = strand.stretch / piece,
-                                                  .damping = strand.damping / piece,
-                                                  .rest = piece});
+    add({first + k, first + k + 1},
+        StretchSpring{
+            .stiffness = strand.stretch / piece, .damping = strand.damping / piece, .rest = piece});
   if (strand.bend <= 0.0) return elements;
   for (int k = 1; k + 1 < strand.points; ++k)
     add({first + k - 1, first + k, first + k + 1},

@@ -11,12 +11,12 @@ namespace tumble {
 /// piece below the root and point 1 on it: held, they clamp the strand's direction. The others
 /// follow evenly, the last at the tip.
 struct StrandDef {
-  int points = 10;         ///< 3 or more, with the two of the root
-  double length = 0.1;     ///< [m] from root to tip
-  double density = 1e-3;   ///< [kg/m]
-  double stretch = 10.0;   ///< [N] E A: its pull per strain
-  double bend = 1e-6;      ///< [N m²] E I
-  double damping = 0.0;    ///< [N s] of the rate of strain
+  int points = 10;        ///< 3 or more, with the two of the root
+  double length = 0.1;    ///< [m] from root to tip
+  double density = 1e-3;  ///< [kg/m]
+  double stretch = 10.0;  ///< [N] E A: its pull per strain
+  double bend = 1e-6;     ///< [N m²] E I
+  double damping = 0.0;   ///< [N s] of the rate of strain
 };
 
 /// Pieces between root and tip.

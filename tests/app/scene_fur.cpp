@@ -15,7 +15,8 @@ namespace {
 
 std::string ballWith(const std::string& keys, const std::string& body = "fixed = true\n") {
   return "[world]\nduration = 0.2\n[[body]]\nname = \"ball\"\nshape = { sphere = 0.2 }\n"
-         "position = [0, 1, 0]\n" + body + "[[fur]]\nname = \"hair\"\non = \"ball\"\n" + keys;
+         "position = [0, 1, 0]\n" +
+         body + "[[fur]]\nname = \"hair\"\non = \"ball\"\n" + keys;
 }
 const std::string kFew = "strands = 20\npoints = 6\nlength = 0.1\nthickness = 0.004\n";
 
@@ -77,8 +78,8 @@ TEST_CASE("roots are the same for a seed, and others for another") {
 // Oracle: Areas. Of 800 roots each eighth of a surface has a share as large as it is; by chance it
 // would be off by 10, spread evenly it is by less: measured 7 at most.
 TEST_CASE("roots are spread evenly over every shape that has a surface, and stand on it") {
-  const auto corners = std::vector<Vec3>{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1},
-                                         {-1, -1, -1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
+  const auto corners = std::vector<Vec3>{{1, 1, 1},    {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1},
+                                         {-1, -1, -1}, {-1, 1, 1},  {1, -1, 1},  {1, 1, -1}};
   std::vector<Shape> shapes = {Sphere{0.3}, Box{{0.2, 0.3, 0.4}}, Cylinder{0.2, 0.5},
                                Capsule{0.1, 0.4}};
   shapes.push_back(Hull{std::make_shared<const Polyhedron>(convexHull(corners)), Vec3::Zero()});
@@ -103,8 +104,7 @@ TEST_CASE("roots are spread evenly over every shape that has a surface, and stan
 }
 
 TEST_CASE("fur grows where the surface faces a direction, and says where nothing does") {
-  const Scene scene =
-      parseScene(ballWith(kFew + "towards = [1, 0, 0]\nspread = 30\n"), "s.toml");
+  const Scene scene = parseScene(ballWith(kFew + "towards = [1, 0, 0]\nspread = 30\n"), "s.toml");
   for (std::size_t s = 0; s < 20; ++s)
     CHECK(scene.world.bodies[1 + 6 * s + 1].position.x() >= 0.2 * std::cos(30.0 * 3.1415927 / 180));
   std::string box = ballWith(kFew + "towards = [1, 1, 1]\nspread = 20\n");

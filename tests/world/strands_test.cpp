@@ -111,7 +111,8 @@ TEST_CASE("a strand bends as a beam under its weight and a load, to second order
   CHECK(off[0] / off[1] == Approx(4.0).epsilon(0.1));
 }
 
-// Oracle: closed form, ω = j₀₁/2 √(g/L) with the first zero of J₀ (Bernoulli), order of convergence.
+// Oracle: closed form, ω = j₀₁/2 √(g/L) with the first zero of J₀ (Bernoulli), order of
+// convergence.
 TEST_CASE("a chain that hangs swings with the frequency of Bessel's function") {
   constexpr double L = 1.0, kZero = 2.404825557695773;
   double off[2] = {};
@@ -124,7 +125,8 @@ TEST_CASE("a chain that hangs swings with the frequency of Bessel's function") {
     const int tip = addStrand(def, chain, about(Vec3::UnitX(), 180.0));
     for (BodyDef& body : def.bodies) {
       const double fromTip = std::max(0.0, L + body.position.y()) / L;
-      body.position.x() = body.fixed ? 0.0 : 1e-4 * std::cyl_bessel_j(0.0, kZero * std::sqrt(fromTip));
+      body.position.x() =
+          body.fixed ? 0.0 : 1e-4 * std::cyl_bessel_j(0.0, kZero * std::sqrt(fromTip));
     }
     World world(def);
     std::vector<double> zeros;
@@ -132,8 +134,7 @@ TEST_CASE("a chain that hangs swings with the frequency of Bessel's function") {
     for (int n = 1; n <= 2800; ++n) {
       world.advance(n * 5e-4);
       const double x = world.sample(n * 5e-4).bodies[tip].x.x();
-      if (n > 1 && (x < 0.0) != (before < 0.0))
-        zeros.push_back((n - x / (x - before)) * 5e-4);
+      if (n > 1 && (x < 0.0) != (before < 0.0)) zeros.push_back((n - x / (x - before)) * 5e-4);
       before = x;
     }
     REQUIRE(zeros.size() == 2);

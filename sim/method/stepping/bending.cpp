@@ -88,7 +88,7 @@ Bendings bendingsOf(const Model& model) {
 }
 
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
-               std::span<const RigidBody> bodies, double h) {
+                 std::span<const RigidBody> bodies, double h) {
   std::fill(part.own.begin(), part.own.end(), Mat3::Zero());
   std::fill(part.off.begin(), part.off.end(), Mat3::Zero());
   std::fill(part.constant.begin(), part.constant.end(), Vec3::Zero());
@@ -113,7 +113,8 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
     const ElementVector c = moves ? ElementVector(h * (h * (terms.hessian * u) - terms.gradient))
                                   : ElementVector(-h * terms.gradient);
     const auto K = [&](int i, int j) -> Mat3 {
-      return h * (h * terms.hessian.block<3, 3>(3 * i, 3 * j) + terms.damping.block<3, 3>(3 * i, 3 * j));
+      return h * (h * terms.hessian.block<3, 3>(3 * i, 3 * j) +
+                  terms.damping.block<3, 3>(3 * i, 3 * j));
     };
     for (int k = 0; k < element.count; ++k) {
       part.constant[at[k]] += c.segment<3>(3 * k);
@@ -121,8 +122,7 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
     }
     forPairs(element, [&](std::size_t k, int i, int j) {
       const bool inOrder = at[i] < at[j];
-      part.off[part.edgesOf[n][k]] +=
-          inOrder ? K(i, j) : K(j, i);
+      part.off[part.edgesOf[n][k]] += inOrder ? K(i, j) : K(j, i);
     });
   }
   return energy;

@@ -49,7 +49,7 @@ Bendings bendingsOf(const Model& model);
 /// K and c about the motion u, with D of the start. Projected, so that A is positive definite.
 /// @return the energy [J] there
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
-               std::span<const RigidBody> bodies, double h);
+                 std::span<const RigidBody> bodies, double h);
 
 /// The velocities at the end of the step, were there no λ. @return false if A is not positive
 /// definite to rounding
