@@ -1,8 +1,11 @@
 // [[fur]]: where it grows, what becomes of it, and what is refused.
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
+#include "app/record/output.h"
 #include "app/scene/roots.h"
 #include "app/scene/scene.h"
 #include "sim/shape/convex_hull.h"
@@ -10,6 +13,7 @@
 #include "tests/catch.h"
 
 using namespace tumble;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -82,7 +86,8 @@ TEST_CASE("roots are spread evenly over every shape that has a surface, and stan
                                          {-1, -1, -1}, {-1, 1, 1},  {1, -1, 1},  {1, 1, -1}};
   std::vector<Shape> shapes = {Sphere{0.3}, Box{{0.2, 0.3, 0.4}}, Cylinder{0.2, 0.5},
                                Capsule{0.1, 0.4}};
-  shapes.push_back(Hull{std::make_shared<const Polyhedron>(convexHull(corners)), Vec3::Zero()});
+  const Shape hull = Hull{std::make_shared<const Polyhedron>(convexHull(corners)), Vec3::Zero()};
+  shapes.push_back(centredShape({.shape = hull, .mass = 1.0}));
   for (const Shape& shape : shapes) {
     const auto roots = rootsOn(shape, {}, 800, Random(1, "test"));
     REQUIRE(roots.size() == 800);
@@ -126,7 +131,32 @@ TEST_CASE("wrong furs are told where and what to do") {
   CHECK(says(text, "did you mean 'ball'"));
   text = ballWith(kFew);
   text.replace(text.find("{ sphere = 0.2 }"), 16, "{ plane = [0, 1, 0, 0] }");
+  text.replace(text.find("position = [0, 1, 0]"), 20, "friction = 0");
   CHECK(says(text, "nothing grows on"));
+}
+
+TEST_CASE("points of what bends have a file of their own, if it is asked for") {
+  const Scene scene = parseScene(ballWith(kFew, "mass = 1\n"), "s.toml");
+  const Recording recording = record(scene, 10.0);
+  for (const bool nodes : {false, true}) {
+    const fs::path folder = fs::temp_directory_path() / "tumble-nodes-test";
+    fs::remove_all(folder);
+    OutputFiles files(folder.string(), scene, nodes);
+    for (const Sample& sample : recording.samples) files.add(sample);
+    files.finish(recording);
+    const auto rows = [&](const char* name) {
+      std::ifstream in(folder / name);
+      std::string row, first;
+      int count = 0;
+      for (; std::getline(in, row); ++count)
+        if (count == 1) first = row;
+      return std::pair(count, first.substr(0, first.find(',', 2)));
+    };
+    CHECK(rows("trajectory.csv") == std::pair(1 + 3, std::string("0,ball")));
+    REQUIRE(fs::exists(folder / "nodes.csv") == nodes);
+    if (nodes) CHECK(rows("nodes.csv") == std::pair(1 + 3 * 120, std::string("0,hair.0.0")));
+    fs::remove_all(folder);
+  }
 }
 
 // Oracle: invariants. What is free takes its fur along: roots stay where they are in it, and what
