@@ -42,8 +42,12 @@ std::vector<double> softMasses(const SoftDef& soft) {
       soft.density * soft.size.prod() / (soft.cells[0] * soft.cells[1] * soft.cells[2]);
   std::vector<double> masses(softPoints(soft), 0.0);
   forGrid(soft, 0, [&](int i, int j, int k) {
-    for (int c = 0; c < 8; ++c)
-      masses[softPoint(soft, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))] += 0.125 * cell;
+    for (int c = 0; c < 8; ++c) {
+      const std::array<int, 3> at = {i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)};
+      // Neighbours are mirrored: corners of tetrahedra in the middle are those of even sum.
+      const bool inMiddle = (at[0] + at[1] + at[2]) % 2 == 0;
+      masses[softPoint(soft, at[0], at[1], at[2])] += cell / (inMiddle ? 6.0 : 12.0);
+    }
   });
   return masses;
 }
