@@ -16,18 +16,18 @@ namespace tumble {
 namespace {
 
 // Runs the scene, and writes its files and, if they are named, its hashes.
-Recording runInto(const std::string& folder, const std::string& hashFile, const Scene& scene,
-                  double rate) {
+Recording runInto(const std::string& folder, bool nodes, const std::string& hashFile,
+                  const Scene& scene, double rate) {
   // The files are begun with the first sample: a scene that the world refuses makes none.
   std::optional<OutputFiles> files;
   RunHashes hashes = hashesFor(scene, rate > 0.0 ? rate : scene.image.rate);
   const auto write = [&](Sample&& sample) {
-    if (!files) files.emplace(folder, scene);
+    if (!files) files.emplace(folder, scene, nodes);
     files->add(sample);
     if (!hashFile.empty()) hashes.samples.push_back(hashOf(sample));
   };
   Recording recording = runWithProgress(scene, rate, write);
-  if (!files) files.emplace(folder, scene);
+  if (!files) files.emplace(folder, scene, nodes);
   files->finish(recording);
   writeFile(folder + "/scene.json", sceneJson(scene));
   if (!hashFile.empty()) {
@@ -46,6 +46,7 @@ int simulate(int argc, char** argv) {
   SceneOptions options;
   std::string folder, hashFile;
   double rate = 0.0;
+  bool nodes = false;
   CommandLine line(
       "simulate", "Runs a scene and writes its numbers.",
       {"path-of-brick                       # trajectory.csv, events.csv, "
@@ -56,14 +57,16 @@ int simulate(int argc, char** argv) {
   addSceneOptions(line, options);
   line.option("-o,--output", folder, "folder for the files [out/<scene>]");
   addRate(line, rate);
+  line.flag("--nodes", nodes, "nodes.csv too: places and velocities of the points of what bends");
   line.option("--hash", hashFile, "a file for the hash of each sample's bits", {.type = "FILE"});
   if (!line.read(argc, argv)) return kOk;
 
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;
-  const Recording recording = runInto(folder, hashFile, scene, rate);
+  const Recording recording = runInto(folder, nodes, hashFile, scene, rate);
   printCertificate(recording);
-  say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json");
+  say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json" +
+      (nodes ? ", nodes.csv" : ""));
   return exitOf(recording);
 }
 

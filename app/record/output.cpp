@@ -11,6 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr char kTrajectory[] = "t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
+constexpr char kNodes[] = "t,body,x,y,z,vx,vy,vz\n";
 constexpr char kJoints[] = "t,joint,a,b,px,py,pz,fx,fy,fz,tx,ty,tz\n";
 constexpr char kContacts[] = "t,a,b,px,py,pz,nx,ny,nz,separation,fx,fy,fz\n";
 
@@ -47,11 +48,23 @@ bool moves(const BodyDef& body) {
   return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
 }
 
-void addTrajectory(std::string& out, const Sample& sample, const Scene& scene) {
+// Per body whether it is a point of what bends; of fur only those of strands between every so many.
+std::vector<char> pointsOf(const Scene& scene, int every = 0) {
+  std::vector<char> points(scene.world.bodies.size(), 0);
+  for (const BentDef& bent : scene.bent)
+    for (int p = 0; p < bent.count && (every == 0 || bent.strand > 0); ++p)
+      points[static_cast<std::size_t>(bent.first + p)] =
+          every == 0 || p / bent.strand % every != 0;
+  return points;
+}
+
+// Rows of the bodies that are not left out.
+void addTrajectory(std::string& out, const Sample& sample, const Scene& scene,
+                   const std::vector<char>& left) {
   std::string t;
   addNumber(t, sample.t);
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
-    if (!moves(scene.world.bodies[i])) continue;
+    if (!moves(scene.world.bodies[i]) || left[i]) continue;
     const BodySample& body = sample.bodies[i];
     out += t;
     addNames(out, scene, {static_cast<int>(i)});
@@ -59,6 +72,20 @@ void addTrajectory(std::string& out, const Sample& sample, const Scene& scene) {
     addNumbers(out, {body.q.w(), body.q.x(), body.q.y(), body.q.z()});
     addVector(out, body.v);
     addVector(out, body.omega);
+    out += '\n';
+  }
+}
+
+void addNodes(std::string& out, const Sample& sample, const Scene& scene,
+              const std::vector<char>& points) {
+  std::string t;
+  addNumber(t, sample.t);
+  for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+    if (!points[i] || !moves(scene.world.bodies[i])) continue;
+    out += t;
+    addNames(out, scene, {static_cast<int>(i)});
+    addVector(out, sample.bodies[i].x);
+    addVector(out, sample.bodies[i].v);
     out += '\n';
   }
 }
@@ -99,8 +126,10 @@ std::string csvQuoted(const std::string& text) {
 }
 
 std::string trajectoryCsv(const Recording& recording, const Scene& scene) {
+  constexpr int kStrands = 50;  // one of so many is told
   std::string out = kTrajectory;
-  for (const Sample& sample : recording.samples) addTrajectory(out, sample, scene);
+  const std::vector<char> untold = pointsOf(scene, kStrands);
+  for (const Sample& sample : recording.samples) addTrajectory(out, sample, scene, untold);
   return out;
 }
 
@@ -156,13 +185,18 @@ const std::string& made(const std::string& folder) {
 
 }  // namespace
 
-OutputFiles::OutputFiles(const std::string& folder, const Scene& scene)
+OutputFiles::OutputFiles(const std::string& folder, const Scene& scene, bool nodes)
     : folder_(made(folder)),
       scene_(scene),
       trajectory_(folder + "/trajectory.csv"),
-      contacts_(folder + "/contacts.csv") {
+      contacts_(folder + "/contacts.csv"),
+      points_(pointsOf(scene)) {
   trajectory_.write(kTrajectory);
   contacts_.write(kContacts);
+  if (nodes) {
+    nodes_.emplace(folder + "/nodes.csv");
+    nodes_->write(kNodes);
+  }
   if (scene.world.joints.empty()) return;
   joints_.emplace(folder + "/joints.csv");
   joints_->write(kJoints);
@@ -170,11 +204,16 @@ OutputFiles::OutputFiles(const std::string& folder, const Scene& scene)
 
 void OutputFiles::add(const Sample& sample) {
   text_.clear();
-  addTrajectory(text_, sample, scene_);
+  addTrajectory(text_, sample, scene_, points_);
   trajectory_.write(text_);
   text_.clear();
   addContacts(text_, sample, scene_);
   contacts_.write(text_);
+  if (nodes_) {
+    text_.clear();
+    addNodes(text_, sample, scene_, points_);
+    nodes_->write(text_);
+  }
   if (!joints_) return;
   text_.clear();
   addJoints(text_, sample, scene_);
@@ -186,6 +225,7 @@ void OutputFiles::finish(const Recording& recording) {
   writeFile(folder_ + "/events.csv", eventsCsv(recording, scene_));
   contacts_.finish();
   if (joints_) joints_->finish();
+  if (nodes_) nodes_->finish();
   writeFile(folder_ + "/summary.json", summaryJson(recording, scene_));
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/file/file.h"
 #include "app/record/recording.h"
@@ -10,6 +11,7 @@
 namespace tumble {
 
 /// t,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz – a row per moving body and sample. World frame, SI.
+/// Points of what bends are bodies here; of a fur those of every fiftieth strand.
 std::string trajectoryCsv(const Recording& recording, const Scene& scene);
 
 /// t,kind,a,b,px,py,pz,nx,ny,nz,vrel,j – a row per event.
@@ -30,13 +32,14 @@ std::string summaryJson(const Recording& recording, const Scene& scene);
 std::string csvQuoted(const std::string& text);
 
 /// Writes trajectory.csv, events.csv, contacts.csv, summary.json and, if there are joints,
-/// joints.csv into a folder while the run
-/// goes on, so that it need not be kept. Files appear when they are complete.
+/// joints.csv into a folder while the run goes on, so that it need not be kept. Files appear when
+/// they are complete. Points of what bends stand in a file of their own, nodes.csv, if it is asked
+/// for:  t,body,x,y,z,vx,vy,vz.
 class OutputFiles {
  public:
   /// Makes the folder if need be.
   /// @throws FileError
-  OutputFiles(const std::string& folder, const Scene& scene);
+  OutputFiles(const std::string& folder, const Scene& scene, bool nodes = false);
 
   /// The next sample. @throws FileError
   void add(const Sample& sample);
@@ -47,7 +50,8 @@ class OutputFiles {
   std::string folder_;
   const Scene& scene_;
   FileWriter trajectory_, contacts_;
-  std::optional<FileWriter> joints_;
+  std::optional<FileWriter> joints_, nodes_;
+  std::vector<char> points_;  ///< per body whether it is a point of what bends
   std::string text_;  ///< scratch
 };
 
