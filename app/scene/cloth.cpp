@@ -22,7 +22,7 @@ ClothDef readWeave(Section& section) {
   cloth.length = size[0];
   cloth.width = size[1];
   section.read("density", cloth.density, positive("kg/m²"));
-  section.read("stretch", cloth.stretch, positive("N/m"));
+  section.read("stretch", cloth.stretch, notNegative("N/m"));
   section.read("shear", cloth.shear, notNegative("N/m"));
   section.read("bend", cloth.bend, notNegative("N m"));
   section.read("damping", cloth.damping, notNegative("N s/m"));
