@@ -53,8 +53,7 @@ std::vector<char> pointsOf(const Scene& scene, int every = 0) {
   std::vector<char> points(scene.world.bodies.size(), 0);
   for (const BentDef& bent : scene.bent)
     for (int p = 0; p < bent.count && (every == 0 || bent.strand > 0); ++p)
-      points[static_cast<std::size_t>(bent.first + p)] =
-          every == 0 || p / bent.strand % every != 0;
+      points[static_cast<std::size_t>(bent.first + p)] = every == 0 || p / bent.strand % every != 0;
   return points;
 }
 

@@ -52,7 +52,7 @@ class OutputFiles {
   FileWriter trajectory_, contacts_;
   std::optional<FileWriter> joints_, nodes_;
   std::vector<char> points_;  ///< per body whether it is a point of what bends
-  std::string text_;  ///< scratch
+  std::string text_;          ///< scratch
 };
 
 }  // namespace tumble

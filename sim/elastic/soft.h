@@ -27,10 +27,11 @@ inline int softPoint(const SoftDef& soft, int i, int j, int k) {
 /// Places of the points at rest, in the box's frame [m].
 std::vector<Vec3> softPlaces(const SoftDef& soft);
 
-/// Masses [kg] of the points: of each cell a sixth for the corners of the tetrahedron in its middle,
-/// a twelfth for the others. As these share an even stress of the cell – a third of each side hangs
-/// on both ends of its diagonal, a sixth on its other corners – a weight that is even is carried by
-/// stresses that are even in every cell, and a bar that hangs lengthens as a row of springs.
+/// Masses [kg] of the points: of each cell a sixth for the corners of the tetrahedron in its
+/// middle, a twelfth for the others. As these share an even stress of the cell – a third of each
+/// side hangs on both ends of its diagonal, a sixth on its other corners – a weight that is even is
+/// carried by stresses that are even in every cell, and a bar that hangs lengthens as a row of
+/// springs.
 std::vector<double> softMasses(const SoftDef& soft);
 
 /// Its energies, by numbers of points plus `first`: five tetrahedra a cell, those of neighbours

@@ -146,7 +146,7 @@ struct Model {
   std::vector<int> bending;  ///< per body: which `Bending` of the forces it is a point of, or −1;
                              ///< empty where nothing bends
   std::vector<char> solidBends;  ///< per row of `solid` whether it is such a point; or empty
-  std::string_view runs;     ///< def.method, or what "auto" chose
+  std::string_view runs;         ///< def.method, or what "auto" chose
   double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
 
   int count() const { return static_cast<int>(shapes.size()); }

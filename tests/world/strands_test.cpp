@@ -111,15 +111,16 @@ TEST_CASE("a strand bends as a beam under its weight and a load, to second order
   CHECK(off[0] / off[1] == Approx(4.0).epsilon(0.1));
 }
 
-// Oracle: closed form. N equal masses l apart on a string swing with ω² = x g/l, where x is the first
-// zero of Laguerre's polynomial L_N; the limit is Bernoulli's chain, ω = j₀₁/2 √(g/L), which is
-// N/(N + ½) of it off. Steps of 0.5 ms give 1e-6. Measured 2e-6, allowed 1e-5.
+// Oracle: closed form. N equal masses l apart on a string swing with ω² = x g/l, where x is the
+// first zero of Laguerre's polynomial L_N; the limit is Bernoulli's chain, ω = j₀₁/2 √(g/L), which
+// is N/(N + ½) of it off. Steps of 0.5 ms give 1e-6. Measured 2e-6, allowed 1e-5.
 TEST_CASE("a chain that hangs swings with the frequency of Laguerre's polynomial") {
   const int pieces = GENERATE(8, 16);
   const double L = 1.0, l = L / pieces;
   const StrandDef chain{
       .points = pieces + 2, .length = L, .density = 1.0, .stretch = 1e7, .bend = 0.0};
-  double lo = 0.0, hi = 5.9 / (4.0 * pieces + 2.0);  // j₀₁² = 5.78, and the next zero five times that
+  double lo = 0.0,
+         hi = 5.9 / (4.0 * pieces + 2.0);  // j₀₁² = 5.78, and the next zero five times that
   for (int k = 0; k < 60; ++k) {
     const double x = 0.5 * (lo + hi);
     (std::laguerre(static_cast<unsigned>(pieces), x) > 0.0 ? lo : hi) = x;

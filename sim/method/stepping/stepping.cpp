@@ -24,7 +24,8 @@ void checkBending(const Model& model) {
     const auto* field = std::get_if<CircularField>(&force);
     const auto* spring = std::get_if<Spring>(&force);
     const auto* point = std::get_if<PointForce>(&force);
-    if ((point && model.bends(point->body)) || (drag && on(drag->body)) || (field && on(field->body)) ||
+    if ((point && model.bends(point->body)) || (drag && on(drag->body)) ||
+        (field && on(field->body)) ||
         (spring && (model.bends(spring->a) || (spring->b != kNoBody && model.bends(spring->b)))))
       throw Refusal("forces[" + std::to_string(k) + "]",
                     "\"stepping\" drives points of what bends by gravity and wind alone; name the "
