@@ -163,7 +163,8 @@ TEST_CASE("a cloth falls on a ball, fixed or free, and lies over it alike on all
 }
 
 // Oracle: closed form. A bar whose Poisson's ratio is 0, hung by one end, gets longer by ρ g L²/2E:
-// its layers are springs in a row, of any number. Every point of the last layer, along each axis.
+// its layers are springs in a row, of any number. Every point of the last layer, along each axis:
+// measured below 1e-10, allowed 1e-8.
 TEST_CASE("a hanging bar lengthens by rho g L^2 / 2E") {
   const double young = 1e5, L = 1.0, rho = 1000.0, longer = rho * 9.81 * L * L / (2.0 * young);
   const int axis = GENERATE(0, 1, 2), n = GENERATE(1, 2);
