@@ -90,6 +90,16 @@ class Sower {
     return {pill.r * n + Vec3(0.0, n.y() > 0.0 ? 0.5 * pill.h : -0.5 * pill.h, 0.0), n};
   }
 
+  // A ball that is stretched: its area grows by |d/half|, up to that at the shortest half axis.
+  Root on(const Ellipsoid& egg) {
+    for (;;) {
+      const Vec3 d = directionBy(random_);
+      const Vec3 n = d.cwiseQuotient(egg.half);
+      if (random_.unit() * egg.half.cwiseInverse().maxCoeff() <= n.norm())
+        return {d.cwiseProduct(egg.half), n.normalized()};
+    }
+  }
+
   Root on(const Hull&) { return onTriangles(); }
   Root on(const Mesh&) { return onTriangles(); }
   Root on(const HalfSpace&) { return {}; }

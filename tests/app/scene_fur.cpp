@@ -85,7 +85,7 @@ TEST_CASE("roots are spread evenly over every shape that has a surface, and stan
   const auto corners = std::vector<Vec3>{{1, 1, 1},    {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1},
                                          {-1, -1, -1}, {-1, 1, 1},  {1, -1, 1},  {1, 1, -1}};
   std::vector<Shape> shapes = {Sphere{0.3}, Box{{0.2, 0.3, 0.4}}, Cylinder{0.2, 0.5},
-                               Capsule{0.1, 0.4}};
+                               Capsule{0.1, 0.4}, Ellipsoid{{0.1, 0.2, 0.3}}};
   const Shape hull = Hull{std::make_shared<const Polyhedron>(convexHull(corners)), Vec3::Zero()};
   shapes.push_back(centredShape({.name = "hull", .shape = hull, .mass = 1.0}));
   for (const Shape& shape : shapes) {
