@@ -234,8 +234,8 @@ void Presenter::finish(Picture& picture) const {
   picture.subtitle.clear();
 }
 
-// Below the title a line for each: what was measured, and what it should be. A formula that is one
-// coordinate gets a dotted line there, across or along the picture.
+// Below the title, if it is shown, a line for each: what was measured, and what it should be. A
+// formula that is one coordinate gets a dotted line there, across or along the picture.
 void Presenter::addExpectations(Picture& picture) const {
   double baseline = 100.0;
   for (const Expectation& one : expectations_) {
@@ -246,7 +246,7 @@ void Presenter::addExpectations(Picture& picture) const {
                              one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : "");
     label.size = 13.0f;
     label.colour = one.row.holds() ? colour::kQuiet : colour::kForce;
-    picture.labels.push_back(label);
+    if (scene_.show.title) picture.labels.push_back(label);
     baseline += 19.0;
     if (one.body && one.sample >= 0) picture.lines.push_back(expectedLine(one));
   }
