@@ -272,4 +272,14 @@ std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
   return std::nullopt;
 }
 
+double firstTouch(const FlyingBody& a, const FlyingBody& b, double touch, double h) {
+  double first = h;
+  for (const Convex& partA : a.parts)
+    for (const Convex& partB : b.parts) {
+      Approach approach({&a.flight, &partA, &a.body}, {&b.flight, &partB, &b.body}, touch);
+      if (const auto t = approach.firstTouch(0.0, first, true)) first = *t;
+    }
+  return first;
+}
+
 }  // namespace tumble

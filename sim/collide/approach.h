@@ -14,6 +14,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "sim/collide/contact_point.h"
 #include "sim/flight/flight.h"
@@ -89,5 +90,17 @@ class Approach {
   Vec3 ballNormal_ = Vec3::UnitY();
   ContactPoint wide_;  ///< the widest plane
 };
+
+/// All parts of a body on its way; `body` is overwritten.
+struct FlyingBody {
+  const Flight& flight;
+  std::span<const Convex> parts;
+  RigidBody& body;
+};
+
+/// The first time [s] in [0, h) at which any part of one touches any of the other; h if there is
+/// none. They may touch at 0, if they part from there.
+/// @param touch  as of Approach [m]
+double firstTouch(const FlyingBody& a, const FlyingBody& b, double touch, double h);
 
 }  // namespace tumble

@@ -245,13 +245,10 @@ double Crossing::firstTouch() const {
       }
       return Flight(body, body.invM * state_.outer[i], 0.0);
     };
-    const Flight flights[] = {flightOf(pair.a), flightOf(pair.b)};
-    for (const Convex& partA : state_.parts[pair.a])
-      for (const Convex& partB : state_.parts[pair.b]) {
-        Approach approach({&flights[0], &partA, &scratch[pair.a]},
-                          {&flights[1], &partB, &scratch[pair.b]}, 1e-2 * touch);
-        if (const auto t = approach.firstTouch(0.0, first, true)) first = *t;
-      }
+    const Flight flightA = flightOf(pair.a), flightB = flightOf(pair.b);
+    first =
+        tumble::firstTouch({flightA, state_.parts[pair.a], scratch[pair.a]},
+                           {flightB, state_.parts[pair.b], scratch[pair.b]}, 1e-2 * touch, first);
   }
   return first;
 }

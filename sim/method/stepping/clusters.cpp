@@ -52,8 +52,7 @@ bool Stepping::findClusters(double h) {
                        [&](const Touch& touch) { return touch.rebounds && touch.due < h; });
   };
   if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), hits)) return false;
-  partBodies();
-  for (const auto& [b, a] : state_.near) joinBodies(a, b);
+  joinNear();
   const int n = model_.count();
   std::vector<int>& number = work_.island;  // per root
   number.assign(n, kCalm);

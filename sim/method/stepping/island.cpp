@@ -105,6 +105,11 @@ void Stepping::joinBodies(int a, int b) {
   work_.root[std::max(p, q)] = std::min(p, q);
 }
 
+void Stepping::joinNear() {
+  partBodies();
+  for (const auto& [b, a] : state_.near) joinBodies(a, b);
+}
+
 /// Deals what joins bodies out to islands, in the order of their first links.
 [[gnu::flatten]] void Stepping::groupLinks(double h) {
   const int count = static_cast<int>(state_.near.size() + work_.bonds.rows.size());

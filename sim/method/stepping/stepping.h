@@ -173,6 +173,8 @@ class Stepping {
   /// The forest of islands: each body alone, and two bodies that something joins as one.
   void partBodies();
   void joinBodies(int a, int b);
+  /// The forest in which bodies that are near each other are as one.
+  void joinNear();
   std::pair<int, int> ends(Link link) const;
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
   Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }

@@ -11,18 +11,19 @@ namespace tumble {
 
 void Stepping::findCrowded(double h) {
   std::vector<PairMemory>& pairs = memory_.pairs;
-  std::size_t k = 0;
-  for (; k < pairs.size(); ++k) pairs[k].crowded = false;
-  for (k = 0; k < pairs.size() && !tumbles(k, h); ++k) {
+  bool any = false;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    pairs[k].crowded = false;
+    any = any || tumbles(k, h);
   }
-  if (k == pairs.size()) return;
-  partBodies();
-  for (const auto& [b, a] : state_.near) joinBodies(a, b);
+  if (!any) return;
+  joinNear();
   std::vector<int>& weight = work_.island;  // per root
   weight.assign(state_.bodies.size(), 0);
-  for (k = 0; k < pairs.size(); ++k)
+  for (std::size_t k = 0; k < pairs.size(); ++k)
     if (!pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(pairs[k]);
-  for (k = 0; k < pairs.size(); ++k) pairs[k].crowded = weight[rootOf(k)] > kReflectionsReach;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    pairs[k].crowded = weight[rootOf(k)] > kReflectionsReach;
 }
 
 bool Stepping::tumbles(std::size_t pair, double h) const {
@@ -38,8 +39,7 @@ bool Stepping::tumbles(std::size_t pair, double h) const {
 
 bool Stepping::fliesFree(int i) const {
   const RigidBody& body = state_.bodies[i];
-  return body.fixed() || (!work_.held[i] && !isDriven(i) && memory_.drives->dragOf[i] < 0 &&
-                          body.torque.isZero(0.0));
+  return body.fixed() || (!work_.held[i] && !isDriven(i) && body.torque.isZero(0.0));
 }
 
 const std::vector<Convex>& Stepping::partsOf(int body) {
@@ -66,15 +66,10 @@ void Stepping::foreseeMeeting(std::size_t pair, double h) {
     const RigidBody& body = state_.bodies[i];
     return Flight(body, body.invM * body.force, 0.0);
   };
-  const Flight flights[] = {flightOf(ia), flightOf(ib)};
+  const Flight flightA = flightOf(ia), flightB = flightOf(ib);
   RigidBody a = state_.bodies[ia], b = state_.bodies[ib];
-  double first = h;
-  for (const Convex& partA : partsOf(ia))
-    for (const Convex& partB : partsOf(ib)) {
-      Approach approach({&flights[0], &partA, &a}, {&flights[1], &partB, &b},
-                        1e-2 * tolerance_.touch);
-      if (const auto t = approach.firstTouch(0.0, first, true)) first = *t;
-    }
+  const double first =
+      firstTouch({flightA, partsOf(ia), a}, {flightB, partsOf(ib), b}, 1e-2 * tolerance_.touch, h);
   if (first == h) return;
   nearest->rebounds = true;
   nearest->due = first;
