@@ -1,4 +1,5 @@
-// Chapter 6, problem: the stages of the proximal augmented Lagrangian.
+// Chapter 6, problem: the stages of the proximal augmented Lagrangian; one class and long, for they
+// hand one state to each other.
 #include <algorithm>
 #include <cmath>
 #include <limits>

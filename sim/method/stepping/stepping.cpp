@@ -261,13 +261,15 @@ void Stepping::joinStill() {
   Segment& now = trail.back();
   now.still = allKept_ && !divided_ && now.pieces.empty() && now.joints.empty() &&
               std::equal(now.start.begin(), now.start.end(), now.end.begin(), sameState);
-  const bool goesOn =
-      now.still && stillSteps_ > 0 &&
-      std::equal(now.contacts.begin(), now.contacts.end(), trail[trail.size() - 2].contacts.begin(),
-                 trail[trail.size() - 2].contacts.end(), sameForce);
-  stillSteps_ = goesOn ? stillSteps_ + 1 : now.still ? 1 : 0;
-  if (stillSteps_ < 3) return;
+  if (!now.still || stillSteps_ == 0) {
+    stillSteps_ = now.still ? 1 : 0;
+    return;
+  }
   Segment& before = trail[trail.size() - 2];
+  const bool goesOn = std::equal(now.contacts.begin(), now.contacts.end(), before.contacts.begin(),
+                                 before.contacts.end(), sameForce);
+  stillSteps_ = goesOn ? stillSteps_ + 1 : 1;
+  if (stillSteps_ < 3) return;
   before.t1 = now.t1;
   ++before.steps;
   state_.spareTrail.push_back(std::move(now));
