@@ -239,6 +239,8 @@ void Presenter::finish(Picture& picture) const {
 void Presenter::addExpectations(Picture& picture) const {
   double baseline = 100.0;
   for (const Expectation& one : expectations_) {
+    if (one.body && one.sample >= 0) picture.lines.push_back(expectedLine(one));
+    if (!scene_.show.title) continue;
     Label label;
     label.offset = {32.0, baseline};
     label.text = fmt::format("{}: {:.6g}, expected {}{:.6g}{}", one.row.label, one.row.measured,
@@ -246,9 +248,8 @@ void Presenter::addExpectations(Picture& picture) const {
                              one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : "");
     label.size = 13.0f;
     label.colour = one.row.holds() ? colour::kQuiet : colour::kForce;
-    if (scene_.show.title) picture.labels.push_back(label);
+    picture.labels.push_back(label);
     baseline += 19.0;
-    if (one.body && one.sample >= 0) picture.lines.push_back(expectedLine(one));
   }
 }
 
