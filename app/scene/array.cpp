@@ -79,13 +79,10 @@ void expand(Section& section, const std::string& name, Generator& generator, Nod
   }
 }
 
-void readArray(const Node& node, const std::string& index, Section& root,
-               const Materials& materials, Weather& weather, BodyList& bodies) {
-  const Table* table = node.as<Table>();
-  const Entry* named = table ? table->find("name") : nullptr;
-  const std::string* given = named ? named->node.as<std::string>() : nullptr;
-  Section section(node, "array." + (given && isName(*given) ? *given : index), root.findings());
-  if (!table) return;
+void readArray(const Node& node, std::size_t number, Section& root, const Materials& materials,
+               Weather& weather, BodyList& bodies) {
+  Section section(node, pathOf("array", node, number), root.findings());
+  if (!node.as<Table>()) return;
 
   const std::string name = readName(section);
   const GeneratorRow* row = readKind(section);
@@ -105,9 +102,9 @@ void readArray(const Node& node, const std::string& index, Section& root,
 void readArrays(Section& root, const Materials& materials, std::uint64_t seed, const Vec3& gravity,
                 BodyList& bodies) {
   Weather weather{seed, gravity, {}};
-  int index = 0;
+  std::size_t number = 0;
   for (const Node& node : root.tables("array"))
-    readArray(node, std::to_string(index++), root, materials, weather, bodies);
+    readArray(node, number++, root, materials, weather, bodies);
 }
 
 }  // namespace tumble

@@ -44,13 +44,6 @@ void pin(Section& section, const BentTable& bent, const BodyDef& point, int numb
 
 }  // namespace
 
-std::string keyOf(const char* kind, const Node& node, int number) {
-  const Table* table = node.as<Table>();
-  const Entry* named = table ? table->find("name") : nullptr;
-  const std::string* given = named ? named->node.as<std::string>() : nullptr;
-  return std::string(kind) + "." + (given && isName(*given) ? *given : std::to_string(number));
-}
-
 BentTable readBentNamed(Section& section, const Materials& materials) {
   BentTable bent;
   section.read("name", bent.name);

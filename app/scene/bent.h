@@ -40,7 +40,4 @@ BentDef addBent(Section& section, const BentTable& bent, const std::vector<Vec3>
                 const std::function<std::vector<Element>(int first)>& elements, BodyList& bodies,
                 Scene& scene);
 
-/// How a person addresses one of several tables: "cloth.NAME", or by its number.
-std::string keyOf(const char* kind, const Node& node, int number);
-
 }  // namespace tumble

@@ -230,20 +230,15 @@ std::vector<int> BodyList::group(Section& section, std::string_view key) const {
 }
 
 void readBodies(Section& root, const Materials& materials, BodyList& bodies) {
-  int number = 0;
+  std::size_t number = 0;
   for (const Node& node : root.tables("body")) {
     if (bodies.full(node.spot, root.findings())) return;
-    // The name first: complaints about the other keys use it.
-    const std::string index = std::to_string(number++);
-    const Table* table = node.as<Table>();
-    const Entry* given = table ? table->find("name") : nullptr;
-    const std::string* name = given ? given->node.as<std::string>() : nullptr;
-    Section section(node, "body." + (name && isName(*name) ? *name : index), root.findings(),
-                    bodies.nextPath());
-    std::string text = "body." + index;
+    Section section(node, pathOf("body", node, number), root.findings(), bodies.nextPath());
+    std::string text = "body." + std::to_string(number++);
     section.read("name", text);
+    const Node* given = section.find("name");
     BodyEntry entry = readBody(section, text, materials);
-    bodies.add(std::move(entry), given ? given->node.spot : node.spot, section);
+    bodies.add(std::move(entry), given ? given->spot : node.spot, section);
   }
 }
 

@@ -78,9 +78,9 @@ std::vector<std::array<int, 3>> trianglesOf(const ClothDef& cloth) {
 }  // namespace
 
 void readCloths(Section& root, const Materials& materials, BodyList& bodies, Scene& scene) {
-  int number = 0;
+  std::size_t number = 0;
   for (const Node& node : root.tables("cloth")) {
-    Section section(node, keyOf("cloth", node, number++), root.findings());
+    Section section(node, pathOf("cloth", node, number++), root.findings());
     if (!node.as<Table>()) continue;
     BentTable bent = readBent(section, materials);
     const ClothDef cloth = readWeave(section);

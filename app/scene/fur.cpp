@@ -94,9 +94,9 @@ void addStrand(Section& section, const FurTable& fur, const Root& root, int numb
 }  // namespace
 
 void readFurs(Section& root, const Materials& materials, BodyList& bodies, Scene& scene) {
-  int number = 0;
+  std::size_t number = 0;
   for (const Node& node : root.tables("fur")) {
-    Section section(node, keyOf("fur", node, number++), root.findings());
+    Section section(node, pathOf("fur", node, number++), root.findings());
     if (!node.as<Table>()) continue;
     const FurTable fur = readFur(section, materials, bodies);
     if (!section.good() || !fur.on) continue;

@@ -60,13 +60,8 @@ void readJoints(Section& root, const BodyList& bodies, std::vector<JointDef>& jo
   std::vector<std::string> kinds;
   for (const JointName& row : jointNames()) kinds.emplace_back(row.name);
   for (const Node& node : root.tables("joint")) {
-    // The name first: complaints about the other keys use it.
-    const std::string index = std::to_string(joints.size());
-    const Table* table = node.as<Table>();
-    const Entry* given = table ? table->find("name") : nullptr;
-    const std::string* called = given ? given->node.as<std::string>() : nullptr;
-    Section section(node, "joint." + (called && isName(*called) ? *called : index), root.findings(),
-                    "joints[" + index + "]");
+    Section section(node, pathOf("joint", node, joints.size()), root.findings(),
+                    "joints[" + std::to_string(joints.size()) + "]");
     JointDef joint;
     std::string kind;
     readName(section, joints, joint);

@@ -138,6 +138,13 @@ bool isName(std::string_view text) {
   return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), allowed);
 }
 
+std::string pathOf(std::string_view kind, const Node& node, std::size_t number) {
+  const Table* table = node.as<Table>();
+  const Entry* entry = table ? table->find("name") : nullptr;
+  const std::string* name = entry ? entry->node.as<std::string>() : nullptr;
+  return std::string(kind) + "." + (name && isName(*name) ? *name : std::to_string(number));
+}
+
 std::string plain(std::string_view key) {
   return isName(key) ? std::string(key) : inQuotes(key);
 }

@@ -67,6 +67,10 @@ std::string inQuotes(std::string_view text);
 /// Names of bodies, materials and arrays: 1 to 64 of A–Z a–z 0–9 _ and the dot.
 bool isName(std::string_view text);
 
+/// How a person addresses one of several tables of a kind: "body.NAME", or by its number if it has
+/// none, or one that is no name.
+std::string pathOf(std::string_view kind, const Node& node, std::size_t number);
+
 /// A key for a message: as it stands if it is a name, else quoted.
 std::string plain(std::string_view key);
 

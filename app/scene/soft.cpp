@@ -61,9 +61,9 @@ void readPins(Section& section, const SoftDef& soft, std::vector<int>& pins) {
 }  // namespace
 
 void readSofts(Section& root, const Materials& materials, BodyList& bodies, Scene& scene) {
-  int number = 0;
+  std::size_t number = 0;
   for (const Node& node : root.tables("soft")) {
-    Section section(node, keyOf("soft", node, number++), root.findings());
+    Section section(node, pathOf("soft", node, number++), root.findings());
     if (!node.as<Table>()) continue;
     BentTable bent = readBent(section, materials);
     const SoftDef soft = readSolid(section);
