@@ -3,6 +3,7 @@
 
 #include "app/scene/scene.h"
 #include "sim/world.h"
+#include "tests/app/complaint.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -15,21 +16,6 @@ const std::string kCloth =
     "[[cloth]]\nname = \"c\"\n";
 const std::string kGrid = "columns = 4\nrows = 3\nsize = [0.3, 0.2]\n";
 const std::string kSoft = "[world]\n[[soft]]\nname = \"s\"\n";
-
-/// The first complaint, as people read it.
-std::string complaint(const std::string& text) {
-  try {
-    const Scene scene = parseScene(text, "s.toml");
-    try {
-      const World world(scene.world);
-    } catch (const Refusal& refusal) {
-      return format(locate(scene, refusal));
-    }
-  } catch (const SceneError& error) {
-    return format(error.diagnostics().front());
-  }
-  return "";
-}
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "app/scene/scene.h"
 #include "sim/shape/convex_hull.h"
 #include "sim/world.h"
+#include "tests/app/complaint.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -23,20 +24,6 @@ std::string ballWith(const std::string& keys, const std::string& body = "fixed =
          body + "[[fur]]\nname = \"hair\"\non = \"ball\"\n" + keys;
 }
 const std::string kFew = "strands = 20\npoints = 6\nlength = 0.1\nthickness = 0.004\n";
-
-std::string complaint(const std::string& text) {
-  try {
-    const Scene scene = parseScene(text, "s.toml");
-    try {
-      const World world(scene.world);
-    } catch (const Refusal& refusal) {
-      return format(locate(scene, refusal));
-    }
-  } catch (const SceneError& error) {
-    return format(error.diagnostics().front());
-  }
-  return "";
-}
 
 bool says(const std::string& text, const std::string& what) {
   return complaint(text).find(what) != std::string::npos;
