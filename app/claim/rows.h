@@ -28,6 +28,7 @@ std::vector<ClaimRow> apartRows(const Scene&, const Recording&);
 std::vector<ClaimRow> slidingRows(const Scene&, const Recording&);
 std::vector<ClaimRow> wayRows(const Scene&, const Recording&);
 std::vector<ClaimRow> bookRows(const Scene&, const Recording&);
+std::vector<ClaimRow> crowdRows(const Scene&, const Recording&);
 std::vector<ClaimRow> equilibriumRows(const Scene&, const Recording&);
 std::vector<ClaimRow> settledRows(const Scene&, const Recording&);
 std::vector<ClaimRow> topplingRows(const Scene&, const Recording&);
