@@ -13,11 +13,14 @@ struct GeneratorRow {
   const char* kind;
   Generator (*make)(Section& array, Weather& weather);
 };
-constexpr std::array<GeneratorRow, 5> kGenerators = {{{"row", makeRow},
+constexpr std::array<GeneratorRow, 8> kGenerators = {{{"row", makeRow},
                                                       {"tower", makeTower},
                                                       {"wall", makeWall},
                                                       {"rain", makeRain},
-                                                      {"fountain", makeFountain}}};
+                                                      {"fountain", makeFountain},
+                                                      {"circle", makeCircle},
+                                                      {"spiral", makeSpiral},
+                                                      {"rack", makeRack}}};
 
 const GeneratorRow* readKind(Section& section) {
   std::vector<std::string> kinds;

@@ -13,6 +13,9 @@ namespace tumble {
 ///   kind = "fountain"  count bodies thrown from base with speed, within spread of the vertical,
 ///   each
 ///                   as old as a draw from ages says: x = base + v a + ½ g a²; see fountain.cpp
+///   kind = "circle" count bodies evenly on a circle about the template's position, X along it;
+///   kind = "spiral" the same on a spiral of Archimedes, equal chords from copy to copy;
+///   kind = "rack"   balls in rows of 1, 2, 3, …, a triangle; see path.cpp
 /// vary = { restitution = [0, 1], "shape.sphere" = [0.1, 0.2] } makes numbers of the template run
 /// evenly from the first copy to the last.
 /// @param gravity  [m/s²], for what is thrown

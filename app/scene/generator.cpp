@@ -1,5 +1,7 @@
-// Rows and towers.
+// What arrays share; rows and towers.
 #include "app/scene/generator.h"
+
+#include <cmath>
 
 namespace tumble {
 
@@ -8,6 +10,26 @@ int readCount(Section& array, int most) {
   array.read("count", count, 1, most);
   if (!array.find("count")) array.complain("count", "missing");
   return count;
+}
+
+Vec3 readLevelDirection(Section& array) {
+  Vec3 along = Vec3::UnitX();
+  array.read("along", along, any({}));
+  const double length = along.stableNorm();
+  if (length < 1e-9 || along.y() != 0.0)
+    array.complain("along", "expected a level direction, [x, 0, z], that is not zero");
+  return along / length;
+}
+
+// Half angles by square roots, from the larger of sine and cosine.
+Quat turnTo(const Vec3& along) {
+  const double c = along.x(), s = -along.z();
+  if (c >= 0.0) {
+    const double w = std::sqrt(0.5 * (1.0 + c));
+    return Quat(w, 0.0, 0.5 * s / w, 0.0);
+  }
+  const double y = std::sqrt(0.5 * (1.0 - c));
+  return Quat(0.5 * s / y, 0.0, y, 0.0);
 }
 
 Generator makeRow(Section& array, Weather&) {

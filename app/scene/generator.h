@@ -36,10 +36,19 @@ Generator makeTower(Section& array, Weather& weather);
 Generator makeWall(Section& array, Weather& weather);
 Generator makeRain(Section& array, Weather& weather);
 Generator makeFountain(Section& array, Weather& weather);
+Generator makeCircle(Section& array, Weather& weather);
+Generator makeSpiral(Section& array, Weather& weather);
+Generator makeRack(Section& array, Weather& weather);
 
 inline constexpr int kMostCopies = 100'000;
 
 /// The key `count`, which has to be there.
 int readCount(Section& array, int most = kMostCopies);
+
+/// The key `along`: a level direction, as a unit vector; X if it is not there.
+Vec3 readLevelDirection(Section& array);
+
+/// The rotation about Y that takes X to the unit vector `along` of the ground plane.
+Quat turnTo(const Vec3& along);
 
 }  // namespace tumble

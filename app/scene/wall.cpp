@@ -1,23 +1,9 @@
 // A wall of boxes in running bond.
-#include <cmath>
-
 #include "app/scene/generator.h"
 
 namespace tumble {
 
 namespace {
-
-// The rotation about Y that takes X to the unit vector `along` of the ground plane. Half angles by
-// square roots, from the larger of sine and cosine.
-Quat turnTo(const Vec3& along) {
-  const double c = along.x(), s = -along.z();
-  if (c >= 0.0) {
-    const double w = std::sqrt(0.5 * (1.0 + c));
-    return Quat(w, 0.0, 0.5 * s / w, 0.0);
-  }
-  const double y = std::sqrt(0.5 * (1.0 - c));
-  return Quat(0.5 * s / y, 0.0, y, 0.0);
-}
 
 struct Wall {
   int rows = 1, columns = 1;
@@ -61,11 +47,7 @@ Generator makeWall(Section& array, Weather&) {
   for (const char* key : {"rows", "columns"})
     if (!array.find(key)) array.complain(key, "missing");
   array.read("base", wall.base, any("m"));
-  array.read("along", wall.along, any({}));
-  const double length = wall.along.stableNorm();
-  if (length < 1e-9 || wall.along.y() != 0.0)
-    array.complain("along", "expected a level direction, [x, 0, z], that is not zero");
-  wall.along /= length;
+  wall.along = readLevelDirection(array);
 
   const long count = static_cast<long>(wall.rows) * wall.columns + wall.rows / 2;
   if (count > kMostCopies) array.complain("rows", "a wall of more than 100000 bricks");

@@ -127,6 +127,85 @@ TEST_CASE("a wall is whole: courses touch, bricks rest on two, and the ends are 
   }
 }
 
+// Oracle: closed form, R (cos φ, 0, −sin φ) with φ = 2π i/n, and X along the tangent. Measured
+// 4e-16, allowed 1e-12.
+TEST_CASE("a circle's copies lie evenly on it and look along it") {
+  const std::vector<BodyDef> ring = copies(
+      "kind = \"circle\"\ncount = 7\nradius = 2.5\n"
+      "body = { shape = { box = [0.1, 0.4, 0.2] }, mass = 1, position = [1, 2, 3], "
+      "orientation = { axis = [1, 0, 0], degrees = 90 } }");
+  REQUIRE(ring.size() == 7);
+  for (int i = 0; i < 7; ++i) {
+    const double angle = 2.0 * EIGEN_PI * i / 7.0;
+    const Vec3 outward(std::cos(angle), 0.0, -std::sin(angle));
+    CHECK((ring[i].position - Vec3(1.0, 2.0, 3.0) - 2.5 * outward).norm() < 1e-12);
+    // The template's own turn brings its Z down before it is led round.
+    CHECK((ring[i].orientation * Vec3::UnitX() - Vec3::UnitY().cross(outward)).norm() < 1e-12);
+    CHECK((ring[i].orientation * Vec3::UnitZ() + Vec3::UnitY()).norm() < 1e-12);
+  }
+}
+
+// Oracle: the spiral's own equations. Chords measured equal to 2e-14 of their length, allowed
+// 1e-12; off the curve 4e-16 m, allowed 1e-12.
+TEST_CASE("a spiral's copies lie on it, at one distance from each to the next") {
+  for (const double inner : {0.0, 0.3}) {
+    const double pitch = 0.24, spacing = 0.045;
+    const std::vector<BodyDef> spiral = copies(
+        "kind = \"spiral\"\ncount = 200\npitch = 0.24\nspacing = 0.045\ninner = " +
+        std::to_string(inner) +
+        "\nbody = { shape = { box = [0.01, 0.1, 0.05] }, mass = 1, position = [1, 0.05, -2] }");
+    REQUIRE(spiral.size() == 200);
+    double angle = 0.0;  // unwound
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 from = spiral[i].position - Vec3(1.0, 0.05, -2.0);
+      CHECK(from.y() == 0.0);
+      if (i == 0) {
+        CHECK((from - Vec3(inner, 0.0, 0.0)).norm() < 1e-15);
+        CHECK((spiral[0].orientation * Vec3::UnitX())
+                  .dot(Vec3(pitch / (2.0 * EIGEN_PI), 0.0, -inner).normalized()) ==
+              Approx(1.0).epsilon(1e-14));
+        continue;
+      }
+      const Vec3 chord = spiral[i].position - spiral[i - 1].position;
+      CHECK(std::abs(chord.norm() / spacing - 1.0) < 1e-12);
+      const double seen = std::atan2(-from.z(), from.x());
+      angle = seen + 2.0 * EIGEN_PI * std::ceil((angle - seen) / (2.0 * EIGEN_PI));
+      CHECK(std::abs(from.norm() - (inner + pitch * angle / (2.0 * EIGEN_PI))) < 1e-12);
+      const Vec3 outward = from.normalized();
+      const Vec3 tangent =
+          pitch / (2.0 * EIGEN_PI) * outward + from.norm() * Vec3::UnitY().cross(outward);
+      CHECK((spiral[i].orientation * Vec3::UnitX() - tangent.normalized()).norm() < 1e-12);
+    }
+  }
+}
+
+// Oracle: closed forms of a triangular lattice. Each of 15 balls is d from its neighbours, of which
+// there are 30 pairs, and √3 d or more from all others. Measured 2e-16 m, allowed 1e-12.
+TEST_CASE("racked balls lie at one gap from their neighbours, in a triangle") {
+  for (const double wide : {0.0, 0.001}) {
+    const std::vector<BodyDef> rack =
+        copies("kind = \"rack\"\nrows = 5\nalong = [3, 0, -4]\ngap = " + std::to_string(wide) +
+               "\nbody = { shape = { sphere = 0.0286 }, mass = 0.17, position = [1, 0.0286, 2] }");
+    REQUIRE(rack.size() == 15);
+    CHECK(rack[0].position == Vec3(1.0, 0.0286, 2.0));
+    const double d = 2.0 * 0.0286 + wide;
+    int neighbours = 0;
+    for (int i = 0; i < 15; ++i)
+      for (int k = 0; k < i; ++k) {
+        const double distance = (rack[i].position - rack[k].position).norm();
+        if (distance > 1.5 * d) {
+          CHECK(distance > std::sqrt(3.0) * d - 1e-12);
+          continue;
+        }
+        ++neighbours;
+        CHECK(std::abs(gap(rack[i], rack[k]) - wide) < 1e-12);
+      }
+    CHECK(neighbours == 30);
+    const Vec3 middle = (rack[10].position + rack[14].position) / 2.0 - rack[0].position;
+    CHECK((middle - 2.0 * std::sqrt(3.0) * d * Vec3(0.6, 0.0, -0.8)).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("rain falls within its box, apart from itself, and the same on every machine") {
   const std::string keys =
       "kind = \"rain\"\ncount = 200\nlo = [-1, 4, -1]\nhi = [1, 8, 1]\n"
