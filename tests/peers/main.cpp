@@ -1,0 +1,104 @@
+// peers: what the same scenes cost other engines, and how far off they end.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/file/file.h"
+#include "app/report/machine.h"
+#include "tests/peers/table.h"
+
+namespace {
+
+using namespace tumble;
+using namespace tumble::peers;
+
+struct Options {
+  std::string folder = "out/report";
+  std::vector<std::string> scenes, engines;
+  Plan plan;
+  bool quick = false;
+};
+
+Options readOptions(int argc, char** argv) {
+  Options options;
+  CLI::App line("Speed against error of other engines on tests/peers/scenes.", "peers");
+  line.add_option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
+  line.add_option("--scene", options.scenes, "only these, by their names in the table");
+  line.add_option("--engine", options.engines, "only these: tumble, Bullet, ODE, ...");
+  line.add_option("--repeats", options.plan.repeats, "runs for the clock, of each point [5]")
+      ->check(CLI::Range(1, 1000));
+  line.add_option("--most", options.plan.most, "CPU seconds that a run may take [30]")
+      ->check(CLI::Range(1.0, 1e4));
+  line.add_flag("--quick", options.quick, "three repeats, no more than 960 steps a second");
+  try {
+    line.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(line.exit(error) == 0 ? 0 : 2);
+  }
+  return options;
+}
+
+// Whether a list of names has one, or is empty.
+bool wanted(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<Trial> chosenTrials(const Options& options) {
+  constexpr double kQuick = 960.0;  // 1/s
+  std::vector<Trial> chosen;
+  for (Trial trial : trials()) {
+    if (!wanted(options.scenes, trial.name)) continue;
+    if (options.quick) std::erase_if(trial.rates, [](double rate) { return rate > kQuick; });
+    chosen.push_back(std::move(trial));
+  }
+  return chosen;
+}
+
+std::vector<EngineSetup> chosenSetups(const Options& options) {
+  std::vector<EngineSetup> chosen = allSetups();
+  std::erase_if(chosen, [&](const EngineSetup& s) { return !wanted(options.engines, s.engine); });
+  return chosen;
+}
+
+std::string gapsCsv(const std::vector<Gap>& gaps) {
+  std::string csv = "scene,engine,setting,why\n";
+  for (const Gap& gap : gaps)
+    csv += fmt::format("{},{},\"{}\",\"{}\"\n", gap.scene, gap.engine, gap.setting, gap.why);
+  return csv;
+}
+
+void compare(Options options) {
+  if (options.quick) options.plan.repeats = std::min(options.plan.repeats, 3);
+  makeFolder(options.folder);
+  const std::vector<EngineSetup> setups = chosenSetups(options);
+  std::vector<Point> points;
+  std::vector<Gap> gaps;
+  for (const Trial& trial : chosenTrials(options)) {
+    const Scene scene =
+        readScene(std::string(PEERS_SCENES "/") + trial.file + ".toml", trial.overrides);
+    fmt::print(stderr, "{} ...\n", trial.title);
+    for (Point& point : runTrial(trial, scene, setups, options.plan, gaps, [](double) {}))
+      points.push_back(std::move(point));
+    // What is there so far stays if a later scene is stopped.
+    writeFile(options.folder + "/peers.csv", pointsCsv(points));
+    writeFile(options.folder + "/peers-left-out.csv", gapsCsv(gaps));
+  }
+  const std::vector<Outcome> all = outcomes(points);
+  writeFile(options.folder + "/peers-duels.csv", duelsCsv(all));
+  writeFile(options.folder + "/peers.md", tableMarkdown(all));
+  fmt::print("{}", tableMarkdown(all));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    compare(readOptions(argc, argv));
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "peers: %s\n", error.what());
+    return 5;
+  }
+}
