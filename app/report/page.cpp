@@ -8,24 +8,6 @@ namespace tumble {
 
 namespace {
 
-// The start of a page with that title.
-std::string headOf(const std::string& title) {
-  constexpr const char* kStyle = R"(
-<style>
-body { margin: 2rem auto; max-width: 1000px; padding: 0 1rem; background: #f8f8f6; color: #2b2f36;
-       font: 16px/1.5 Lato, "DejaVu Sans", sans-serif; }
-h2 { margin: 3rem 0 0; } p { margin: .3rem 0 1rem; color: #5c636e; } img { width: 100%; background: #fff; }
-table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
-td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
-td:first-child, th:first-child, td:nth-child(2), th:nth-child(2) { text-align: left; }
-</style></head><body>
-)";
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>tumble: " +
-         title +
-         "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">" +
-         kStyle + "<h1>" + title + "</h1>\n";
-}
-
 constexpr const char* kIntroduction =
     R"(<p>Good is lower left. Each point is one run: across, the error that the figure names, over the whole
 run; upwards, the CPU seconds that a simulated second takes, the least of at least five runs made for
@@ -62,12 +44,35 @@ void addFigure(const std::string& name, const std::string& title, const std::str
 
 }  // namespace
 
+std::string pageHead(const std::string& title) {
+  constexpr const char* kStyle = R"(
+<style>
+body { margin: 2rem auto; max-width: 1000px; padding: 0 1rem; background: #f8f8f6; color: #2b2f36;
+       font: 16px/1.5 Lato, "DejaVu Sans", sans-serif; }
+h2 { margin: 3rem 0 0; } p { margin: .3rem 0 1rem; color: #5c636e; } img { width: 100%; background: #fff; }
+table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
+td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
+td:first-child, th:first-child, td:nth-child(2), th:nth-child(2) { text-align: left; }
+</style></head><body>
+)";
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>tumble: " +
+         title +
+         "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">" +
+         kStyle + "<h1>" + title + "</h1>\n";
+}
+
+std::string figureSection(const Study& study, bool figures) {
+  std::string out;
+  addFigure(study.name, study.chart.variant.title, study.chart.subtitle, figures, out);
+  return out;
+}
+
 std::string reportPage(const std::vector<Study>& studies, const std::string& machine, bool figures,
                        const std::vector<Scaling>& scalings, const std::vector<Profile>& profiles) {
-  std::string out = headOf("Speed against error") + kIntroduction;
+  std::string out = pageHead("Speed against error") + kIntroduction;
   out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine));
   for (const Study& study : studies)
-    addFigure(study.name, study.chart.variant.title, study.chart.subtitle, figures, out);
+    out += figureSection(study, figures);
   out +=
       "<h2 id=\"table\">Time to an accuracy</h2>\n<p>CPU seconds for a simulated second of the "
       "cheapest run that is right to so much; <a href=\"table.csv\">numbers</a>, "
@@ -92,7 +97,7 @@ std::string reportPage(const std::vector<Study>& studies, const std::string& mac
 
 std::string convergencePage(const std::vector<SpeedOfScene>& demos, const std::string& machine,
                             bool figures) {
-  std::string out = headOf("Convergence");
+  std::string out = pageHead("Convergence");
   out += fmt::format(
       "<p>The first {:g} s of each demo by every method "
       "that takes it, at the demo's step, its half, quarter and eighth. The error is Richardson's "

@@ -14,6 +14,13 @@ struct SpeedOfScene {
   Study speed;
 };
 
+/// The start of a page with that title, up to and with its heading.
+std::string pageHead(const std::string& title);
+
+/// A figure of a page, with links to its numbers and its script.
+/// @param figures  whether gnuplot has drawn it
+std::string figureSection(const Study& study, bool figures);
+
 /// index.html beside the figures.
 /// @param figures  whether gnuplot has drawn them; without them the page links the numbers alone
 std::string reportPage(const std::vector<Study>& studies, const std::string& machine, bool figures,

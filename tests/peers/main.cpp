@@ -7,6 +7,8 @@
 
 #include "app/file/file.h"
 #include "app/report/machine.h"
+#include "app/report/plot.h"
+#include "tests/peers/page.h"
 #include "tests/peers/table.h"
 
 namespace {
@@ -69,15 +71,38 @@ std::string gapsCsv(const std::vector<Gap>& gaps) {
   return csv;
 }
 
+// Table, page and figures of what was measured, with what was recorded elsewhere.
+void show(const std::string& folder, const std::vector<Trial>& trials,
+          const std::vector<EngineSetup>& setups, std::vector<Point> points) {
+  const std::vector<Outcome> all = outcomes(points);
+  writeFile(folder + "/peers-duels.csv", duelsCsv(all));
+  writeFile(folder + "/peers.md", tableMarkdown(all));
+  fmt::print("{}", tableMarkdown(all));
+  for (Point& point : recordedPoints(PEERS_FOLDER "/recorded.csv")) points.push_back(point);
+  writeFile(folder + "/peers.csv", pointsCsv(points));
+  const std::vector<Study> studies = figures(trials, points);
+  const std::string machine = machineLine();
+  for (const Study& study : studies) {
+    writeFile(folder + "/" + study.name + ".csv", studyCsv(study));
+    writeFile(folder + "/" + study.name + ".gp", plotScript(study, labelsOf(studies), machine));
+  }
+  // Without gnuplot the page stays, with the numbers alone.
+  writeFile(folder + "/peers.html", peersPage(all, studies, setups, machine, false));
+  for (const Study& study : studies) runGnuplot(folder, study.name);
+  writeFile(folder + "/peers.html", peersPage(all, studies, setups, machine, true));
+  fmt::print("{}/peers.html\n", folder);
+}
+
 void compare(Options options) {
   if (options.quick) options.plan.repeats = std::min(options.plan.repeats, 3);
   makeFolder(options.folder);
   const std::vector<EngineSetup> setups = chosenSetups(options);
   std::vector<Point> points;
   std::vector<Gap> gaps;
-  for (const Trial& trial : chosenTrials(options)) {
+  const std::vector<Trial> trials = chosenTrials(options);
+  for (const Trial& trial : trials) {
     const Scene scene =
-        readScene(std::string(PEERS_SCENES "/") + trial.file + ".toml", trial.overrides);
+        readScene(std::string(PEERS_FOLDER "/scenes/") + trial.file + ".toml", trial.overrides);
     fmt::print(stderr, "{} ...\n", trial.title);
     for (Point& point : runTrial(trial, scene, setups, options.plan, gaps, [](double) {}))
       points.push_back(std::move(point));
@@ -85,10 +110,7 @@ void compare(Options options) {
     writeFile(options.folder + "/peers.csv", pointsCsv(points));
     writeFile(options.folder + "/peers-left-out.csv", gapsCsv(gaps));
   }
-  const std::vector<Outcome> all = outcomes(points);
-  writeFile(options.folder + "/peers-duels.csv", duelsCsv(all));
-  writeFile(options.folder + "/peers.md", tableMarkdown(all));
-  fmt::print("{}", tableMarkdown(all));
+  show(options.folder, trials, setups, std::move(points));
 }
 
 }  // namespace

@@ -54,13 +54,15 @@ Motion motionOf(const EngineSetup& setup, const Scene& scene, double rate) {
 struct Measured {
   std::optional<double> error;
   std::string why;
-  bool slow = false;
+  bool last = false;  ///< finer steps would do no better
 };
 Measured measure(const Trial& trial, const EngineSetup& setup, const Scene& scene, double rate,
                  double most) {
   const Bounded run = runBounded(most, [&](const Send& send) {
     try {
       send(fmt::format("{:.17g}", trial.measure(scene, motionOf(setup, scene, rate))));
+    } catch (const CannotExpress& error) {
+      send(std::string("?cannot express ") + error.what());
     } catch (const std::exception& error) {
       send(std::string("!") + error.what());
     }
@@ -68,6 +70,7 @@ Measured measure(const Trial& trial, const EngineSetup& setup, const Scene& scen
   if (run.outOfTime) return {{}, fmt::format("takes more than {:g} CPU s", most), true};
   if (!run.whole || run.sent.empty()) return {{}, "ended the process"};
   if (run.sent.front() == '!') return {{}, run.sent.substr(1)};
+  if (run.sent.front() == '?') return {{}, run.sent.substr(1), true};
   const double error = std::strtod(run.sent.c_str(), nullptr);
   if (!std::isfinite(error)) return {{}, "lost: " + trial.error};
   return {error, ""};
@@ -120,7 +123,7 @@ std::vector<Job> measureAll(const Trial& trial, const Scene& scene,
       else
         gaps.push_back(
             {trial.name, setup.engine, fmt::format("{}, {:g}/s", setup.name, rate), measured.why});
-      if (measured.slow || setup.stepless) break;
+      if (measured.last || setup.stepless) break;
     }
     progress(0.5 * static_cast<double>(i + 1) / static_cast<double>(setups.size()));
   }
