@@ -92,3 +92,16 @@ TEST_CASE("scenes that are lost stand first, recorded rows take no part") {
   CHECK(rows[1][4] == "0.56 [0.56, 0.56] lost");
   CHECK(rows[2][4] == "5 [5, 5] won");
 }
+
+TEST_CASE("points come back from their file, but for recorded ones") {
+  std::vector<Point> points = {point("tumble", "auto", 60, 1e-6, 1.5),
+                               point("Bullet", "tuned, 200", 240, 2.5e-3, 0.25)};
+  points.push_back(points.back());
+  points.back().recorded = true;
+  const std::vector<Point> back = readPoints(pointsCsv(points));
+  REQUIRE(back.size() == 2);
+  CHECK(back[0].asItComes);
+  CHECK(back[1].setting == "tuned, 200");
+  CHECK(back[1].rate == 240.0);
+  CHECK(back[1].costs == std::vector{0.25, 0.25});
+}

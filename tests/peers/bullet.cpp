@@ -158,7 +158,8 @@ std::vector<EngineSetup> bulletSetups() {
           Meant::ManyMove),
       row("tuned, 200", "tuned with 200 iterations, for unlike masses",
           {.iterations = 200, .restitutionFrom = 0.0, .twoDirections = true}, Meant::ManyMove),
-      row("Dantzig", "its pivoting solver", {.restitutionFrom = 0.0, .dantzig = true}),
+      row("Dantzig", "its pivoting solver", {.restitutionFrom = 0.0, .dantzig = true},
+          Meant::FewMove),
       row("gyro in world", "the gyroscopic term solved in the world frame", {.worldGyro = true},
           Meant::OneMoves),
   };

@@ -22,7 +22,16 @@ bool meantFor(const EngineSetup& setup, const WorldDef& world) {
   const auto moving = std::count_if(world.bodies.begin(), world.bodies.end(), [](const auto& body) {
     return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
   });
-  return setup.meant == Meant::Always || (setup.meant == Meant::ManyMove) == (moving > 1);
+  switch (setup.meant) {
+    case Meant::OneMoves:
+      return moving == 1;
+    case Meant::ManyMove:
+      return moving > 1;
+    case Meant::FewMove:
+      return moving <= 50;
+    default:
+      return true;
+  }
 }
 
 std::vector<EngineSetup> allSetups() {

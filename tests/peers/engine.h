@@ -28,8 +28,9 @@ class Engine {
   virtual void read(std::vector<BodySample>& bodies) const = 0;
 };
 
-/// Which scenes a setup is meant for: what solves stacks better only costs where one body moves.
-enum class Meant { Always, OneMoves, ManyMove };
+/// Which scenes a setup is meant for: what solves stacks better only costs where one body moves,
+/// and dense pivoting takes minutes where more than fifty do.
+enum class Meant { Always, OneMoves, ManyMove, FewMove };
 
 /// How an engine is set up: as it comes, or as well as we know to.
 struct EngineSetup {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "app/file/file.h"
 #include "app/report/machine.h"
@@ -20,7 +21,7 @@ struct Options {
   std::string folder = "out/report";
   std::vector<std::string> scenes, engines;
   Plan plan;
-  bool quick = false;
+  bool quick = false, resume = false;
 };
 
 Options readOptions(int argc, char** argv) {
@@ -34,6 +35,7 @@ Options readOptions(int argc, char** argv) {
   line.add_option("--most", options.plan.most, "CPU seconds that a run may take [30]")
       ->check(CLI::Range(1.0, 1e4));
   line.add_flag("--quick", options.quick, "three repeats, no more than 960 steps a second");
+  line.add_flag("--resume", options.resume, "keep the scenes that peers.csv in the folder has");
   try {
     line.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -100,14 +102,19 @@ void compare(Options options) {
   std::vector<Point> points;
   std::vector<Gap> gaps;
   const std::vector<Trial> trials = chosenTrials(options);
+  const std::string file = options.folder + "/peers.csv";
+  if (options.resume && std::filesystem::exists(file)) points = readPoints(readFile(file));
   for (const Trial& trial : trials) {
+    if (std::any_of(points.begin(), points.end(),
+                    [&](const Point& point) { return point.scene == trial.name; }))
+      continue;
     const Scene scene =
         readScene(std::string(PEERS_FOLDER "/scenes/") + trial.file + ".toml", trial.overrides);
     fmt::print(stderr, "{} ...\n", trial.title);
     for (Point& point : runTrial(trial, scene, setups, options.plan, gaps, [](double) {}))
       points.push_back(std::move(point));
     // What is there so far stays if a later scene is stopped.
-    writeFile(options.folder + "/peers.csv", pointsCsv(points));
+    writeFile(file, pointsCsv(points));
     writeFile(options.folder + "/peers-left-out.csv", gapsCsv(gaps));
   }
   show(options.folder, trials, setups, std::move(points));

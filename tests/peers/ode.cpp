@@ -170,15 +170,15 @@ EngineSetup row(const std::string& name, const std::string& why, const OdeSetup&
 
 std::vector<EngineSetup> odeSetups() {
   return {
-      row("default", "dWorldStep as it comes", {}),
+      row("default", "dWorldStep as it comes", {}, Meant::FewMove),
       row("quick", "dWorldQuickStep as it comes, 20 sweeps", {.sweeps = 20}),
       row("quick, 100", "with 100 sweeps, for stacks", {.sweeps = 100}, Meant::ManyMove),
       row("hard", "no softness at all: rebounds keep their energy", {.cfm = 0.0}, Meant::OneMoves),
       row("soft 4", "softer, four contacts a pair: dWorldStep finds an answer more often",
-          {.cfm = 1e-5, .contacts = 4}),
-      row("soft 8", "a little softer, for unlike masses", {.cfm = 1e-8}),
+          {.cfm = 1e-5, .contacts = 4}, Meant::FewMove),
+      row("soft 8", "a little softer, for unlike masses", {.cfm = 1e-8}, Meant::FewMove),
       row("aligned", "soft 4 with friction along the slip, which is right in any direction",
-          {.cfm = 1e-5, .contacts = 4, .aligned = true}),
+          {.cfm = 1e-5, .contacts = 4, .aligned = true}, Meant::FewMove),
       row("finite", "rotations advance by finite angles", {.finite = true}, Meant::OneMoves),
   };
 }

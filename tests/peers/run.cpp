@@ -69,7 +69,7 @@ Measured measure(const Trial& trial, const EngineSetup& setup, const Scene& scen
   });
   if (run.outOfTime) return {{}, fmt::format("takes more than {:g} CPU s", most), true};
   if (!run.whole || run.sent.empty()) return {{}, "ended the process"};
-  if (run.sent.front() == '!') return {{}, run.sent.substr(1)};
+  if (run.sent.front() == '!') return {{}, run.sent.substr(1, run.sent.find('\n') - 1)};
   if (run.sent.front() == '?') return {{}, run.sent.substr(1), true};
   const double error = std::strtod(run.sent.c_str(), nullptr);
   if (!std::isfinite(error)) return {{}, "lost: " + trial.error};

@@ -5,12 +5,31 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "app/record/output.h"
 
 namespace tumble::peers {
 
 namespace {
+
+constexpr const char* kMeasured = "measured";
+
+// The cells of a row; commas between quotes part none.
+std::vector<std::string> cellsOf(const std::string& row) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : row) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
 
 std::string settingText(const Point& point) {
   return fmt::format("{} {}, {:g}/s", point.engine, point.setting, point.rate);
@@ -47,13 +66,37 @@ std::string_view verdictName(Verdict verdict) {
 
 std::string pointsCsv(std::span<const Point> points) {
   std::string csv =
-      "scene,engine,setting,steps_per_second,error,cpu_seconds_per_second,repeats,source\n";
+      "scene,engine,setting,as_it_comes,steps_per_second,error,cpu_seconds_per_second,repeats,"
+      "source\n";
   for (const Point& point : points)
-    csv += fmt::format("{},{},{},{:g},{:.6g},{:.6g},{:.4g},{}\n", point.scene, point.engine,
-                       csvQuoted(point.setting), point.rate, point.error, median(point.costs),
-                       fmt::join(point.costs, " "),
-                       point.recorded ? "\"recorded, other machine\"" : "measured");
+    csv += fmt::format("{},{},{},{:d},{:g},{:.6g},{:.6g},{:.4g},{}\n", point.scene, point.engine,
+                       csvQuoted(point.setting), point.asItComes, point.rate, point.error,
+                       median(point.costs), fmt::join(point.costs, " "),
+                       point.recorded ? "recorded on another machine" : kMeasured);
   return csv;
+}
+
+std::vector<Point> readPoints(const std::string& csv) {
+  std::istringstream rows(csv);
+  std::vector<Point> points;
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    const std::vector<std::string> cells = cellsOf(row);
+    if (cells.size() != 9) throw std::runtime_error("not a row of points: " + row);
+    Point point{cells[0],
+                cells[1],
+                cells[2],
+                cells[3] == "1",
+                false,
+                std::stod(cells[4]),
+                std::stod(cells[5]),
+                {}};
+    std::istringstream costs(cells[7]);
+    for (double cost; costs >> cost;) point.costs.push_back(cost);
+    if (cells[8] == kMeasured) points.push_back(std::move(point));
+  }
+  return points;
 }
 
 std::string duelsCsv(std::span<const Outcome> outcomes) {

@@ -14,6 +14,10 @@ namespace tumble::peers {
 /// for each point.
 std::string pointsCsv(std::span<const Point> points);
 
+/// Points of such rows, without those that were recorded.
+/// @throws std::runtime_error for a row that cannot be read
+std::vector<Point> readPoints(const std::string& csv);
+
 /// A row for each duel, with both ratios and their intervals.
 std::string duelsCsv(std::span<const Outcome> outcomes);
 
