@@ -78,6 +78,11 @@ run "$build/tests/render_bench" "$scratch"
 section "Speed against error: CPU seconds for a simulated second"
 run "$tumble" report -o "$scratch/report" | tail -n 60
 
+section "Beside other engines: at each error that they reach, how many times as much the cheapest costs"
+cmake -S . -B "$build" -DTUMBLE_PEERS=ON >/dev/null
+cmake --build "$build" --target peers >/dev/null 2>&1
+run "$build/tests/peers/peers" --quick -o "$scratch/report"
+
 section "The same bits from gcc and clang at -O1 and -O3"
 run tests/house/determinism.sh
 
