@@ -111,5 +111,9 @@ TEST_CASE("what slides, stays, rolls or flies is held to its closed form") {
   CHECK(std::abs(error("hold", Vec3(0.0, 0.0, 0.125)) - (0.125)) <= 1e-15);
   CHECK(error("roll", Vec3(5.0 / 14.0 * g * 0.5 * 4.0, 0.0, 0.0)) < 1e-14);
   CHECK(error("projectile", Vec3(6.0, 16.0 - 2.0 * g, 2.0)) < 1e-14);
-  CHECK(std::abs(error("tower", Vec3(0.0, -0.25, 0.0)) - (0.25)) <= 1e-15);
+  CHECK(std::abs(error("tower", Vec3(0.0, -0.25, 0.0)) - 0.25) <= 1e-15);
+  CHECK(std::isinf(error("tower", Vec3(0.0, -0.35, 0.0))));
+  CHECK(error("pile", Vec3(0.0, 0.0, 3.0)) == 0.0);
+  CHECK(std::isinf(error("pile", Vec3(0.0, 0.0, 30.0))));
+  CHECK(std::isinf(error("tray-balls", Vec3(0.0, -9.0, 0.0))));
 }

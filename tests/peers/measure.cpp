@@ -81,24 +81,42 @@ double bouncing(const Scene& scene, const Motion& motion) {
   }
 }
 
-// How far any body ever was from where it stands [m].
+// How far any body ever was from where it stands [m]; lost once a cube is no longer on its own.
 double standing(const Scene& scene, const Motion& motion) {
+  constexpr double kCollapsed = 0.3;  // m
   double most = 0.0;
   for (const auto& look : motion.looks)
-    for (std::size_t i = 1; i < look.size(); ++i) {
-      const double way = (look[i].x - scene.world.bodies[i].position).norm();
-      if (!(way <= most)) most = way;
-    }
-  return most;
+    for (std::size_t i = 1; i < look.size(); ++i)
+      most = std::max(most, (look[i].x - scene.world.bodies[i].position).norm());
+  return most > kCollapsed ? kLost : most;
+}
+
+// Whether a body is where nothing that only falls and rolls a little can come to: what has flown
+// apart does not overlap either.
+bool flownApart(const Scene& scene, const std::vector<BodySample>& look) {
+  constexpr double kSlack = 1.0;  // m
+  Aabb start{Vec3::Constant(kLost), Vec3::Constant(-kLost)};
+  for (const BodyDef& body : scene.world.bodies) {
+    if (std::holds_alternative<HalfSpace>(body.shape)) continue;
+    start.lo = start.lo.cwiseMin(body.position);
+    start.hi = start.hi.cwiseMax(body.position);
+  }
+  const Vec3 wide(start.hi.y(), kSlack, start.hi.y());  // a heap may spread by its height
+  return std::any_of(look.begin() + 1, look.end(), [&](const BodySample& body) {
+    return body.x.y() < -kSlack || ((body.x - start.hi - wide).array() > 0.0).any() ||
+           body.x.x() < start.lo.x() - wide.x() || body.x.z() < start.lo.z() - wide.z();
+  });
 }
 
 double overlapLeft(const Scene& scene, const Motion& motion) {
-  return deepestOverlap(scene.world, motion.looks.back());
+  const auto& end = motion.looks.back();
+  return flownApart(scene, end) ? kLost : deepestOverlap(scene.world, end);
 }
 
 double overlapEver(const Scene& scene, const Motion& motion) {
   double most = 0.0;
-  for (const auto& look : motion.looks) most = std::max(most, deepestOverlap(scene.world, look));
+  for (const auto& look : motion.looks)
+    most = std::max(most, flownApart(scene, look) ? kLost : deepestOverlap(scene.world, look));
   return most;
 }
 
@@ -198,19 +216,25 @@ std::vector<Trial> makeTrials() {
        fine},
       {"hold", "hold", {}, "A brick stays on 20°, μ = 0.38", "creep in 5 s, m", sliding, fine},
       {"roll", "roll", {}, "A ball rolls down 30°", "place after 2 s, m", rolling, fine},
-      {"tower", "tower", {}, "Ten cubes", "way of any from its place, m", standing, stacks},
+      {"tower",
+       "tower",
+       {},
+       "Ten cubes",
+       "way of any from its place, m; lost beyond 0.3 m",
+       standing,
+       stacks},
       {"tower-heavy",
        "tower_heavy",
        {},
        "A tonne on a kilogramme",
-       "way of any from its place, m",
+       "way of any from its place, m; lost beyond 0.3 m",
        standing,
        stacks},
       {"tower-powers",
        "tower_powers",
        {},
        "Ten cubes, each twice as heavy as the one below",
-       "way of any from its place, m",
+       "way of any from its place, m; lost beyond 0.3 m",
        standing,
        stacks},
       {"pile",

@@ -110,7 +110,7 @@ std::vector<Study> figures(std::span<const Trial> trials, std::span<const Point>
     Study study{"peers-" + trial.name, trial.title, {}, {}, {}};
     study.chart.variant.title = trial.title;
     study.chart.subtitle = "Error: " + trial.error + ".";
-    study.chart.floor = kRounding;
+    study.chart.floor = 0.99 * kRounding;  // so that the figure has room to its left
     addCurve(
         "tumble, as it comes", "60/s", own,
         [](const Point& p) { return p.engine == "tumble" && p.asItComes; }, study);

@@ -29,6 +29,8 @@ EngineSetup asked(const std::string& method, bool once) {
   EngineSetup setup{"tumble", method + (once ? ", once" : "")};
   setup.why = once ? "asked for the end alone" : "nothing is set; asked 60 times a second";
   setup.asItComes = method == "auto" && !once;
+  // In crowds events have no end, and a look more or less costs nothing.
+  if (method == "exact" || once) setup.meant = Meant::FewMove;
   setup.stepless = true;
   setup.askedOnce = once;
   setup.make = [method](const Scene& scene, double h) {
