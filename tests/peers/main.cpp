@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/command/progress.h"
 #include "app/file/file.h"
 #include "app/report/machine.h"
 #include "app/report/plot.h"
@@ -114,8 +115,9 @@ void compare(Options options) {
       continue;
     const Scene scene =
         readScene(std::string(PEERS_FOLDER "/scenes/") + trial.file + ".toml", trial.overrides);
-    fmt::print(stderr, "{} ...\n", trial.title);
-    for (Point& point : runTrial(trial, scene, setups, options.plan, gaps, [](double) {}))
+    Progress progress(trial.title);
+    for (Point& point : runTrial(trial, scene, setups, options.plan, gaps,
+                                 [&](double share) { progress.show(share); }))
       points.push_back(std::move(point));
     // What is there so far stays if a later scene is stopped.
     writeFile(file, pointsCsv(points));
