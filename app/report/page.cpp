@@ -71,8 +71,7 @@ std::string reportPage(const std::vector<Study>& studies, const std::string& mac
                        const std::vector<Scaling>& scalings, const std::vector<Profile>& profiles) {
   std::string out = pageHead("Speed against error") + kIntroduction;
   out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine));
-  for (const Study& study : studies)
-    out += figureSection(study, figures);
+  for (const Study& study : studies) out += figureSection(study, figures);
   out +=
       "<h2 id=\"table\">Time to an accuracy</h2>\n<p>CPU seconds for a simulated second of the "
       "cheapest run that is right to so much; <a href=\"table.csv\">numbers</a>, "

@@ -36,7 +36,7 @@ Options readOptions(int argc, char** argv) {
   line.add_option("--most", options.plan.most, "CPU seconds that a run may take [30]")
       ->check(CLI::Range(1.0, 1e4));
   line.add_flag("--quick", options.quick,
-                "three repeats, the three coarsest steps, 10 CPU s a run");
+                "three repeats, the three coarsest steps, 20 CPU s a run");
   line.add_flag("--resume", options.resume, "keep the scenes that peers.csv in the folder has");
   try {
     line.parse(argc, argv);
@@ -100,7 +100,7 @@ void show(const std::string& folder, const std::vector<Trial>& trials,
 void compare(Options options) {
   if (options.quick) {
     options.plan.repeats = std::min(options.plan.repeats, 3);
-    options.plan.most = std::min(options.plan.most, 10.0);
+    options.plan.most = std::min(options.plan.most, 20.0);
   }
   makeFolder(options.folder);
   const std::vector<EngineSetup> setups = chosenSetups(options);
