@@ -36,7 +36,7 @@ bool meantFor(const EngineSetup& setup, const WorldDef& world) {
 
 std::vector<EngineSetup> allSetups() {
   std::vector<EngineSetup> all = tumbleSetups();
-  const auto add = [&](std::vector<EngineSetup> setups) {
+  [[maybe_unused]] const auto add = [&](std::vector<EngineSetup> setups) {
     std::move(setups.begin(), setups.end(), std::back_inserter(all));
   };
 #ifdef PEERS_BULLET
