@@ -41,6 +41,7 @@ struct Certificate {
   double energy_cut_impact = 0.0;  ///< [J] that restitution would have given beyond what there was
   long islands_solved = 0;         ///< island-steps solved to the tolerance asked for,
   long islands_rough = 0;          ///< and those of crowds in motion, solved as far as is planned
+  long islands_kept = 0;           ///< and those that asked nothing new: their answer stayed
   double max_closed_height = 0.0;  ///< [m] of bounces that were left out at the end of a row
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
@@ -85,6 +86,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"energy_cut_impact", &Certificate::energy_cut_impact},
     {"islands_solved", &Certificate::islands_solved},
     {"islands_rough", &Certificate::islands_rough},
+    {"islands_kept", &Certificate::islands_kept},
     {"max_closed_height", &Certificate::max_closed_height},
     {"max_complementarity", &Certificate::max_complementarity},
     {"energy_start", &Certificate::energy_start},

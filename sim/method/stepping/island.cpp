@@ -64,7 +64,9 @@ void Stepping::bookIslands(double h) {
   // By their heads: near pairs, and with them the numbers of links, may be others by now.
   for (const int head : work_.heads) {
     const IslandMemory& memory = memory_.islands[head];
-    ++(memory.rough ? certificate.islands_rough : certificate.islands_solved);
+    ++(memory.kept    ? certificate.islands_kept
+       : memory.rough ? certificate.islands_rough
+                      : certificate.islands_solved);
     certificate.max_complementarity = std::max(certificate.max_complementarity, memory.residual);
     certificate.energy_lost_impact += memory.books.lostImpact;
     certificate.energy_lost_friction += memory.books.lostFriction;
@@ -200,9 +202,10 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
   const bool bent = anyBends();
   if (!bent) swing(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
-  if (!bent && rests(memory, links, h)) {
-    stretch(memory, links, h);
-  } else if (bent || !keeps(memory, links)) {
+  const bool stretches = !bent && rests(memory, links, h);
+  memory.kept = stretches || (!bent && keeps(memory, links));
+  if (stretches) stretch(memory, links, h);
+  if (!memory.kept) {
     allKept_ = false;
     build(links, h);
     if (bent) coupleBent();
@@ -213,6 +216,7 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     if (memory.rough) leaveOpen(memory.scale, h);
     share(links, memory, h);
+    if (!bent && work_.bonds.empty()) stand(memory, h);
   }
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {

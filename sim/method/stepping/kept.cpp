@@ -49,6 +49,28 @@ bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, do
   return true;
 }
 
+/// An island none of whose bodies moves by more than the solver may leave, before a step or after
+/// it, stands, where that would bring one of them to another pose: it was no motion.
+void Stepping::stand(IslandMemory& memory, double h) const {
+  constexpr double kLeft = 10.0;  // of the residual
+  const double still = std::min(kLeft * memory.residual * memory.scale, tolerance_.rest);
+  const auto stands = [&](int body, const Vec6& twist) {
+    return twist.head<3>().norm() + model_.radius[body] * twist.tail<3>().norm() <= still;
+  };
+  bool leaves = false;
+  for (const IslandMemory::Mover& mover : memory.movers) {
+    if (!stands(mover.body, work_.before[mover.body]) || !stands(mover.body, mover.v)) return;
+    leaves = leaves || h * mover.v.head<3>().norm() > kPoseRounding * model_.size ||
+             h * mover.v.tail<3>().norm() > kPoseRounding;
+  }
+  if (!leaves) return;
+  memory.books.external.setZero();
+  for (IslandMemory::Mover& mover : memory.movers) {
+    mover.v.setZero();
+    memory.books.external -= state_.bodies[mover.body].M * mover.vStar.head<3>();
+  }
+}
+
 /// Gives the answer of an island at rest to a step of another length.
 void Stepping::stretch(IslandMemory& memory, std::span<const Link> links, double h) {
   const double s = h / memory.length;

@@ -20,6 +20,9 @@
 
 namespace tumble {
 
+/// Of the numbers that a pose is made of: one that differs by less is the same.
+constexpr double kPoseRounding = 4e-16;
+
 /// What a contact problem sees of a contact point.
 struct Lever {
   Vec3 n = Vec3::Zero();
@@ -93,6 +96,7 @@ struct IslandMemory {
   double scale = 1.0;         ///< [m/s] velocityScale of the problem
   double residual = 0.0;
   bool rough = false;  ///< solved as far as is planned for crowds
+  bool kept = false;   ///< the last step asked nothing new
   IslandBooks books;
 };
 

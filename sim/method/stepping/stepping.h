@@ -184,6 +184,7 @@ class Stepping {
   bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
+  void stand(IslandMemory& memory, double h) const;
   void stretch(IslandMemory& memory, std::span<const Link> links, double h);
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);

@@ -7,12 +7,10 @@
 namespace tumble {
 namespace {
 
-constexpr double kRounding = 4e-16;  ///< of the numbers that a pose is made of
-
 /// Whether a body has a pose but for rounding.
 bool isAt(const Pose& pose, const RigidBody& body, double size) {
-  return (pose.x - body.x).lpNorm<Eigen::Infinity>() <= kRounding * size &&
-         (pose.q.coeffs() - body.q.coeffs()).lpNorm<Eigen::Infinity>() <= kRounding;
+  return (pose.x - body.x).lpNorm<Eigen::Infinity>() <= kPoseRounding * size &&
+         (pose.q.coeffs() - body.q.coeffs()).lpNorm<Eigen::Infinity>() <= kPoseRounding;
 }
 
 /// Whether two levers are one but for rounding.
@@ -20,9 +18,9 @@ bool isSame(const Lever& p, const Lever& q, double size) {
   const auto near = [](const Vec3& x, const Vec3& y, double within) {
     return (x - y).lpNorm<Eigen::Infinity>() <= within;
   };
-  return near(p.n, q.n, kRounding) && near(p.armA, q.armA, kRounding * size) &&
-         near(p.armB, q.armB, kRounding * size) &&
-         std::abs(p.separation - q.separation) <= kRounding * size;
+  return near(p.n, q.n, kPoseRounding) && near(p.armA, q.armA, kPoseRounding * size) &&
+         near(p.armB, q.armB, kPoseRounding * size) &&
+         std::abs(p.separation - q.separation) <= kPoseRounding * size;
 }
 
 }  // namespace
@@ -227,6 +225,7 @@ void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
       if (before.contact.point.feature != work_.found[i].feature) continue;
       memory.touches[i].pull = before.pull;
       memory.touches[i].impulse = before.impulse;
+      memory.touches[i].length = before.length;
       memory.touches[i].arrivalSpeed = before.arrivalSpeed;
       memory.touches[i].arrivalImpulse = before.arrivalImpulse;
     }
