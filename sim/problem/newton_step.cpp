@@ -101,6 +101,25 @@ void NewtonSystem<N>::obey() {
   evaluateAsIs();
 }
 
+template <int N>
+void NewtonSystem<N>::factorUncut() {
+  for (Point& point : points) point.piece = Piece::Whole;
+  guess_ = false;
+  assemble();
+}
+
+template <int N>
+[[gnu::flatten]] void NewtonSystem<N>::goUncut() {
+  gather([this](Point& point, const Vec3& z) {
+    point.piece = Piece::Whole;
+    point.force.head(point.rows) = z.head(point.rows);
+    if (point.kind == ConeKind::Slide) point.force[1] = point.lambda[1];
+  });
+  direction(H_);
+  for (Mover& mover : movers) mover.v += mover.step;
+  for (Point& point : points) point.u += point.du;
+}
+
 /// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
 template <int N>
 [[gnu::flatten]] bool NewtonSystem<N>::stageMore() {

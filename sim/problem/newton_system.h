@@ -70,6 +70,10 @@ class NewtonSystem {
   bool followSlip(double accuracy, int most);
   /// v becomes what the forces give, v* + A⁻¹ Jᵀ λ: one factor of A.
   void obey();
+  /// The factor of A + ρ JᵀJ, where no cone cuts a force.
+  void factorUncut();
+  /// v where A (v − vStar) = Jᵀ (λ − ρ (u + s)), forces that no cone cuts, by factorUncut's factor.
+  void goUncut();
   /// One stage more by the last factor alone, forces on the pieces that it was made for. False
   /// where there is no factor for this ρ.
   bool stageMore();

@@ -9,6 +9,8 @@ std::span<const Solver> solvers() {
       Solver{"newton", "augmented Lagrangian by semismooth Newton steps: exact at any size",
              solveNewton, true},
       Solver{"pivoting", "dense Dantzig pivoting: exact, for small problems", solvePivoting},
+      Solver{"admm", "one factor of the masses and contacts, then forces and velocities in turn",
+             solveAdmm},
       Solver{"pgs", "projected Gauss-Seidel with the true friction cone", solvePgs},
   };
   return kTable;

@@ -11,6 +11,14 @@ namespace tumble {
 /// returned as it is.
 SolveReport solvePgs(const Problem& problem, const SolveSettings& settings, Solution& solution);
 
+/// Alternating direction method of multipliers, as Douglas and Rachford's iteration of y = λ − ρ z:
+///   λ = Π_K(y),  z = (λ − y)/ρ,  s = mu |z_t| n,
+///   (M + ρ JᵀJ) v = M vStar + Jᵀ (λ + ρ (z − bias − s)),  y ← λ − ρ (1.6 (J v + bias + s) − 0.6
+///   z),
+/// with one factor for all iterations, and Anderson mixing. Carpentier, Le Lidec & Montaut, From
+/// Compliant to Rigid Contact Simulation, 2024; de Saxcé & Feng 1998 for s.
+SolveReport solveAdmm(const Problem& problem, const SolveSettings& settings, Solution& solution);
+
 /// Dense Dantzig pivoting (see lcp.h): pushing and equality rows at once, friction by a fixed point
 /// around them that ends on the true cone. O(n³) for n rows: for small problems. It starts from
 /// λ = 0 whatever the solution holds, and caps its own passes, not by maxIterations.

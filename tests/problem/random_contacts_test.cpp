@@ -33,6 +33,7 @@ struct Demand {
 constexpr std::array kDemands = {
     Demand{"pivoting", 300, 20000, 20000, 0.85},
     Demand{"pgs", 300, 10000, 2000, 0.8, 1},  // grows for ever on problem 971
+    Demand{"admm", 300, 10000, 20000, 0.85},
     // Its v is that of its own steps, not of λ, and 99.9 % are asked of the long test alone.
     Demand{"newton", 3000, 100000, 20000, 0.999, 0, 1e300},
     Demand{"", 300, 10000, 20000, 0.0},
