@@ -110,7 +110,7 @@ void NewtonSystem<N>::factorUncut() {
 
 template <int N>
 [[gnu::flatten]] void NewtonSystem<N>::goUncut() {
-  gather([this](Point& point, const Vec3& z) {
+  gather([](Point& point, const Vec3& z) {
     point.piece = Piece::Whole;
     point.force.head(point.rows) = z.head(point.rows);
     if (point.kind == ConeKind::Slide) point.force[1] = point.lambda[1];
