@@ -117,7 +117,7 @@ template <int N>
   });
   direction(H_);
   for (Mover& mover : movers) mover.v += mover.step;
-  for (Point& point : points) point.u += point.du;
+  forRows(&Mover::v, [](Point& point, const Vec3& rows) { point.u = rows + point.bias; });
 }
 
 /// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
