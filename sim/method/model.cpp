@@ -15,6 +15,9 @@ void SteppingSettings::take(const SolverPreset& preset) {
   crowdSolver = preset.crowdSolver;
   crowdTolerance = preset.crowd.tolerance;
   crowdIterations = preset.crowd.maxIterations;
+  anyCrowd = preset.anyCrowd;
+  crowdOpen = preset.open;
+  divides = preset.divides;
 }
 
 void SteppingSettings::treatCrowdsAlike() {

@@ -84,9 +84,12 @@ struct SteppingSettings {
   std::string crowdSolver = "pgs";
   double crowdTolerance = 1e-3;
   int crowdIterations = 100;
+  bool anyCrowd = false;   ///< as SolverPreset
+  double crowdOpen = 0.0;  ///< as SolverPreset::open
+  bool divides = true;     ///< as SolverPreset
   int linearisations = 1;  ///< at most, in one step, of the forces of what bends
 
-  /// Solver, tolerance and iterations as in a row of solverPresets.
+  /// All but the length of a step as in a row of solverPresets.
   void take(const SolverPreset& preset);
   /// Crowds are solved as everything else is.
   void treatCrowdsAlike();

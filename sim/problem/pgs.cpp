@@ -74,7 +74,7 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
                            Solution& solution) {
   // A start that is good enough is the answer.
   begin(problem, solution);
-  SolveReport report{.residual = ask(problem, lambda_, solution)};
+  SolveReport report{.residual = ask(problem, lambda_, solution), .scale = scale_};
   if (report.residual <= settings.tolerance) return report;
 
   sweep_.prepare(problem);
@@ -107,7 +107,7 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
     if (report.iterations < settings.maxIterations) accelerate();
   }
   report.residual = ask(problem, best_, solution);
-  if (!(report.residual <= 10.0 * settings.tolerance)) report.status = SolveStatus::NotConverged;
+  if (!(report.residual <= settings.tolerance)) report.status = SolveStatus::NotConverged;
   return report;
 }
 

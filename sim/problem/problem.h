@@ -108,6 +108,9 @@ struct SolverPreset {
   SolveSettings settings;
   std::string_view crowdSolver;  ///< for islands of many contacts that move
   SolveSettings crowd;
+  bool anyCrowd = true;  ///< such islands are of crowds without restitution, too
+  double open = 0.0;     ///< part of what `crowd` may leave in a step that is not lifted at once
+  bool divides = true;   ///< hits divide steps; else each is struck when its step begins
 };
 
 std::span<const SolverPreset> solverPresets();

@@ -175,7 +175,7 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[course]\ndamping = -1.0", "9:11", ""},
       {"[stepping]\npreset = \"fats\"", "9:10",
        "stepping.preset: unknown value 'fats', did you mean 'fast'? Valid: auto, exact, balanced, "
-       "fast"},
+       "fast, draft"},
       {"[stepping]\nsolver = \"newtn\"", "9:10", "stepping.solver: unknown value 'newtn'"},
       {"[stepping]\ntolerance = -1", "9:13", "stepping.tolerance: expected a number in (0, 1]"},
       {"[pairs]\nrubber = {}", "9:1", "expected two materials, \"A-B\""},

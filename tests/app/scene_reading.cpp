@@ -230,13 +230,16 @@ TEST_CASE("a preset of stepping sets what the scene does not set itself") {
   CHECK(read("").tolerance == 1e-12);
   CHECK(read("").iterations == read("preset = \"exact\"").iterations);
   CHECK(read("preset = \"balanced\"").solver == "newton");
-  CHECK(read("preset = \"balanced\"").tolerance == 1e-6);
-  CHECK(read("preset = \"fast\"").solver == "pgs");
-  CHECK(read("preset = \"fast\"").iterations == 20);
+  CHECK(read("preset = \"balanced\"").tolerance == 1e-9);
+  CHECK(read("preset = \"fast\"").crowdSolver == "pgs");
+  CHECK(read("preset = \"fast\"").crowdIterations == 20);
+  CHECK(read("preset = \"fast\"").divides);
+  CHECK_FALSE(read("preset = \"draft\"").divides);
   const SteppingSettings mixed = read("tolerance = 1e-4\npreset = \"fast\"\nsolver = \"newton\"");
   CHECK(mixed.solver == "newton");
   CHECK(mixed.tolerance == 1e-4);
-  CHECK(mixed.iterations == 20);
+  CHECK(mixed.crowdSolver == "newton");
+  CHECK(mixed.crowdTolerance == 1e-4);
 }
 
 TEST_CASE("a plane's normal is made a unit vector, its distance with it, and it is fixed") {

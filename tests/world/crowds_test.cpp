@@ -114,6 +114,28 @@ TEST_CASE("stepping: a crowd of bricks is struck once a step, and gains nothing"
   CHECK((books.islands_rough > 0) == (preset == "auto"));
 }
 
+// Oracle: energy, and the promise of the table of presets. The same fall of bricks, the stricter
+// the preset, the less is left; none gains, and a draft divides no step.
+TEST_CASE("stepping: the stricter a preset, the less of a crowd overlaps, and none gains") {
+  double before = 1.0;
+  for (const std::string preset : {"draft", "fast", "balanced", "exact"}) {
+    WorldDef def = rain(4, 5, 0.2);
+    def.stepping.take(*findSolverPreset(preset));
+    World world(def);
+    run(world);
+    const Certificate& books = world.report().certificate;
+    CAPTURE(preset, books.max_penetration, books.max_energy_gain, books.energy_added_repair,
+            books.max_complementarity, books.steps);
+    CHECK_FALSE(world.report().stopped);
+    CHECK(books.max_energy_gain < 1e-9 * books.energy_start);
+    CHECK(books.energy_added_repair < 5e-3 * books.energy_start);
+    CHECK(books.max_penetration < std::max(1.5 * before, 1e-9));
+    CHECK((books.islands_rough > 0) == (preset != "exact"));
+    if (preset == "draft") CHECK(books.steps == std::lround(def.duration / def.stepping.step));
+    before = books.max_penetration;
+  }
+}
+
 // Oracle: what has nowhere to go stands, and nothing is asked anew where nothing changes. Bricks in
 // a tray, thrown in pell-mell. Measured: the same bits, velocities below 1e-15 m/s.
 TEST_CASE("stepping: a crowd of bricks comes to rest, and then costs no more") {

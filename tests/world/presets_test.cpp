@@ -7,9 +7,8 @@ using namespace tumble;
 using namespace tumble::scenes;
 
 // Oracle: closed form, a sum of equal gains of speed; and the certificate is held to what the
-// preset says.
-// Measured: way below 1e-7 m, by "fast" 1.1e-2 m, allowed 1e-6 and 3e-2 m; worst residual of "fast"
-// 0.22, allowed 0.5; momentum below 1e-12.
+// preset says of contacts at rest.
+// Measured: way below 1e-7 m, allowed 1e-6; momentum below 1e-12.
 TEST_CASE("a stack is pulled along by every preset, and the certificate has what each leaves") {
   constexpr double kPull = 0.1;  // m/s²
   for (const SolverPreset& preset : solverPresets()) {
@@ -22,16 +21,14 @@ TEST_CASE("a stack is pulled along by every preset, and the certificate has what
     const double worst = report.certificate.max_complementarity;
     CAPTURE(preset.name, worst);
     CHECK_FALSE(report.stopped);
-    const bool solved = worst <= preset.settings.tolerance;
-    CHECK(report.notes.empty() == solved);
-    CHECK(solved == (preset.name != "fast"));
-    CHECK(worst < 0.5);
+    CHECK(worst <= preset.settings.tolerance);
+    CHECK(report.notes.empty());
     CHECK(report.certificate.momentum_error < 1e-12);
     const double h = def.stepping.step, steps = std::round(def.duration / h);
     const Vec3 due(kPull * h * h * steps * (steps + 1.0) / 2.0, 0.0, 0.0);
     double way = 0.0;
     for (std::size_t i = 1; i < end.bodies.size(); ++i)
       way = std::max(way, (end.bodies[i].x - def.bodies[i].position - due).norm());
-    CHECK(way < (solved ? 1e-6 : 3e-2));
+    CHECK(way < 1e-6);
   }
 }

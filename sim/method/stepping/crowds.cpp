@@ -23,25 +23,27 @@ bool Stepping::isCrowd() const {
     bounces = bounces || pair.bounces;
     weight += weightOf(pair);
   }
-  return bounces && weight > kReflectionsReach;
+  return (bounces || model_.def.stepping.anyCrowd) && weight > kReflectionsReach;
 }
 
 bool Stepping::strikesAsCrowd() const {
   return crowd_ && (model_.def.impact == "auto" || model_.def.impact == "crowd");
 }
 
-bool Stepping::isRough() const {
-  constexpr double kMoves = 3.0;    // times what the solver may leave
+double Stepping::roughTolerance(double scale) const {
+  constexpr double kMoves = 3e-3;   // of the largest speed
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
   const SteppingSettings& stepping = model_.def.stepping;
   const Problem& problem = work_.problem;
-  if (!crowd_ || !work_.bonds.empty() || problem.cones.size() <= kFew ||
+  if (!work_.bonds.empty() || problem.cones.size() <= kFew ||
       (stepping.crowdSolver == stepping.solver && stepping.crowdTolerance == stepping.tolerance))
-    return false;
-  const double still = kMoves * stepping.crowdTolerance * velocityScale(problem);
-  return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const Row& row) {
-    return std::abs(rowSpeed(row, work_.solution.v[row.a], work_.solution.v[row.b])) > still;
-  });
+    return 0.0;
+  double fastest = 0.0;
+  for (const Row& row : problem.rows)
+    fastest = std::max(fastest,
+                       std::abs(rowSpeed(row, work_.solution.v[row.a], work_.solution.v[row.b])));
+  if (fastest <= kMoves * scale) return 0.0;
+  return std::max(stepping.tolerance, stepping.crowdTolerance * std::min(1.0, fastest / scale));
 }
 
 void Stepping::startFromBefore(std::span<const Link> links, double h) {
@@ -62,47 +64,57 @@ void Stepping::startFromBefore(std::span<const Link> links, double h) {
   }
 }
 
-void Stepping::keepFromGaining() {
+/// The energy of bodies that go through a step with v = vBefore + h M⁻¹F + s Δ, Δ = M⁻¹ Jᵀ λ,
+/// changes by  −½ |h M⁻¹F|²_M + s λ·J vBefore + ½ s² λ·J Δ,  without the work of supports: J v is
+/// relative.
+bool Stepping::keepFromGaining(double h) {
   Solution& solution = work_.solution;
   const Problem& problem = work_.problem;
-  double slope = 0.0, curvature = 0.0;  // of the energy along λ, without the work of supports
+  double slope = 0.0, curvature = 0.0, fall = 0.0;
+  const auto before = [&](int local) -> const Vec6& { return work_.before[work_.bodies[local]]; };
   for (const Cone& cone : problem.cones) {
-    if (cone.kind == ConeKind::Equality) return;
+    if (cone.kind == ConeKind::Equality) return false;
     for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
       const Row& row = problem.rows[r];
-      const double before = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]);
-      const double after = rowSpeed(row, solution.v[row.a], solution.v[row.b]);
-      slope += solution.lambda[r] * before;
-      curvature += solution.lambda[r] * (after - before);
+      const double star = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]);
+      slope += solution.lambda[r] * rowSpeed(row, before(row.a), before(row.b));
+      curvature +=
+          solution.lambda[r] * (rowSpeed(row, solution.v[row.a], solution.v[row.b]) - star);
     }
   }
-  if (slope + 0.5 * curvature <= 0.0) return;
-  const double part = std::clamp(-slope / curvature, 0.0, 1.0);
+  for (std::size_t i = 0; i < work_.bodies.size(); ++i) {
+    const RigidBody& body = state_.bodies[work_.bodies[i]];
+    if (body.fixed() || solution.v[i] == problem.vStar[i]) continue;
+    fall += 0.5 * h * h *
+            (body.invM * body.force.squaredNorm() + body.torque.dot(body.Iinv * body.torque));
+  }
+  if (slope + 0.5 * curvature <= fall) return false;
+  const double part =
+      std::clamp((std::sqrt(slope * slope + 2.0 * curvature * fall) - slope) / curvature, 0.0, 1.0);
   for (double& lambda : solution.lambda) lambda *= part;
   velocitiesFromLambda(problem, solution.lambda, solution.v);
+  return true;
 }
 
 void Stepping::leaveOpen(double scale, double h) {
-  constexpr double kOpen = 0.1;  // of what the solver may leave
-  leftOpen_ = std::max(leftOpen_, kOpen * h * scale * model_.def.stepping.crowdTolerance);
+  const SteppingSettings& stepping = model_.def.stepping;
+  leftOpen_ = std::max(leftOpen_, stepping.crowdOpen * h * scale * stepping.crowdTolerance);
 }
 
-SolveReport Stepping::solveRough(std::span<const Link> links, double h) {
+SolveReport Stepping::solveRough(std::span<const Link> links, double tolerance, double h) {
   const SteppingSettings& stepping = model_.def.stepping;
   startFromBefore(links, h);
-  const double scale = velocityScale(work_.problem);
   SolveReport solved =
       findSolver(stepping.crowdSolver)
           ->solve(work_.problem,
-                  {.tolerance = stepping.crowdTolerance, .maxIterations = stepping.crowdIterations},
+                  {.tolerance = tolerance, .maxIterations = stepping.crowdIterations},
                   work_.solution);
   if (solved.status != SolveStatus::Solved && isLed(links)) {
     work_.solution.lambda.clear();
     return solveFine(links);
   }
-  keepFromGaining();
-  solved.residual = naturalResidual(work_.problem, work_.solution, scale);
-  solved.scale = scale;
+  if (keepFromGaining(h))
+    solved.residual = naturalResidual(work_.problem, work_.solution, solved.scale);
   return solved;
 }
 

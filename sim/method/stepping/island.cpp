@@ -46,6 +46,7 @@ void Stepping::solveIslands(double h) {
   work_.later.resize(n);
   memory_.islands.resize(n);
   leftOpen_ = 0.0;
+  rough_ = false;
   memory_.left.resize(n, 0.0);
   for (const int i : work_.active) {
     work_.after[i] = work_.star[i];
@@ -209,11 +210,13 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
     allKept_ = false;
     build(links, h);
     if (bent) coupleBent();
-    memory.rough = !bent && isRough();
-    const SolveReport solved = memory.rough ? solveRough(links, h) : solveFine(links);
+    const double part = !bent && crowd_ ? roughTolerance(velocityScale(work_.problem)) : 0.0;
+    memory.rough = part > 0.0;
+    const SolveReport solved = memory.rough ? solveRough(links, part, h) : solveFine(links);
     if (!work_.crushed.empty()) return;
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
+    rough_ = rough_ || memory.rough;
     if (memory.rough) leaveOpen(memory.scale, h);
     share(links, memory, h);
     if (!bent && work_.bonds.empty()) stand(memory, h);

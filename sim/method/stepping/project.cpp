@@ -9,7 +9,7 @@
 namespace tumble {
 
 bool Stepping::project() {
-  constexpr int kRounds = 10;
+  constexpr int kRounds = 10, kSwept = 3;  // by the solver of crowds, if all is lifted
   double deepest = deepestOverlap();
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
@@ -21,7 +21,7 @@ bool Stepping::project() {
   const double before = lifts ? potential() : 0.0;
   int left = model_.def.stepping.iterations;  // of the solver, for all rounds
   for (int round = 0; round < kRounds && open && left > 0; ++round) {
-    left -= lift(left);
+    left -= lift(left, rough_ && (leftOpen_ > 0.0 || round < kSwept));
     deepest = deepestOverlap();
     open = isOpen();
   }
@@ -55,11 +55,12 @@ int Stepping::rootOf(std::size_t pair) {
   return islandRoot(work_.root, model_.fixed(a) ? b : a);
 }
 
-int Stepping::lift(int most) {
+int Stepping::lift(int most, bool asCrowd) {
   // Displacements obey the problem of the velocities with the gap as bias:
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
-  constexpr int kMost = 200;           // iterations of one round
+  constexpr int kMost = 200, kMostOfCrowd = 20;  // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
+  const int atMost = std::min(most, asCrowd ? kMostOfCrowd : kMost);
   beginVelocityProblem(state_.bodies, work_.problem);
   for (Vec6& v : work_.problem.vStar) v.setZero();
   findOverlapping();
@@ -78,8 +79,8 @@ int Stepping::lift(int most) {
   work_.solution.lambda.clear();
   work_.solution.v.clear();
   const SolveReport solved = solveByIslands(
-      leftOpen_ > 0.0 ? *findSolver(model_.def.stepping.crowdSolver) : solver_, work_.problem,
-      {.tolerance = kTolerance, .maxIterations = std::min(most, kMost)}, work_.solution);
+      asCrowd ? *findSolver(model_.def.stepping.crowdSolver) : solver_, work_.problem,
+      {.tolerance = kTolerance, .maxIterations = atMost}, work_.solution);
 
   // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
   constexpr double kLargestTurn = 0.1;  // [rad]

@@ -111,7 +111,7 @@ void Stepping::stepTo(double t1, double h) {
   findOut(h);
   if (report_.stopped) return;
   findCrowded(h);
-  if (hasClusters() && findClusters(h)) return stepClusters(t1, h);
+  if (model_.def.stepping.divides && hasClusters() && findClusters(h)) return stepClusters(t1, h);
   go(t1, h);
 }
 
@@ -124,13 +124,14 @@ void Stepping::go(double t1, double h) {
   const int every = std::clamp(kBodies / n, kFew, kMany);
   const int most = std::max(every, static_cast<int>(kPairs / n / n));
   crowd_ = isCrowd();
+  const bool divides = model_.def.stepping.divides;
   divided_ = false;
   int parts = 1;
   for (; !halted(); ++parts) {
     const bool all = n == 1 && parts <= every;
-    const double part = meet(h, strikesAsCrowd() || parts > most ? Hits::None
-                                : all                            ? Hits::All
-                                                                 : Hits::Fast);
+    const double part = meet(h, !divides || strikesAsCrowd() || parts > most ? Hits::None
+                                : all                                        ? Hits::All
+                                                                             : Hits::Fast);
     if (part >= h) break;
     divided_ = true;
     moveTo(state_.t + part, part);

@@ -143,17 +143,19 @@ class Stepping {
   static int weightOf(const PairMemory& pair);
   /// Whether their hits divide no step.
   bool strikesAsCrowd() const;
-  /// Whether the problem at hand is that of many contacts that move by far more than its solver may
-  /// leave.
-  bool isRough() const;
+  /// What may be left of the problem at hand, if it is that of many contacts that move: of what
+  /// moves, the part that is planned for crowds. 0 for any other problem.
+  /// @param scale [m/s] its velocityScale
+  double roughTolerance(double scale) const;
   SolveReport solveFine(std::span<const Link> links);
-  SolveReport solveRough(std::span<const Link> links, double h);
+  SolveReport solveRough(std::span<const Link> links, double tolerance, double h);
   /// The λ that the contacts had in the step before.
   void startFromBefore(std::span<const Link> links, double h);
-  /// Overlap up to a part of what the solver may leave in a step is not lifted at once.
+  /// Overlap up to the part that is planned of what the solver may leave in a step stays.
   void leaveOpen(double scale, double h);
   /// The part of λ that takes most energy, where the whole of it would add some.
-  void keepFromGaining();
+  /// @return whether that was so
+  bool keepFromGaining(double h);
   /// The rebound [m/s] up to which a touch is a contact that lasts: what a solver leaves is none.
   double leastRebound(const Touch& touch, double least) const;
 
@@ -267,8 +269,9 @@ class Stepping {
   double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
   void findOverlapping();
   int rootOf(std::size_t pair);
-  /// Lifts what overlaps, by at most so many iterations of the solver; returns how many it took.
-  int lift(int most);
+  /// Lifts what overlaps, by at most so many iterations of the solver, or of that of crowds;
+  /// returns how many it took.
+  int lift(int most, bool asCrowd);
 
   // events.cpp
   void recordEvents(double t);
@@ -295,7 +298,8 @@ class Stepping {
   bool meeting_ = false;    ///< two clusters come near each other: they are one
   int cluster_ = 0;         ///< whose clock runs
   bool crowd_ = false;      ///< the bodies whose clock runs are one
-  double leftOpen_ = 0.0;   ///< [m] overlap that is left, where a crowd is solved so far
+  bool rough_ = false;      ///< an island is solved as far as is planned for crowds
+  double leftOpen_ = 0.0;   ///< [m] overlap that such a plan leaves
   int parts_ = 0;           ///< of the step that is most divided
   double partStart_ = 0.0;  ///< [s] of the part under way
   double bent_ = 0.0;  ///< [m/s] by which the last linearisation of what bends changed the motion
