@@ -50,10 +50,6 @@ void Stepping::startFromBefore(std::span<const Link> links, double h) {
   work_.solution.lambda.assign(work_.problem.rows.size(), 0.0);
   std::size_t cone = 0;
   for (const Link link : links) {
-    if (!isPair(link)) {
-      ++cone;
-      continue;
-    }
     for (const Touch& touch : memory_.pairs[link].touches) {
       if (flies(touch, h)) continue;
       const Cone& of = work_.problem.cones[cone++];
@@ -73,7 +69,6 @@ bool Stepping::keepFromGaining(double h) {
   double slope = 0.0, curvature = 0.0, fall = 0.0;
   const auto before = [&](int local) -> const Vec6& { return work_.before[work_.bodies[local]]; };
   for (const Cone& cone : problem.cones) {
-    if (cone.kind == ConeKind::Equality) return false;
     for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
       const Row& row = problem.rows[r];
       const double star = rowSpeed(row, problem.vStar[row.a], problem.vStar[row.b]);
