@@ -35,7 +35,8 @@ TEST_CASE("each preset tells the residual that it leaves, and momentum is balanc
   }
 }
 
-// Oracle: counts and residuals that the table names.
+// Oracle: counts and residuals that the table names. Measured: residuals of 6.8e-4 by "balanced",
+// whose sweeps are spent, and 0.072 by "fast".
 TEST_CASE("the closer a preset is asked to come, the closer it comes, and the longer it takes") {
   const Problem problem = shakenPile();
   Solution exact, balanced, fast;
@@ -46,8 +47,10 @@ TEST_CASE("the closer a preset is asked to come, the closer it comes, and the lo
   CHECK(best.residual <= 1e-12);
   CAPTURE(middle.residual, middle.iterations, quick.residual, quick.iterations);
   CHECK(middle.residual <= 1e-3);
-  CHECK(middle.iterations <= 200);
-  CHECK(quick.iterations <= 20);
+  CHECK(middle.iterations == 200);
+  CHECK(middle.iterations < best.iterations);
+  CHECK(quick.status == SolveStatus::NotConverged);
+  CHECK(quick.iterations == 20);
   CHECK(quick.residual > middle.residual);
   CHECK(quick.residual < 0.2);
 }
