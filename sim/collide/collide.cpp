@@ -69,14 +69,44 @@ ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, 
 
 namespace {
 
+// How much deeper than the deepest pair of parts a contact of the solids is looked for.
+constexpr double kDeeper = 10.0;
+// What overlaps has gone past the feature that it met, by a few times as much as it is deep.
+constexpr double kAside = 4.0;
+
+using PairsOfParts = std::vector<std::pair<int, int>>;
+
+void findAll(const PartView& a, const PartView& b, const PairsOfParts& pairs, const Sought& sought,
+             Manifold& out) {
+  for (const auto& [i, j] : pairs) {
+    const std::size_t first = out.size();
+    findExposed(a, i, b, j, sought, out);
+    for (std::size_t k = first; k < out.size(); ++k) out[k].feature |= featureOf(i, j);
+  }
+}
+
+// The contacts of pairs of parts that overlap, or are near, along seams alone. A pair that has none
+// is left to those that cover it, unless all are.
+void uncover(const PartView& a, const PartView& b, const PairsOfParts& covered,
+             const PairsOfParts& beside, double margin, double deepest, Manifold& out) {
+  findAll(a, b, covered, {margin, kDeeper * deepest, kAside * deepest, false}, out);
+  findAll(a, b, beside, {margin, deepest, kAside * deepest, true}, out);
+  if (deepest == 0.0 || !out.empty()) return;
+  findAll(a, b, covered, {margin, std::numeric_limits<double>::infinity(), kAside * deepest, false},
+          out);
+}
+
 void collideParts(const PartView& a, const PartView& b, double margin, Manifold& out,
                   std::vector<PartWitness>* known, PartLooks* looks) {
-  // Both keep their storage from call to call.
-  thread_local std::vector<std::pair<int, int>> near;
+  // All keep their storage from call to call.
+  thread_local PairsOfParts near, covered, beside;
   thread_local std::vector<PartWitness> old;
   near.clear();
   forNearParts(a, b, margin, [&](int i, int j) { near.emplace_back(i, j); });
   std::sort(near.begin(), near.end());
+  covered.clear();
+  beside.clear();
+  double deepest = 0.0;
   old.clear();
   if (known) old.swap(*known);
   auto before = old.begin();
@@ -97,9 +127,14 @@ void collideParts(const PartView& a, const PartView& b, double margin, Manifold&
     if (known && out.size() == first)
       known->push_back(
           {i, j, witnessOf(pairs::planeOf(solidA, poseA, solidB, poseB), poseA, poseB)});
-    leaveCovered(a, i, b, j, margin, first, out);
-    for (std::size_t k = first; k < out.size(); ++k) out[k].feature |= featureOf(i, j);
+    for (std::size_t k = first; k < out.size(); ++k) {
+      deepest = std::max(deepest, -out[k].separation);
+      out[k].feature |= featureOf(i, j);
+    }
+    const Left left = leaveCovered(a, i, b, j, first, out);
+    if (left != Left::Enough) (left == Left::NotDeepest ? covered : beside).push_back(pair);
   }
+  uncover(a, b, covered, beside, margin, deepest, out);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Chapter 5, collide: the general path, for any two convex solids that have a core. Frame of b.
 #pragma once
 
+#include <vector>
+
 #include "sim/collide/contact_point.h"
 #include "sim/collide/core.h"
 
@@ -26,6 +28,10 @@ struct Plane {
 /// 2013). A face of a must win over one of b, and a pair of edges over both, by more than `bias`
 /// [m]. gap = −∞ if neither has faces and they have no pair of edges.
 Plane widestAxis(const Core& a, const Core& b, double bias);
+
+/// All planes that `widestAxis` has to choose from, the widest first, faces of b before those of a
+/// and before pairs of edges where gaps are the same.
+void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes);
 
 /// The plane across the line between the nearest points of two cores that are apart; gap = −∞ if
 /// they are not.

@@ -1,5 +1,7 @@
 // Chapter 5, collide: the separating-axis test of two convex polyhedra, or segments, or points.
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "sim/collide/convex.h"
 
@@ -131,13 +133,12 @@ int crossingEdges(const Vec3& ea, Edges& b, int* crossing) {
   return count;
 }
 
-// An edge between two faces is an arc of normals; that of a segment is a whole circle. The arc of
-// an edge of b and the mirrored arc of one of a cross if each has its ends on two sides of the
-// other, and both are on one side of the sphere.
-void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best) {
-  int vertex = -1;
-  Edges a(coreA, outermost(coreB, best.n, vertex), best.gap);
-  Edges b(coreB, outermost(coreA, -best.n, vertex), best.gap);
+// Calls visit(edge of a, its unit vector, edge of b, its, side) for the pairs that are left. An
+// edge between two faces is an arc of normals; that of a segment is a whole circle. The arc of an
+// edge of b and the mirrored arc of one of a cross if each has its ends on two sides of the other,
+// and both are on one side of the sphere.
+template <class Visit>
+void forCrossingEdges(Edges& a, Edges& b, const Visit& visit) {
   Few<int> crossing(b.number.size() + 1);
   for (int i = 0; i < a.count(); ++i) {
     const Vec3& ea = a.along[i];
@@ -147,8 +148,8 @@ void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best)
       const Vec3& eb = b.along[j];
       double up = 0.0;  // the side of ea × eb on which both have their normals
       if (!a.isSegment()) {
-        const double left = coreA.normals[a.edge(i).left].dot(eb);
-        const double right = coreA.normals[a.edge(i).right].dot(eb);
+        const double left = a.core.normals[a.edge(i).left].dot(eb);
+        const double right = a.core.normals[a.edge(i).right].dot(eb);
         if (!(left * right < 0.0)) continue;
         up = left < 0.0 ? 1.0 : -1.0;
       }
@@ -157,11 +158,19 @@ void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best)
         if (!a.isSegment() && side != up) continue;
         up = side;
       }
-      const int m = a.number[i], n = b.number[j];
-      if (up == 0.0) tryEdges(coreA, m, ea, coreB, n, eb, -1.0, bias, best);
-      tryEdges(coreA, m, ea, coreB, n, eb, up == 0.0 ? 1.0 : up, bias, best);
+      if (up == 0.0) visit(a.number[i], ea, b.number[j], eb, -1.0);
+      visit(a.number[i], ea, b.number[j], eb, up == 0.0 ? 1.0 : up);
     }
   }
+}
+
+void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best) {
+  int vertex = -1;
+  Edges a(coreA, outermost(coreB, best.n, vertex), best.gap);
+  Edges b(coreB, outermost(coreA, -best.n, vertex), best.gap);
+  forCrossingEdges(a, b, [&](int i, const Vec3& ea, int j, const Vec3& eb, double up) {
+    tryEdges(coreA, i, ea, coreB, j, eb, up, bias, best);
+  });
 }
 
 }  // namespace
@@ -171,6 +180,31 @@ Plane widestAxis(const Core& a, const Core& b, double bias) {
   tryFaces(a, b, bias, best);
   tryAllEdges(a, b, bias, best);
   return best;
+}
+
+void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes) {
+  planes.clear();
+  const auto offerFace = [&](NormalTie tie, int face, const Vec3& n) {
+    Plane& plane = planes.emplace_back();
+    plane.tie = tie;
+    (tie == NormalTie::FaceOfA ? plane.i : plane.j) = face;
+    plane.n = n;
+    plane.gap = coreGap(a, b, n);
+  };
+  for (int f = 0; f < static_cast<int>(b.normals.size()); ++f)
+    offerFace(NormalTie::FaceOfB, f, b.normals[f]);
+  for (int f = 0; f < static_cast<int>(a.normals.size()); ++f)
+    offerFace(NormalTie::FaceOfA, f, -a.normals[f]);
+  const double none = -std::numeric_limits<double>::infinity();
+  Edges ofA(a, b.middle, none), ofB(b, a.middle, none);
+  forCrossingEdges(ofA, ofB, [&](int i, const Vec3& ea, int j, const Vec3& eb, double up) {
+    Plane plane;
+    tryEdges(a, i, ea, b, j, eb, up, 0.0, plane);
+    if (plane.gap > none) planes.push_back(plane);
+  });
+  std::sort(planes.begin(), planes.end(), [](const Plane& p, const Plane& q) {
+    return std::tuple(-p.gap, p.tie, p.i, p.j) < std::tuple(-q.gap, q.tie, q.i, q.j);
+  });
 }
 
 }  // namespace tumble::convex

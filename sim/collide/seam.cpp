@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collide/convex.h"
 #include "sim/collide/witness.h"
@@ -83,57 +84,92 @@ bool mayBeCovered(const PartView& side, int part) {
 }
 
 // The surface point of one side of a contact, seen by its body.
-bool showsOn(const PartView& side, int part, const Vec3& p, const Vec3& n, const Vec3& edge) {
+bool showsOn(const PartView& side, int part, const Vec3& p, const Vec3& n, const Vec3& edge,
+             double within) {
   if (!mayBeCovered(side, part)) return true;
   const Quat back = side.pose().q.conjugate();
-  return isExposed(*side.parts(), part, toBody(side.pose(), p), back * n, back * edge);
+  return isExposed(*side.parts(), part, toBody(side.pose(), p), back * n, back * edge, within);
 }
 
-bool shows(const PartView& a, int i, const PartView& b, int j, const ContactPoint& c) {
-  return showsOn(a, i, c.pa - c.ra * c.n, -c.n, c.ea) &&
-         showsOn(b, j, c.pb + c.rb * c.n, c.n, c.eb);
+bool shows(const PartView& a, int i, const PartView& b, int j, const ContactPoint& c,
+           double within) {
+  return showsOn(a, i, c.pa - c.ra * c.n, -c.n, c.ea, within) &&
+         showsOn(b, j, c.pb + c.rb * c.n, c.n, c.eb, within);
 }
 
-// The points along the widest plane of a face of either part that is a contact of the solids.
-void findExposed(const PartView& a, int i, const PartView& b, int j, double margin,
-                 Manifold& found) {
-  const Pose poseA = a.poseOf(i), poseB = b.poseOf(j);
-  if (!convex::hasCore(a.solid(i)) || !convex::hasCore(b.solid(j))) return;
-  const Mat3 R = poseB.q.toRotationMatrix();
-  const convex::Core coreA = convex::coreOf(a.solid(i), R.transpose() * poseA.q.toRotationMatrix(),
-                                            R.transpose() * (poseA.x - poseB.x));
-  const convex::Core coreB = convex::coreOf(b.solid(j), Mat3::Identity(), Vec3::Zero());
-  std::vector<convex::Plane> planes;
-  const auto offer = [&](NormalTie tie, int face, const Vec3& n) {
-    convex::Plane& plane = planes.emplace_back();
-    plane.tie = tie;
-    (tie == NormalTie::FaceOfA ? plane.i : plane.j) = face;
-    plane.n = n;
-    plane.gap = coreGap(coreA, coreB, n);
-  };
-  for (std::size_t f = 0; f < coreB.normals.size(); ++f)
-    offer(NormalTie::FaceOfB, static_cast<int>(f), coreB.normals[f]);
-  for (std::size_t f = 0; f < coreA.normals.size(); ++f)
-    offer(NormalTie::FaceOfA, static_cast<int>(f), -coreA.normals[f]);
-  std::stable_sort(planes.begin(), planes.end(),
-                   [](const auto& p, const auto& q) { return p.gap > q.gap; });
-  for (const convex::Plane& plane : planes) {
-    found.clear();
-    convex::clipFacets(coreA, coreB, plane, a.parts() ? a.parts()->flush : b.parts()->flush, margin,
-                       found);
-    for (ContactPoint& c : found) convex::toWorld(R, poseB.x, c);
-    std::erase_if(found, [&](const ContactPoint& c) { return !shows(a, i, b, j, c); });
-    if (!found.empty()) return;
-  }
+// Whether the solid of one side holds a point in the world.
+bool holds(const PartView& side, int part, const Vec3& p) {
+  const Parts* parts = side.parts();
+  const double size = boundingRadius(side.solid(part));
+  if (!parts)
+    return holds(PosedPart{side.solid(part), side.pose()}, p, kOnFace * (size + p.norm()));
+  const Vec3 p_B = toBody(side.pose(), p);
+  return std::any_of(parts->list.begin(), parts->list.end(),
+                     [&](const PosedPart& other) { return holds(other, p_B, parts->flush); });
+}
+
+// Whether both points of a contact are on their solids, and one of them is in the other: a feature
+// that shows elsewhere, or the far side of a solid, is not what touches.
+bool overlaps(const PartView& a, int i, const PartView& b, int j, const ContactPoint& c) {
+  const Vec3 pa = c.pa - c.ra * c.n, pb = c.pb + c.rb * c.n;
+  const bool ofA = holds(a, i, pb), ofB = holds(b, j, pa);
+  return (ofA || ofB) && holds(a, i, pa) && holds(b, j, pb);
+}
+
+// Whether both points of a contact are on these parts, or hardly past their ends.
+bool isNear(const PosedPart& a, const PosedPart& b, const ContactPoint& c, double past) {
+  return holds(a, c.pa - c.ra * c.n, past) && holds(b, c.pb + c.rb * c.n, past);
 }
 
 }  // namespace
 
-bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const Vec3& edge) {
+void findExposed(const PartView& a, int i, const PartView& b, int j, const Sought& sought,
+                 Manifold& out) {
+  if (!convex::hasCore(a.solid(i)) || !convex::hasCore(b.solid(j))) return;
+  const PosedPart partA{a.solid(i), a.poseOf(i)}, partB{b.solid(j), b.poseOf(j)};
+  const Mat3 R = partB.pose.q.toRotationMatrix();
+  const convex::Core coreA =
+      convex::coreOf(partA.solid, R.transpose() * partA.pose.q.toRotationMatrix(),
+                     R.transpose() * (partA.pose.x - partB.pose.x));
+  const convex::Core coreB = convex::coreOf(partB.solid, Mat3::Identity(), Vec3::Zero());
+  const double flush = a.parts() ? a.parts()->flush : b.parts()->flush;
+  const auto isWrong = [&](const ContactPoint& c) {
+    return !shows(a, i, b, j, c, sought.within) ||
+           !(sought.apart ? isNear(partA, partB, c, std::max(sought.within, kReach * flush))
+                          : overlaps(a, i, b, j, c));
+  };
+  // Both keep their storage from call to call.
+  thread_local std::vector<convex::Plane> planes;
+  thread_local Manifold found;
+  convex::allAxes(coreA, coreB, planes);
+  for (const convex::Plane& plane : planes) {
+    const double gap = plane.gap - coreA.radius - coreB.radius;
+    if (gap > sought.margin) continue;
+    if (gap < -sought.deepest) return;
+    // All points along the plane; or the one that it is fixed to, which may be beside the facets.
+    for (const bool one : {false, true}) {
+      found.clear();
+      if (one)
+        found.push_back(convex::pointOf(plane, coreA, coreB));
+      else
+        convex::clipFacets(coreA, coreB, plane, flush, sought.margin, found);
+      for (ContactPoint& c : found) convex::toWorld(R, partB.pose.x, c);
+      std::erase_if(found, isWrong);
+      if (std::any_of(found.begin(), found.end(),
+                      [&](const ContactPoint& c) { return c.separation <= gap + flush; })) {
+        out.insert(out.end(), found.begin(), found.end());
+        return;
+      }
+    }
+  }
+}
+
+bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const Vec3& edge,
+               double within) {
   if (isFree(parts, part, p, n)) return true;
   const PosedPart& own = parts.list[static_cast<std::size_t>(part)];
   const double size = parts.size[static_cast<std::size_t>(part)];
-  const double reach = std::min(kReach * parts.flush, kFarthest * size);
+  const double reach = std::min(std::max(kReach * parts.flush, within), kFarthest * size);
   const double off = kOnFace * (size + p.norm());
   // From the point itself, but on the plane that just touches the part, so that what n leans shows.
   const Vec3 foot = p + (topOf(own, n) - n.dot(p)) * n;
@@ -156,19 +192,21 @@ bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const
   return false;
 }
 
-void leaveCovered(const PartView& a, int i, const PartView& b, int j, double margin,
-                  std::size_t first, Manifold& out) {
-  if (out.size() == first || !(mayBeCovered(a, i) || mayBeCovered(b, j))) return;
-  double deepest = 0.0;
-  for (std::size_t k = first; k < out.size(); ++k) deepest = std::min(deepest, out[k].separation);
+Left leaveCovered(const PartView& a, int i, const PartView& b, int j, std::size_t first,
+                  Manifold& out) {
+  if (out.size() == first || !(mayBeCovered(a, i) || mayBeCovered(b, j))) return Left::Enough;
+  const auto deepest = [&] {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = first; k < out.size(); ++k) least = std::min(least, out[k].separation);
+    return least;
+  };
+  const double before = deepest();
   const auto begin = out.begin() + static_cast<std::ptrdiff_t>(first);
   out.erase(std::remove_if(begin, out.end(),
-                           [&](const ContactPoint& c) { return !shows(a, i, b, j, c); }),
+                           [&](const ContactPoint& c) { return !shows(a, i, b, j, c, 0.0); }),
             out.end());
-  if (out.size() > first || deepest == 0.0) return;
-  Manifold found;
-  findExposed(a, i, b, j, margin, found);
-  out.insert(out.end(), found.begin(), found.end());
+  if (!(before < deepest())) return Left::Enough;
+  return before < 0.0 ? Left::NotDeepest : Left::NotNearest;
 }
 
 }  // namespace tumble

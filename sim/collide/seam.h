@@ -15,13 +15,34 @@
 namespace tumble {
 
 /// Whether the surface of a part is the surface of the body at p [m] along the unit vector n, both
-/// in the body frame; `edge` is the direction of the edge that p lies on, or 0.
-bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const Vec3& edge);
+/// in the body frame; `edge` is the direction of the edge that p lies on, or 0. Looks as far as
+/// `within` [m] from p, or the small reach if that is more.
+bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const Vec3& edge,
+               double within = 0.0);
+
+/// What is left of the points of two parts without those that are no contact of the solids.
+enum class Left : std::uint8_t {
+  Enough,
+  NotDeepest,  ///< the deepest of an overlap went
+  NotNearest,  ///< the nearest of a gap went
+};
 
 /// Takes away the points from `first` on that are no contact of the two solids: those between part
-/// i of a and part j of b. Where all go although the parts overlap, the widest plane along a face
-/// that shows takes their place.
-void leaveCovered(const PartView& a, int i, const PartView& b, int j, double margin,
-                  std::size_t first, Manifold& out);
+/// i of a and part j of b.
+Left leaveCovered(const PartView& a, int i, const PartView& b, int j, std::size_t first,
+                  Manifold& out);
+
+/// What contact of the solids is looked for, [m].
+struct Sought {
+  double margin = 0.0;   ///< no wider apart
+  double deepest = 0.0;  ///< no deeper
+  double within = 0.0;   ///< a feature shows there if it does so as near as this
+  bool apart = false;    ///< of parts that are apart: no more than on the way to each other
+};
+
+/// Adds the points along the widest plane on which features of part i of a and part j of b meet
+/// that show on the solids; none if there is no such plane.
+void findExposed(const PartView& a, int i, const PartView& b, int j, const Sought& sought,
+                 Manifold& out);
 
 }  // namespace tumble

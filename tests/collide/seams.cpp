@@ -1,0 +1,216 @@
+// Solids that are not convex, in flush parts, met at their seams: what the parts tell is held to
+// the polygons of the whole solid, which know of no parts.
+#include "sim/collide/seam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "sim/collide/collide.h"
+#include "sim/collide/parts.h"
+#include "sim/collide/polygon_pairs.h"
+#include "sim/math/frames.h"
+#include "tests/body/solids.h"
+#include "tests/catch.h"
+#include "tests/collide/random_pose.h"
+
+using namespace tumble;
+
+namespace {
+
+/// A solid as one polyhedron, and as boxes that fill it without overlap.
+struct Solid {
+  std::vector<Vec3> outline;  // [m] in the xy plane, counter-clockwise
+  std::vector<Aabb> boxes;
+  double height;
+};
+
+Aabb block(double x0, double y0, double x1, double y1, double height) {
+  return {{x0, y0, 0.0}, {x1, y1, height}};
+}
+
+/// L, U, T and plus; all numbers are dyadic, so that parts are flush to the bit.
+Solid uprightOf(int kind) {
+  const double h = 0.75;
+  switch (kind) {
+    case 0:
+      return {{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
+              {block(0, 0, 2, 1, h), block(0, 1, 1, 2, h)},
+              h};
+    case 1:
+      return {{{0, 0, 0},
+               {2, 0, 0},
+               {2, 1.5, 0},
+               {1.5, 1.5, 0},
+               {1.5, 0.5, 0},
+               {0.5, 0.5, 0},
+               {0.5, 1.5, 0},
+               {0, 1.5, 0}},
+              {block(0, 0, 2, 0.5, h), block(0, 0.5, 0.5, 1.5, h), block(1.5, 0.5, 2, 1.5, h)},
+              h};
+    case 2:
+      return {{{0.75, 0, 0},
+               {1.25, 0, 0},
+               {1.25, 1.5, 0},
+               {2, 1.5, 0},
+               {2, 2, 0},
+               {0, 2, 0},
+               {0, 1.5, 0},
+               {0.75, 1.5, 0}},
+              {block(0.75, 0, 1.25, 1.5, h), block(0, 1.5, 1, 2, h), block(1, 1.5, 2, 2, h)},
+              h};
+    default:
+      return {{{0.75, 0, 0},
+               {1.25, 0, 0},
+               {1.25, 0.75, 0},
+               {2, 0.75, 0},
+               {2, 1.25, 0},
+               {1.25, 1.25, 0},
+               {1.25, 2, 0},
+               {0.75, 2, 0},
+               {0.75, 1.25, 0},
+               {0, 1.25, 0},
+               {0, 0.75, 0},
+               {0.75, 0.75, 0}},
+              {block(0.75, 0, 1.25, 2, h), block(0, 0.75, 0.75, 1.25, h),
+               block(1.25, 0.75, 2, 1.25, h)},
+              h};
+  }
+}
+
+/// The same, or its mirror image in x.
+Solid solidOf(int kind, bool mirrored) {
+  Solid solid = uprightOf(kind);
+  if (!mirrored) return solid;
+  std::reverse(solid.outline.begin(), solid.outline.end());
+  for (Vec3& p : solid.outline) p.x() = -p.x();
+  for (Aabb& box : solid.boxes) {
+    std::swap(box.lo.x(), box.hi.x());
+    box.lo.x() = -box.lo.x(), box.hi.x() = -box.hi.x();
+  }
+  return solid;
+}
+
+Mesh meshOf(const Solid& solid) {
+  Mesh mesh = solids::prism(solid.outline, solid.height).mesh();
+  mesh.origin = -solid.outline[0];
+  return mesh;
+}
+
+/// Its parts in any order.
+Compound partsOf(const Solid& solid, Random& random) {
+  Compound compound;
+  std::vector<Aabb> boxes = solid.boxes;
+  for (std::size_t k = boxes.size(); k > 1; --k)
+    std::swap(boxes[k - 1], boxes[static_cast<std::size_t>(random.below(static_cast<int>(k)))]);
+  for (const Aabb& box : boxes) {
+    const Vec3 half = 0.5 * (box.hi - box.lo);
+    compound.parts.push_back({Box{half}, {0.5 * (box.lo + box.hi), Quat::Identity()}});
+  }
+  return compound;
+}
+
+/// A point near a corner of a part, or an edge of it: at a seam, or where one ends.
+Vec3 someTarget(const Solid& solid, Random& random, double spread) {
+  const Aabb& box =
+      solid.boxes[static_cast<std::size_t>(random.below(static_cast<int>(solid.boxes.size())))];
+  const int axis = random.below(3);
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) p[k] = random.below(2) ? box.hi[k] : box.lo[k];
+  if (random.below(2)) p[axis] = random.uniform(box.lo[axis], box.hi[axis]);
+  return p + spread * random.vector(-1.0, 1.0);
+}
+
+double deepestOf(const Manifold& points) {
+  double deepest = 0.0;
+  for (const ContactPoint& c : points) deepest = std::max(deepest, -c.separation);
+  return deepest;
+}
+
+/// Shifts a until no contact says that it overlaps b; how far, as the crow flies.
+double lift(const Shape& a, Pose& poseA, const Shape& b, const Pose& poseB, double margin) {
+  const Vec3 from = poseA.x;
+  Manifold points;
+  for (int round = 0; round < 20; ++round) {
+    collide(a, poseA, b, poseB, margin, points);
+    Vec3 shift = Vec3::Zero();
+    for (int pass = 0; pass < 100; ++pass)
+      for (const ContactPoint& c : points)
+        shift += std::max(0.0, -(c.separation + c.n.dot(shift))) * c.n;
+    poseA.x += 1.0000001 * shift;
+  }
+  return (poseA.x - from).norm();
+}
+
+struct Tally {
+  int poses = 0;
+  double least = 1e300, deepest = 0.0, lifted = 0.0;  // per way past the first touch
+};
+
+/// Sends one solid at another, seam on seam, to just past where their polygons first touch.
+void sendOne(int k, Random& random, Tally& tally) {
+  constexpr double kPast = 1e-4;  // [m]
+  const Solid one = solidOf(random.below(4), random.below(2) == 1),
+              other = solidOf(random.below(4), random.below(2) == 1);
+  const Mesh meshA = meshOf(one), meshB = meshOf(other);
+  const PolygonSoup soupA(meshA), soupB(meshB);
+  PolygonPairs pairs(soupA, soupB);
+  const Shape a = readyShape(partsOf(one, random)), b = readyShape(partsOf(other, random));
+  Pose atA{Vec3::Zero(), random.rotation()};
+  const Pose atB{Vec3::Zero(), random.rotation()};
+  const Vec3 p = someTarget(one, random, kPast), q = someTarget(other, random, kPast);
+  const Vec3 aim = toWorld(atB, q) - atA.q * p, way = random.direction();
+  const auto apart = [&](double s) { return pairs.look({aim + s * way, atA.q}, atB).apart; };
+  // Only where they first touch near the aim.
+  double before = -8.0 * kPast, after = 8.0 * kPast;
+  if (!apart(before) || apart(after)) return;
+  for (int halving = 0; halving < 48; ++halving) {
+    const double middle = 0.5 * (before + after);
+    (apart(middle) ? before : after) = middle;
+  }
+  if (apart(after + kPast)) return;
+  const double margin = k % 2 == 0 ? 0.0 : 0.03;
+  CAPTURE(k, margin);
+  Manifold points;
+  // Before the touch nothing overlaps.
+  collide(a, {aim + (before - 1e-12) * way, atA.q}, b, atB, margin, points);
+  REQUIRE(deepestOf(points) == 0.0);
+  // Past it something does, by no more than they went.
+  atA.x = aim + (after + kPast) * way;
+  collide(a, atA, b, atB, margin, points);
+  const double deepest = deepestOf(points) / kPast;
+  REQUIRE(deepest > 0.0);
+  REQUIRE(deepest < 1.0 + 1e-6);
+  // What proves the overlap part by part finds no more.
+  REQUIRE(-separation(a, atA, b, atB) / kPast < deepest + 1e-6);
+  // The contacts are all that there are: without their overlaps the polygons are apart.
+  const double lifted = lift(a, atA, b, atB, margin) / kPast;
+  const PolygonLook end = pairs.look(atA, atB);
+  REQUIRE((end.apart || end.least > -1e-12));
+  REQUIRE(lifted < 2.0);
+  ++tally.poses;
+  tally.least = std::min(tally.least, deepest);
+  tally.deepest = std::max(tally.deepest, deepest);
+  tally.lifted = std::max(tally.lifted, lifted);
+}
+
+void send(int count) {
+  Random random(7);
+  Tally tally;
+  for (int k = 0; k < count; ++k) sendOne(k, random, tally);
+  WARN(tally.poses << " poses of seams on seams, per way past the first touch: measured overlaps "
+                   << tally.least << " to " << tally.deepest << ", lifted by " << tally.lifted
+                   << " at most");
+  CHECK(tally.poses > count / 40);
+}
+
+}  // namespace
+
+// Oracle: the polygons of the whole solids. Measured: overlaps to 0.9996 of the way and 1.2 of it
+// to be lifted, allowed 1 and 2.
+TEST_CASE("where seams of two bodies meet, they overlap as their polygons do, and no deeper") {
+  send(4000);
+}
+TEST_CASE("seams of two bodies meet in a hundred thousand ways", "[long]") {
+  send(100'000);
+}
