@@ -21,6 +21,11 @@ struct Plane {
   bool alongside = false;         ///< ea and eb are parallel lines
 };
 
+/// Puts pa and pb where the lines through p along ea and through q along eb, unit vectors that are
+/// not parallel, are nearest to each other. By their product, since 1 − (ea·eb)² has no digit left
+/// where the sine is 1e-8.
+void cross(const Vec3& p, const Vec3& ea, const Vec3& q, const Vec3& eb, Plane& plane);
+
 /// The widest of the planes along the faces of either core and across a pair of edges. The widest
 /// plane between overlapping solids is one of these (Gottschalk, Separating axis theorem, 1996);
 /// and of the pairs of edges only those that make a face of the difference a − b, whose arcs on

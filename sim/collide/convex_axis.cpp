@@ -51,15 +51,6 @@ void tryFaces(const Core& a, const Core& b, double bias, Plane& best) {
   best.gap = coreGap(a, b, best.n);
 }
 
-// Nearest points of two lines that are not parallel.
-void crossing(const Vec3& a, const Vec3& ea, const Vec3& b, const Vec3& eb, Plane& plane) {
-  const Vec3 d = a - b;
-  const double k = ea.dot(eb), det = 1.0 - k * k;
-  const double da = d.dot(ea), db = d.dot(eb);
-  plane.pa = a + ((k * db - da) / det) * ea;
-  plane.pb = b + ((db - k * da) / det) * eb;
-}
-
 // The plane along edges i of a and j of b with directions ea and eb; `up` tells its side.
 void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const Vec3& eb, double up,
               double bias, Plane& best) {
@@ -82,7 +73,7 @@ void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const 
   best.gap = gap;
   best.ea = ea;
   best.eb = eb;
-  crossing(p, ea, q, eb, best);
+  cross(p, ea, q, eb, best);
 }
 
 // Rounding of a point's height over a face, as a share of its distance from a corner of the face.
@@ -174,6 +165,13 @@ void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best)
 }
 
 }  // namespace
+
+void cross(const Vec3& p, const Vec3& ea, const Vec3& q, const Vec3& eb, Plane& plane) {
+  const Vec3 d = q - p, product = ea.cross(eb);
+  const double squared = product.squaredNorm();
+  plane.pa = p + (d.cross(eb).dot(product) / squared) * ea;
+  plane.pb = q + (d.cross(ea).dot(product) / squared) * eb;
+}
 
 Plane widestAxis(const Core& a, const Core& b, double bias) {
   Plane best;

@@ -114,14 +114,6 @@ Plane onFace(const Core& a, const Shown& face, bool faceOfB) {
   return plane;
 }
 
-// Where two lines that are not parallel cross.
-void cross(const Shown& fa, const Shown& fb, Plane& plane) {
-  const double k = fa.e.dot(fb.e), det = fa.e.cross(fb.e).squaredNorm();
-  const Vec3 d = fa.p - fb.p;
-  plane.pa = fa.p + ((k * d.dot(fb.e) - d.dot(fa.e)) / det) * fa.e;
-  plane.pb = fb.p + ((d.dot(fb.e) - k * d.dot(fa.e)) / det) * fb.e;
-}
-
 void lines(const Shown& fa, const Shown& fb, Plane& plane) {
   plane.ea = fa.e;
   plane.eb = fb.e;
@@ -139,7 +131,7 @@ void lines(const Shown& fa, const Shown& fb, Plane& plane) {
   }
   plane.tie = NormalTie::Edges;
   plane.n = product.normalized() * (product.dot(plane.n) < 0.0 ? -1.0 : 1.0);
-  cross(fa, fb, plane);
+  cross(fa.p, fa.e, fb.p, fb.e, plane);
 }
 
 // Points and rims against each other and against lines: n is free to turn, or about a line.
