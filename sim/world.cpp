@@ -12,12 +12,38 @@
 
 namespace tumble {
 
+namespace {
+
+void stand(const BodySample& sample, RigidBody& body) {
+  body.x = sample.x;
+  body.q = sample.q.normalized();
+  updateDerived(body);
+  // A fixed body moves as its definition has it.
+  if (!body.fixed()) setVelocity(body, sample.v, sample.omega);
+}
+
+}  // namespace
+
 World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
   parts_->build(def);
-  Model& model = parts_->model;
-  State& state = parts_->now->state;
-  checkNeighbours(model, state.bodies);
+  checkNeighbours(parts_->model, parts_->now->state.bodies);
+  openBooks();
+}
 
+World::World(const WorldDef& def, const Sample& from) : parts_(std::make_unique<Parts>()) {
+  parts_->build(def);
+  std::vector<RigidBody>& bodies = parts_->now->state.bodies;
+  if (from.bodies.size() != bodies.size())
+    throw std::invalid_argument("a world goes on from a sample of its own bodies");
+  for (std::size_t i = 0; i < bodies.size(); ++i) stand(from.bodies[i], bodies[i]);
+  openBooks();
+}
+
+// What the certificate compares with later.
+void World::openBooks() {
+  const Model& model = parts_->model;
+  const WorldDef& def = model.def;
+  State& state = parts_->now->state;
   std::vector<RigidBody> loaded = state.bodies;
   sumForces(model.def.gravity, model.def.forces, loaded);
   for (const RigidBody& body : loaded) {

@@ -67,6 +67,12 @@ class World {
  public:
   /// @throws Refusal for a definition that cannot be simulated.
   explicit World(const WorldDef& def);
+  /// The same definition, under settings that may have changed, from an instant of a run of it:
+  /// bodies stand and move as the sample has them, while pivots, joints and what bends are those of
+  /// the definition's start. Its own time begins at 0. A matrix that was sheared is a rotation
+  /// again.
+  /// @throws Refusal as above; std::invalid_argument for a sample of other bodies
+  World(const WorldDef& def, const Sample& from);
   ~World();
 
   /// Holds the start of a definition against the three layers of a state; bodies may overlap.
@@ -104,6 +110,8 @@ class World {
 
  private:
   struct Parts;
+  void openBooks();
+
   std::unique_ptr<Parts> parts_;
 };
 
