@@ -50,7 +50,7 @@ void show(Window& window, UiInput& input, Viewer& viewer, UiRenderer& renderer, 
 
 int view(int argc, char** argv) {
   CommandLine line(
-      "view", "Opens a window with all demos: play, step, scrub, turn.",
+      "view", "Opens a window with all demos: play, step, scrub, turn, live.",
       {"                    # choose in the window", "stacked-boxes       # start with one",
        "my-scene.toml --set world.gravity=[0,-1.62,0]"});
   SceneOptions options;

@@ -67,6 +67,11 @@ Golden drawWindow(Renderer& renderer) {
   };
   std::vector<Deed> picked = click(ball), shown = click(forces);
   picked.push_back({.typed = "f"});
+  std::vector<Deed> live = {{.typed = "l"}, {ball}};
+  for (int k = 0; k <= 30; ++k)
+    live.push_back({.pointer = ball + static_cast<float>(k) * Eigen::Vector2f(4.0f, -2.0f),
+                    .pressed = true,
+                    .seconds = 1.0 / 60.0});
   const struct {
     const char* name;
     double share;
@@ -74,6 +79,7 @@ Golden drawWindow(Renderer& renderer) {
   } states[] = {{"page", 0.5, {}},
                 {"picked", 0.5, picked},
                 {"forces", 1.0, shown},
+                {"live", 0.5, live},
                 {"help", 0.0, {{.typed = "h"}}},
                 {"refused", 0.5, {{.dropped = "missing.toml"}}}};
   Golden golden{std::string(kWindowSubject), {}, {}};

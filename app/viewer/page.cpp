@@ -43,10 +43,11 @@ void Viewer::page() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float width = size.x - kListWidth, height = size.y - kTransportHeight;
   keys();
-  beginPanel("demos", 0.0f, 0.0f, kListWidth, 0.45f * size.y);
+  const float list = (live_ ? 0.2f : 0.45f) * size.y;
+  beginPanel("demos", 0.0f, 0.0f, kListWidth, list);
   demoList();
   ImGui::End();
-  beginPanel("numbers", 0.0f, 0.45f * size.y, kListWidth, 0.55f * size.y);
+  beginPanel("numbers", 0.0f, list, kListWidth, size.y - list);
   numbers();
   shownList();
   ImGui::End();
@@ -87,33 +88,43 @@ void Viewer::picture(float width, float height) {
   mouse(width, height);
   draw(static_cast<int>(width), static_cast<int>(height));
   ImGui::Image(texture_.id(), {width, height});
+  handLine(width, height);
 }
 
 void Viewer::mouse(float width, float height) {
-  if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) dragged_ = 0.0f;
+  if (live_ && live_->hand() && !io.MouseDown[ImGuiMouseButton_Left]) live_->hold({});
+  if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;
+  const ImVec2 corner = ImGui::GetWindowPos();
+  const float x = io.MousePos.x - corner.x, y = io.MousePos.y - corner.y;
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    dragged_ = 0.0f;
+    grip(x, y, width, height);
+  }
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f)) {
     dragged_ += std::abs(io.MouseDelta.x) + std::abs(io.MouseDelta.y);
-    orbit_.turn(io.MouseDelta.x, io.MouseDelta.y, height);
+    if (live_ && live_->hand())
+      lead(x, y, width, height);
+    else
+      orbit_.turn(io.MouseDelta.x, io.MouseDelta.y, height);
   }
   if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f))
     orbit_.pan(io.MouseDelta.x, io.MouseDelta.y, height);
   if (io.MouseWheel != 0.0f) orbit_.zoom(io.MouseWheel);
   // A click that does not turn the picture picks a body.
-  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_ < 4.0f) {
-    const ImVec2 corner = ImGui::GetWindowPos();
-    pick(io.MousePos.x - corner.x, io.MousePos.y - corner.y, width, height);
-  }
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && dragged_ < 4.0f) pick(x, y, width, height);
 }
 
 void Viewer::transport() {
   if (!presenter_) return;
-  if (ImGui::Button(playback_.playing() ? "pause" : "play", {72.0f, 0.0f})) playback_.toggle();
+  if (ImGui::Button(playback_.playing() ? "pause" : "play", {72.0f, 0.0f})) play();
   ImGui::SameLine();
-  if (ImGui::Button("- 1")) playback_.step(-1);
+  if (ImGui::Button("- 1")) step(-1);
   ImGui::SameLine();
-  if (ImGui::Button("+ 1")) playback_.step(1);
+  if (ImGui::Button("+ 1")) step(1);
+  ImGui::SameLine();
+  bool live = live_.has_value();
+  if (ImGui::Checkbox("live", &live)) setLive(live);
   ImGui::SameLine();
   if (ImGui::Button("view")) orbit_ = home_, following_ = false;
   ImGui::SameLine();
@@ -156,14 +167,15 @@ void Viewer::keys() {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
   };
   if (!presenter_ || io.WantTextInput) return;
-  if (pressed(ImGuiKey_Space, false)) playback_.toggle();
-  if (pressed(ImGuiKey_LeftArrow, true)) playback_.step(-1);
-  if (pressed(ImGuiKey_RightArrow, true)) playback_.step(1);
+  if (pressed(ImGuiKey_Space, false)) play();
+  if (pressed(ImGuiKey_LeftArrow, true)) step(-1);
+  if (pressed(ImGuiKey_RightArrow, true)) step(1);
   if (pressed(ImGuiKey_Home, false)) playback_.seek(0.0);
   if (pressed(ImGuiKey_End, false)) playback_.seek(playback_.end());
   // Letters come as text, whatever the keyboard's layout.
   for (const ImWchar letter : io.InputQueueCharacters) {
     if (letter == 'h' || letter == '?') helping_ = !helping_;
+    if (letter == 'l') setLive(!live_);
     if (letter == 'v') orbit_ = home_, following_ = false;
     if (letter == 'f') following_ = picked_ && !following_;
     if (letter == 's') screenshot();

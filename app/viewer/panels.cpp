@@ -36,13 +36,14 @@ void Viewer::numbers() {
     ImGui::PopStyleColor();
   }
   if (!presenter_) return;
+  if (live_) liveList();
   const Sample& sample = recording_->samples[playback_.sample()];
   line(fmt::format("t = {:.3f} s", sample.t));
   line(fmt::format("kinetic {:.4g} J", sample.kinetic));
   line(fmt::format("potential {:.4g} J", sample.potential));
   line(fmt::format("{} contact points", sample.contacts.size()));
   bodyNumbers();
-  if (!recorder_) certificate();
+  if (!recorder_ && !live_) certificate();
 }
 
 void Viewer::bodyNumbers() {
@@ -90,6 +91,8 @@ void Viewer::help() {
   line("Home, End      start, end");
   line("drag           turn;  right drag  shift;  wheel  nearer");
   line("click          pick a body;  f  follow it");
+  line("l              live: it runs on from here, without an end, under settings");
+  line("               beside the picture; drag a body to pull it");
   line("v              the view of the start");
   line("s              write the picture as PNG, 1280 × 720");
   line("c              copy the command that draws it");

@@ -25,6 +25,11 @@ void Playback::seek(double time) {
   time_ = std::clamp(time, 0.0, end());
 }
 
+void Playback::forget(int samples) {
+  last_ = std::max(0, last_ - samples);
+  time_ = std::clamp(time_ - samples / rate_, 0.0, end());
+}
+
 int Playback::sample() const {
   // The margin keeps k/rate on sample k in spite of rounding.
   return std::clamp(static_cast<int>(std::floor(time_ * rate_ + 1e-6)), 0, last_);

@@ -27,6 +27,8 @@ class Playback {
 
   /// More samples are known.
   void extend(int last) { last_ = last; }
+  /// So many samples at the start are no more.
+  void forget(int samples);
 
   bool growing = false;  ///< at the end play waits for more
   double speed = 1.0;    ///< [1] recording time over wall-clock time

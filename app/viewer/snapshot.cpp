@@ -37,9 +37,10 @@ Image viewerSnapshot(Renderer& renderer, const Scene& scene, double share, int w
   page();
   for (const Deed& deed : deeds) {
     perform(deed, io, viewer);
+    viewer.advance(deed.seconds);
     page();
   }
-  if (!deeds.empty()) perform({}, io, viewer);
+  if (!deeds.empty() && !deeds.back().pressed) perform({}, io, viewer);
   page();
   return uiRenderer.drawToImage(*ImGui::GetDrawData());
 }

@@ -16,6 +16,7 @@ struct Deed {
   bool pressed = false;                      ///< the left button
   std::string typed = {};
   std::string dropped = {};  ///< a file
+  double seconds = 0.0;      ///< that pass before the page
 };
 
 /// The page as it looks with the scene open, paused at the given share of its duration, after some

@@ -14,8 +14,6 @@ namespace tumble {
 
 namespace {
 
-/// A picture is framed anew when the run has grown by this factor.
-constexpr double kGrown = 1.5;
 /// The first sample of most scenes is there within this time [s].
 constexpr double kPatience = 0.3;
 
@@ -50,6 +48,7 @@ Viewer::Viewer(Renderer& renderer, std::vector<DemoEntry> demos)
 void Viewer::open(Scene scene) {
   Recording recording = record(scene, scene.image.rate);
   recorder_.reset();
+  live_.reset();
   presenter_.reset();
   whole_.reset();
   scene_ = std::move(scene);
@@ -64,6 +63,7 @@ void Viewer::open(Scene scene) {
 // What a new recording begins with.
 void Viewer::show() {
   drawn_ = {};
+  presented_ = recording_->samples.size();
   picked_.reset();
   following_ = false;
   saved_ = timeOf(scene_->file);
@@ -73,6 +73,7 @@ void Viewer::show() {
 void Viewer::begin(Scene scene) {
   makeWorld(scene);  // refused before what is shown goes
   recorder_.reset();
+  live_.reset();
   presenter_.reset();
   whole_ = scene;
   scene_ = std::move(scene);
@@ -126,9 +127,7 @@ void Viewer::pull() {
 
   // Framed anew, and looked at from there unless the user has turned it.
   const bool untouched = !presenter_ || orbit_ == home_;
-  presenter_.emplace(*scene_, *recording_);
-  presented_ = count;
-  ++revision_;
+  present();
   home_ = Orbit::of(presenter_->image(0).camera);
   if (untouched) orbit_ = home_;
 }

@@ -10,6 +10,7 @@
 #include "app/present/present.h"
 #include "app/record/recording.h"
 #include "app/scene/scene.h"
+#include "app/viewer/live.h"
 #include "app/viewer/orbit.h"
 #include "app/viewer/playback.h"
 #include "app/viewer/recorder.h"
@@ -40,7 +41,7 @@ class Viewer {
   /// scene at hand if it is the same file.
   void load(const std::string& path);
   /// Lets wall-clock time pass.
-  void advance(double seconds) { playback_.advance(seconds); }
+  void advance(double seconds);
   /// Emits one page into the current ImGui frame and handles what the user does with it.
   void page();
   /// Whether the page changes by itself.
@@ -50,6 +51,9 @@ class Viewer {
   const std::optional<Recording>& recording() const { return recording_; }
 
  private:
+  /// A picture is framed anew when the run has grown by this factor.
+  static constexpr double kGrown = 1.5;
+
   void demoList();
   void shownList();
   void numbers();
@@ -59,12 +63,22 @@ class Viewer {
   void transport();
   void eventMarks();
   void help();
+  void liveList();
+  void handLine(float width, float height);
   void keys();
   void mouse(float width, float height);
   void draw(int width, int height);
   void pull();
   void show();
   void pick(float x, float y, float width, float height);
+  void setLive(bool live);
+  void play();
+  void branch();
+  void present();
+  bool grow();
+  void step(int samples);
+  void grip(float x, float y, float width, float height);
+  void lead(float x, float y, float width, float height);
   void reloadIfSaved();
   void screenshot();
   Camera camera() const;
@@ -73,10 +87,11 @@ class Viewer {
   Renderer& renderer_;
   std::vector<DemoEntry> demos_;
   std::optional<Scene> scene_;
-  std::optional<Scene> whole_;  ///< the scene with its claims, while it is recorded
+  std::optional<Scene> whole_;  ///< the scene with its claims, while it is recorded, or lives
   std::optional<Recording> recording_;
   std::optional<Presenter> presenter_;  // of scene_ and recording_
   std::unique_ptr<Recorder> recorder_;  ///< while it is recorded
+  std::optional<Live> live_;            ///< while it runs on as the user wants it
   std::size_t presented_ = 0;           ///< samples that the presenter has seen all of
   std::string complaint_;               ///< why the scene that was asked for is not shown
   std::string told_;                    ///< what the last command did
@@ -86,6 +101,7 @@ class Viewer {
   bool following_ = false;     ///< the picked body
   bool helping_ = false;
   float dragged_ = 0.0f;  ///< [px] since the button went down
+  double owed_ = 0.0;     ///< [s] that the live run is behind
   std::filesystem::file_time_type saved_;
   double looked_ = 0.0;  ///< [s] when the file was last looked at
 

@@ -93,6 +93,8 @@ struct SteppingSettings {
   void take(const SolverPreset& preset);
   /// Crowds are solved as everything else is.
   void treatCrowdsAlike();
+
+  bool operator==(const SteppingSettings&) const = default;
 };
 
 /// Everything a world is made from.

@@ -65,3 +65,13 @@ TEST_CASE("play waits at the end of what is known, and goes on when there is mor
   CHECK(playback.time() == 0.5);
   CHECK_FALSE(playback.playing());
 }
+
+TEST_CASE("what shows sample k of a recording shows the same one when others before it are gone") {
+  Playback playback(100, 60.0);
+  playback.seek(80.0 / 60.0);
+  playback.forget(30);
+  CHECK(playback.sample() == 50);
+  CHECK(playback.last() == 70);
+  playback.forget(60);
+  CHECK(playback.sample() == 0);
+}
