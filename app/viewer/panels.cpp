@@ -23,6 +23,23 @@ constexpr Toggle kToggles[] = {
     {"impacts", &ShowFlags::impacts},      {"names", &ShowFlags::labels},
     {"ellipsoids", &ShowFlags::ellipsoid}, {"energy", &ShowFlags::energy}};
 
+struct Key {
+  const char *key, *what;
+};
+constexpr Key kKeys[] = {
+    {"space", "play, pause"},
+    {"← →", "one image back, on"},
+    {"Home, End", "start, end"},
+    {"drag", "turn;  right drag: shift;  wheel: nearer"},
+    {"click", "pick a body;  f: follow it"},
+    {"l", "live: it runs on from here, without an end, under settings"},
+    {"", "beside the picture; drag a body to pull it"},
+    {"v", "the view of the start"},
+    {"s", "write the picture as PNG, 1280 × 720"},
+    {"c", "copy the command that draws it"},
+    {"h", "this help"},
+};
+
 std::string vector(const Vec3& v) {
   return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x(), v.y(), v.z());
 }
@@ -86,17 +103,11 @@ void Viewer::help() {
   ImGui::Begin("keys", &helping_,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
-  line("space          play, pause");
-  line("← →            one image back, on");
-  line("Home, End      start, end");
-  line("drag           turn;  right drag  shift;  wheel  nearer");
-  line("click          pick a body;  f  follow it");
-  line("l              live: it runs on from here, without an end, under settings");
-  line("               beside the picture; drag a body to pull it");
-  line("v              the view of the start");
-  line("s              write the picture as PNG, 1280 × 720");
-  line("c              copy the command that draws it");
-  line("h              this help");
+  for (const auto& [key, what] : kKeys) {
+    line(key);
+    ImGui::SameLine(100.0f);
+    line(what);
+  }
   line("A scene that is saved, or dropped here, is shown anew.");
   ImGui::End();
 }
