@@ -61,11 +61,12 @@ Recording thinned(const Recording& recording) {
 
 Golden drawWindow(Renderer& renderer) {
   const Scene scene = windowScene();
-  const Eigen::Vector2f ball(582.0f, 195.0f), forces(149.0f, 523.0f);  // [px]
+  const Eigen::Vector2f ball(582.0f, 195.0f), forces(149.0f, 365.0f);  // [px]
   const auto click = [](const Eigen::Vector2f& at) {
     return std::vector<Deed>{{at}, {at, true}, {at}};
   };
-  std::vector<Deed> picked = click(ball), shown = click(forces);
+  std::vector<Deed> picked = click(ball), shown = {{forces}, {.pointer = forces, .wheel = -30.0f}};
+  for (const Deed& deed : click(forces)) shown.push_back(deed);
   picked.push_back({.typed = "f"});
   std::vector<Deed> live = {{.typed = "l"}, {ball}};
   for (int k = 0; k <= 30; ++k)

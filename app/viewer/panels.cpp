@@ -59,6 +59,7 @@ void Viewer::numbers() {
   line(fmt::format("kinetic {:.4g} J", sample.kinetic));
   line(fmt::format("potential {:.4g} J", sample.potential));
   line(fmt::format("{} contact points", sample.contacts.size()));
+  plot();
   bodyNumbers();
   if (!recorder_ && !live_) certificate();
 }

@@ -11,6 +11,7 @@ namespace {
 void perform(const Deed& deed, ImGuiIO& io, Viewer& viewer) {
   io.MousePos = {deed.pointer.x(), deed.pointer.y()};
   io.MouseDown[0] = deed.pressed;
+  io.MouseWheel = deed.wheel;
   io.AddInputCharactersUTF8(deed.typed.c_str());
   if (!deed.dropped.empty()) viewer.load(deed.dropped);
 }

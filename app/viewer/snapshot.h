@@ -14,6 +14,7 @@ namespace tumble {
 struct Deed {
   Eigen::Vector2f pointer = {-1.0f, -1.0f};  ///< [px]
   bool pressed = false;                      ///< the left button
+  float wheel = 0.0f;                        ///< up
   std::string typed = {};
   std::string dropped = {};  ///< a file
   double seconds = 0.0;      ///< that pass before the page

@@ -64,6 +64,8 @@ class Viewer {
   void eventMarks();
   void help();
   void liveList();
+  void plot();
+  void choosePlot();
   void handLine(float width, float height);
   void keys();
   void mouse(float width, float height);
@@ -100,6 +102,7 @@ class Viewer {
   std::optional<int> picked_;  ///< a body
   bool following_ = false;     ///< the picked body
   bool helping_ = false;
+  std::string plotted_ = "energy";  ///< a quantity, or ""
   float dragged_ = 0.0f;  ///< [px] since the button went down
   double owed_ = 0.0;     ///< [s] that the live run is behind
   std::filesystem::file_time_type saved_;
