@@ -103,8 +103,8 @@ class Viewer {
   bool following_ = false;     ///< the picked body
   bool helping_ = false;
   std::string plotted_ = "energy";  ///< a quantity, or ""
-  float dragged_ = 0.0f;  ///< [px] since the button went down
-  double owed_ = 0.0;     ///< [s] that the live run is behind
+  float dragged_ = 0.0f;            ///< [px] since the button went down
+  double owed_ = 0.0;               ///< [s] that the live run is behind
   std::filesystem::file_time_type saved_;
   double looked_ = 0.0;  ///< [s] when the file was last looked at
 
