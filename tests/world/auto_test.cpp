@@ -164,6 +164,27 @@ TEST_CASE("auto goes on by stepping where the exact method gives up") {
                        [](const Event& p, const Event& q) { return p.t < q.t; }));
 }
 
+// Oracle: conservation. A coin on its edge rattles before it rolls: steps of stepping leave a tenth
+// of its energy open. Measured 3.7e-8 of the largest kinetic energy, allowed 1e-6.
+TEST_CASE("auto follows a coin that spins on a table by the exact method, to the end") {
+  WorldDef def = worldOf("auto", 1.0, {ground(0.3, 0.2)});
+  BodyDef coin;
+  coin.name = "coin";
+  coin.shape = Cylinder{0.012, 0.002};
+  coin.density = 7800.0;
+  coin.restitution = 0.3;
+  coin.friction = 0.2;
+  coin.position = {0.0, 0.0121, 0.0};
+  coin.orientation = fromAxisAngle(Vec3::UnitX(), std::numbers::pi / 2);
+  coin.angularVelocity = {0.5, 40.0, 0.0};
+  def.bodies.push_back(coin);
+  World world(def);
+  run(world);
+  CHECK(world.method() == "auto: exact");
+  CHECK_FALSE(world.report().stopped);
+  CHECK(world.report().certificate.energy_balance_error < 1e-6);
+}
+
 TEST_CASE("auto says why the exact method gave up, and what to set, in words of a scene") {
   State state;
   state.effort.done = 1'500'000;

@@ -65,7 +65,7 @@ void giveUp(const State& state, Report& report) {
   if (state.effort.most == std::numeric_limits<long>::max()) return;
   if (state.effort.spent()) {
     report.reason = spentBy(state);
-  } else if (state.pace.level > 0) {
+  } else if (state.pace.level > 0 && countMoving(state.bodies) > 1) {  // alone, one goes on well
     report.reason = "the exact method met more events than it could follow closely";
   } else {
     return;
