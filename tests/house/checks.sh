@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What continuous integration sees beside the quick tests, step by step: each prints its name, its time
 # and its verdict; the last line counts them. Needs the build of ./run tests in build/release.
-# usage: checks.sh [STEP…]   all of them but the soak, or those named
+# usage: checks.sh [STEP…]   all of them but those on request, or those named
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 release=build/release
@@ -77,6 +77,16 @@ soak() {
   return $status
 }
 
+# The physics made wrong, line by line: quick tests have to see it.
+mutations() {
+  tests/house/mutations.sh
+}
+
+# What it costs a scene that something is there which it does not use.
+needs() {
+  tests/stability/needs.sh "$release/tumble"
+}
+
 egl_goldens() {
   TUMBLE_GL=egl "$release/tumble" golden -o "$root/golden"
 }
@@ -120,8 +130,13 @@ steps=(
   "egl_goldens:goldens by EGL"
   "page:pages of runs play in a headless browser"
 )
-# Run when asked for: a few of its scenes cost more than they may, or end apart from the audit.
-on_request=("soak:random scenes under the audit")
+# Run when asked for: dear, or known not to hold everywhere – random scenes that cost more than they may or end apart
+# from the audit, and scenes beside which something moves.
+on_request=(
+  "soak:random scenes under the audit"
+  "mutations:quick tests catch each line of the physics made wrong"
+  "needs:what a scene does not use costs it less than 2 %"
+)
 for asked in "$@"; do
   [[ " ${steps[*]} ${on_request[*]}" == *" $asked:"* ]] && continue
   known=("${steps[@]}" "${on_request[@]}")
