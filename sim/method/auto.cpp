@@ -88,13 +88,11 @@ void handOver(const Model& model, State& state, Report& report) {
 std::string_view chooseMethod(const Model& model, std::span<const RigidBody> bodies) {
   const Method &exact = *findMethod("exact"), &stepping = *findMethod("stepping");
   const Counts counts = countsOf(model);
-  const int moving = counts.balls + counts.solids;
   if (!model.bending.empty()) return "stepping";  // which says so where it cannot
-  const bool contact = moving > 1 || (moving == 1 && counts.fixed);
   const bool few =
       !gathers(model, counts) || (counts.solids <= kMostSolids && counts.balls <= kMostBalls);
   if (few && model.joints.size() <= kMostJoints && serves(exact, model, bodies)) return "exact";
-  if ((contact || !model.joints.empty()) && serves(stepping, model, bodies)) return "stepping";
+  if (serves(stepping, model, bodies)) return "stepping";
   return serves(exact, model, bodies) ? "exact" : "course";
 }
 

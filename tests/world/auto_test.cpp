@@ -113,7 +113,7 @@ std::vector<Choice> choices() {
           {"many balls over a floor", balls(40, true), "stepping"},
           {"many balls and no floor", balls(40, false), "exact"},
           {"a spring over a floor", sprung(true), "stepping"},
-          {"a spring and nothing to touch", sprung(false), "course"},
+          {"a spring and nothing to touch", sprung(false), "stepping"},
           {"a few joints", pendulums(2), "exact"},
           {"many joints", pendulums(20), "stepping"}};
 }
