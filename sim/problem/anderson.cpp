@@ -56,12 +56,17 @@ void Anderson::reset(const VecX& weight) {
   r_.setZero(n);
   rBefore_.setZero(n);
   gBefore_.setZero(n);
-  dr_.setZero(n, kDepth);
-  dg_.setZero(n, kDepth);
+  dr_.resize(n, kDepth);
+  dg_.resize(n, kDepth);
   forget();
 }
 
+/// Columns are read by fours: up to three more than are in use, which are those behind the newest.
 void Anderson::forget() {
+  for (int age = 0; age < 3; ++age) {
+    dr_.col(column(age)).setZero();
+    dg_.col(column(age)).setZero();
+  }
   gram_.setZero();
   right_.setZero();
   used_ = 0;

@@ -27,11 +27,10 @@ Vec3 solveFriction(const SweptCone& cone, const Vec3& u, const Vec3& old) {
   return slideFrictionBlock(cone.W, u - cone.W.lazyProduct(old), cone.mu, old, held, kTurn) - old;
 }
 
-/// λ of a cone without friction, or with that of a known direction.
+/// λ of a row that pushes and pulls, or of a contact with friction of a known direction.
 Vec3 solveOther(const SweptCone& cone, const Vec3& u, const Vec3& old) {
   const Vec3 free = u - cone.W.lazyProduct(old);
   if (cone.kind == ConeKind::Equality) return {-free[0] / cone.W(0, 0), 0.0, 0.0};
-  if (cone.kind == ConeKind::Push) return {std::max(-free[0] / cone.W(0, 0), 0.0), 0.0, 0.0};
   const double mobility = cone.W(0, 0) - cone.mu * cone.W(0, 1);
   const double push = mobility > 0.0 ? std::max(-free[0] / mobility, 0.0) : 0.0;
   return {push, -cone.mu * push, 0.0};
@@ -86,17 +85,26 @@ void push(PairMotion& y, const SweptCone& cone, const Vec3& d) {
   y.nine = (y.nine + K[0].nine * d[0]) + (K[1].nine * d[1] + K[2].nine * d[2]);
 }
 
-/// Solves one cone and moves its bodies. Returns the change of λ in units of u.
+/// Solves one cone and moves its bodies. Returns the change of λ in units of u. What is open and
+/// stays so, half of a crowd, is seen by its first row.
 double visit(const SweptCone& cone, double* lambda, PairMotion& y) {
   Vec3 change;
+  const double first = speed(cone, 0, y);
   if (cone.kind == ConeKind::Friction) {
-    const Vec3 u(speed(cone, 0, y), speed(cone, 1, y), speed(cone, 2, y));
     const Vec3 old(lambda[0], lambda[1], lambda[2]);
+    if (first >= 0.0 && old.isZero(0.0)) return 0.0;
+    const Vec3 u(first, speed(cone, 1, y), speed(cone, 2, y));
     change = solveFriction(cone, u, old);
     for (int i = 0; i < 3; ++i) lambda[i] = old[i] + change[i];
+  } else if (cone.kind == ConeKind::Push) {
+    const double old = lambda[0], u = first + cone.compliance * old;
+    if (u >= 0.0 && old == 0.0) return 0.0;
+    lambda[0] = std::max(-(u - cone.W(0, 0) * old) / cone.W(0, 0), 0.0);
+    push(y, cone, Vec3(lambda[0] - old, 0.0, 0.0));
+    return std::abs(lambda[0] - old) * cone.mobility;
   } else {
     const bool two = cone.kind == ConeKind::Slide;
-    const Vec3 u(speed(cone, 0, y) + cone.compliance * lambda[0], 0.0, 0.0);
+    const Vec3 u(first + cone.compliance * lambda[0], 0.0, 0.0);
     const Vec3 old(lambda[0], two ? lambda[1] : 0.0, 0.0);
     const Vec3 next = solveOther(cone, u, old);
     lambda[0] = next[0];
@@ -160,13 +168,14 @@ void push(TwinCone::Motion& y, const TwinCone& cone, const Lanes3& d) {
 
 /// Visits two contacts with friction.
 Lanes visit(const TwinCone& cone, TwinCone::Motion& y, double* lambda) {
-  const Lanes3 u{along(cone.K[0], y, cone.c.x), along(cone.K[1], y, cone.c.y),
-                 along(cone.K[2], y, cone.c.z)};
+  const Lanes first = along(cone.K[0], y, cone.c.x), none{};
   double* const at[] = {lambda + cone.row[0], lambda + cone.row[1]};
   const Lanes3 old = abreast(at[0], at[1]);
+  if (both(first >= none) && both((old.x == none) & (old.y == none) & (old.z == none))) return none;
+  const Lanes3 u{first, along(cone.K[1], y, cone.c.y), along(cone.K[2], y, cone.c.z)};
   const Lanes free = u.x - (cone.W * old).x;
   const Lanes3 hold = cone.hold * -u, held = old + hold;
-  const Lanes bound = cone.mu * held.x, none{};
+  const Lanes bound = cone.mu * held.x;
   const LaneMask sticks = (free < none) & (cone.hold.xx > none) & (bound >= none) &
                           (held.y * held.y + held.z * held.z <= bound * bound);
   const Lanes3 change = both(sticks) ? hold : solveApart(cone, u, old, hold, sticks);

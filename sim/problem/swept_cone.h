@@ -14,16 +14,16 @@ namespace tumble {
 
 /// A cone of any kind with all that one visit reads and no more.
 struct SweptCone {
+  ConeKind kind;
+  int row;
+  double mu;
+  double mobility;                 ///< largest diagonal entry of W [1/kg]
+  double compliance;               ///< [1/kg] of its first row
+  Vec3 c;                          ///< J vStar + bias
   Eigen::Matrix<double, 10, 3> K;  ///< columns: what a unit of each λ does to y of the pair: of its
                                    ///< centres, of a's turning, of b's, 0; 0 beyond its rows
   Mat3 W;     ///< K Kᵀ: block of J M⁻¹ Jᵀ + C [1/kg]
   Mat3 hold;  ///< W⁻¹, symmetric; 0 where W is singular
-  Vec3 c;     ///< J vStar + bias
-  double mu;
-  double mobility;    ///< largest diagonal entry of W [1/kg]
-  double compliance;  ///< [1/kg] of its first row
-  int row;
-  ConeKind kind;
 };
 
 /// Two pairs of bodies, in a lane each; no body that moves is of both. A pair that is alone has
@@ -49,11 +49,11 @@ struct TwinCone {
 
   void set(int lane, const SweptCone& cone);
 
+  int row[2];
+  Lanes mu, mobility;
+  Lanes3 c;
   Motion K[3];  ///< columns
   LanesSymmetric W, hold;
-  Lanes3 c;
-  Lanes mu, mobility;
-  int row[2];
 };
 
 /// As takeCones and sweepCones, in both lanes.
