@@ -19,7 +19,7 @@ if(TUMBLE_APP)
     house_test("every demo has the bits of its hashes" quick 600
                ${house}/bits.sh $<TARGET_FILE:tumble>)
   endif()
-  house_test("a project of ten lines finds the installed package" quick 120
+  house_test("the programs of API.md find the installed package and run" quick 600
              ${house}/consumer.sh ${PROJECT_BINARY_DIR})
   house_test("both compilers give the same bits at -O1 and -O3" long 3600
              ${house}/determinism.sh)

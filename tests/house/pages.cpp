@@ -56,8 +56,8 @@ bool hasCase(const std::string& room, const std::string& name) {
 
 TEST_CASE("every link and picture of a page is there") {
   int count = 0;
-  for (const char* page :
-       {"README.md", "sim/README.md", "assets/demos/README.md", "assets/report/README.md"}) {
+  for (const char* page : {"README.md", "API.md", "sim/README.md", "assets/demos/README.md",
+                           "assets/report/README.md"}) {
     const std::vector<std::string> links = found(textOf(kRoot / page), R"(\]\(([^)#:]+)\))");
     for (const std::string& link : links) {
       CAPTURE(page, link);
@@ -89,4 +89,14 @@ TEST_CASE("every test that the way from slide to test names is there") {
       ++count;
     }
   CHECK(count > 30);
+}
+
+TEST_CASE("the changes begin with the version that is built") {
+  const std::vector<std::string> built =
+      found(textOf(kRoot / "CMakeLists.txt"), R"(project\(tumble VERSION ([0-9.]+) )");
+  const std::vector<std::string> told =
+      found(textOf(kRoot / "CHANGELOG.md"), R"(## ([0-9]+\.[0-9]+\.[0-9]+)\b)");
+  REQUIRE(built.size() == 1);
+  REQUIRE_FALSE(told.empty());
+  CHECK(told.front() == built.front());
 }

@@ -2,7 +2,7 @@
 # What it costs a scene that something is there which it does not use, counted in instructions (callgrind).
 #   cost = ((scene with it − scene) − (it alone − nothing)) / (scene − nothing),
 # where "nothing" is the scene's settings over an empty world; what is added may cost what it costs by itself, and
-# the scene no more than 2 % above. Prints the table of needs/table.md; ends with 1 if a cost is 2 % or more.
+# the scene no more than 2 % above. Prints the table; ends with 1 if a cost is 2 % or more.
 # usage: needs.sh PROGRAM [SCENE…]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/needs
