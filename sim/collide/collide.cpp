@@ -7,6 +7,7 @@
 
 #include "sim/collide/features.h"
 #include "sim/collide/pair_table.h"
+#include "sim/collide/part_planes.h"
 #include "sim/collide/seam.h"
 
 namespace tumble {
@@ -96,45 +97,59 @@ void uncover(const PartView& a, const PartView& b, const PairsOfParts& covered,
           out);
 }
 
+// What a look at two bodies' parts leaves to do.
+struct PartsLeft {
+  PairsOfParts covered, beside;
+  double deepest = 0.0;  ///< [m] overlap of parts
+};
+
+// Adds the points of one near pair of parts that are contacts of the solids. Returns whether parts
+// had points at all.
+bool collideTwo(const PartView& a, const PartView& b, std::pair<int, int> pair, double margin,
+                Manifold& out, PartsLeft& left) {
+  const auto [i, j] = pair;
+  const std::size_t first = out.size();
+  pairs::pointsOf(a.solid(i), a.poseOf(i), b.solid(j), b.poseOf(j), margin, out);
+  const bool any = out.size() > first;
+  for (std::size_t k = first; k < out.size(); ++k) {
+    left.deepest = std::max(left.deepest, -out[k].separation);
+    out[k].feature |= featureOf(i, j);
+  }
+  const Left rest = leaveCovered(a, i, b, j, first, out);
+  if (rest != Left::Enough) (rest == Left::NotDeepest ? left.covered : left.beside).push_back(pair);
+  return any;
+}
+
 void collideParts(const PartView& a, const PartView& b, double margin, Manifold& out,
                   std::vector<PartWitness>* known, PartLooks* looks) {
   // All keep their storage from call to call.
-  thread_local PairsOfParts near, covered, beside;
-  thread_local std::vector<PartWitness> old;
+  thread_local PairsOfParts near;
+  thread_local PartsLeft left;
+  thread_local std::vector<PartWitness> held;
+  thread_local PartLooks uncounted;
   near.clear();
-  forNearParts(a, b, margin, [&](int i, int j) { near.emplace_back(i, j); });
+  left.covered.clear();
+  left.beside.clear();
+  left.deepest = 0.0;
+  PartPlanes planes(a, b, margin, held, looks ? *looks : uncounted);
+  // A half-space needs no plane remembered: it is one.
+  if (known && (a.plane() || b.plane())) known->clear(), known = nullptr;
+  if (known) planes.keep(*known);
+  forNearParts(
+      a, b, margin, [&](int i, int j) { near.emplace_back(i, j); }, nullptr,
+      [&](int i, int j) { return planes.keeps(i, j); });
   std::sort(near.begin(), near.end());
-  covered.clear();
-  beside.clear();
-  double deepest = 0.0;
-  old.clear();
-  if (known) old.swap(*known);
-  auto before = old.begin();
   for (const auto& pair : near) {
     const auto [i, j] = pair;
-    const Pose poseA = a.poseOf(i), poseB = b.poseOf(j);
-    const Shape &solidA = a.solid(i), &solidB = b.solid(j);
-    while (before != old.end() && std::pair(before->i, before->j) < pair) ++before;
-    const bool seen = before != old.end() && std::pair(before->i, before->j) == pair;
+    if (planes.hasFound(i, j)) continue;
     if (looks) ++looks->tests;
-    if (seen && showsApart(before->plane, solidA, poseA, solidB, poseB, margin)) {
-      ++looks->hits;
-      known->push_back(*before);
-      continue;
-    }
-    const std::size_t first = out.size();
-    pairs::pointsOf(solidA, poseA, solidB, poseB, margin, out);
-    if (known && out.size() == first)
-      known->push_back(
-          {i, j, witnessOf(pairs::planeOf(solidA, poseA, solidB, poseB), poseA, poseB)});
-    for (std::size_t k = first; k < out.size(); ++k) {
-      deepest = std::max(deepest, -out[k].separation);
-      out[k].feature |= featureOf(i, j);
-    }
-    const Left left = leaveCovered(a, i, b, j, first, out);
-    if (left != Left::Enough) (left == Left::NotDeepest ? covered : beside).push_back(pair);
+    if (collideTwo(a, b, pair, margin, out, left) || !known) continue;
+    const Pose poseA = a.poseOf(i), poseB = b.poseOf(j);
+    planes.find(
+        i, j, witnessOf(pairs::planeOf(a.solid(i), poseA, b.solid(j), poseB), a.pose(), b.pose()));
   }
-  uncover(a, b, covered, beside, margin, deepest, out);
+  if (known) known->swap(held);
+  uncover(a, b, left.covered, left.beside, margin, left.deepest, out);
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ ContactPoint separatingPlane(const Shape& a, const Pose& poseA, const Shape& b, 
 void collide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double margin,
              Manifold& out);
 
-/// Looks at near pairs of parts, and those of them that a remembered plane answered.
+/// Near pairs of parts, or of boxes of them, that were asked for a plane, and those of them that a
+/// remembered plane answered.
 struct PartLooks {
   long tests = 0, hits = 0;
 };

@@ -36,9 +36,14 @@ Parts partsOf(const Compound& compound) {
   for (const PosedPart& part : parts.list) {
     const Aabb own = boundingBox(part.solid, Pose{});
     parts.size.push_back(0.5 * (own.hi - own.lo).maxCoeff());
+    parts.radius.push_back(boundingRadius(part.solid));
     boxes.push_back(boundingBox(part.solid, part.pose, parts.flush));
   }
   parts.tree = BoxTree(boxes);
+  parts.leaf.resize(parts.list.size());
+  for (std::size_t k = 0; k < parts.tree.nodes().size(); ++k)
+    if (const int part = parts.tree.nodes()[k].item; part >= 0)
+      parts.leaf[static_cast<std::size_t>(part)] = static_cast<int>(k);
   findBeside(parts);
   return parts;
 }

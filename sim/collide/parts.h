@@ -16,8 +16,10 @@ struct Parts {
   BoxTree tree;
   /// Of each part, the others that it touches: what they cover is no surface of the body.
   std::vector<std::vector<int>> beside;
-  std::vector<double> size;  ///< [m] of each part: the half of its box's longest edge
-  double flush = 0.0;        ///< [m] parts no further apart touch; steps no higher are none
+  std::vector<double> size;    ///< [m] of each part: the half of its box's longest edge
+  std::vector<double> radius;  ///< [m] of each part, about its own origin
+  std::vector<int> leaf;       ///< of each part, its box in the tree
+  double flush = 0.0;          ///< [m] parts no further apart touch; steps no higher are none
 };
 
 /// The largest number of parts of one body: features have no room to name more.
@@ -41,6 +43,12 @@ class PartView {
   }
   Pose poseOf(int part) const;
   const BoxTree& tree() const { return *tree_; }
+  /// [m], of a part about its own origin.
+  double radiusOf(int part) const {
+    return parts_ ? parts_->radius[static_cast<std::size_t>(part)] : boundingRadius(shape_);
+  }
+  /// The box of a part in the tree.
+  int leafOf(int part) const { return parts_ ? parts_->leaf[static_cast<std::size_t>(part)] : 0; }
   const HalfSpace* plane() const { return std::get_if<HalfSpace>(&shape_); }
 
  private:
@@ -53,22 +61,23 @@ class PartView {
 };
 
 /// Calls visit(part of a, part of b) for the pairs of parts whose boxes are within `reach` [m] of
-/// each other; visit may shorten it. A shape that is no compound is one part, number 0.
-template <class Visit>
+/// each other; visit may shorten it. A shape that is no compound is one part, number 0. What is
+/// below a pair of boxes of which skip(index of a, index of b) holds is passed over.
+template <class Visit, class Skip = tree::NoSkip>
 void forNearParts(const PartView& a, const PartView& b, const double& reach, const Visit& visit,
-                  Survivors* count = nullptr) {
+                  Survivors* count = nullptr, const Skip& skip = {}) {
   if (a.plane() || b.plane()) {
     const PartView& solid = a.plane() ? b : a;
     const HalfSpace& plane = a.plane() ? *a.plane() : *b.plane();
     const int parts = solid.parts() ? static_cast<int>(solid.parts()->list.size()) : 1;
     for (int k = 0; k < parts; ++k) {
       const Pose at = solid.poseOf(k);
-      if (plane.n.dot(at.x) - plane.d - boundingRadius(solid.solid(k)) > reach) continue;
+      if (plane.n.dot(at.x) - plane.d - solid.radiusOf(k) > reach) continue;
       a.plane() ? visit(0, k) : visit(k, 0);
     }
     return;
   }
-  forNear(a.tree(), b.tree(), seatOf(a.pose(), b.pose()), reach, visit, count);
+  forNear(a.tree(), b.tree(), seatOf(a.pose(), b.pose()), reach, visit, count, skip);
 }
 
 }  // namespace tumble

@@ -17,9 +17,9 @@ struct Witness {
   Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< [1] edges, if it is tied to two
 };
 
-/// A plane that parts one part of a compound from one of another, in the order of the parts.
+/// A plane that parts all parts below one box of a compound's tree from all below one of another's.
 struct PartWitness {
-  int i = 0, j = 0;  ///< of a and of b; 0 of a shape that is no compound
+  int i = 0, j = 0;  ///< boxes of the trees of a and of b; 0 of a shape that is no compound
   Witness plane;     ///< in the frames of the bodies
 };
 

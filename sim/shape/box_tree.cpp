@@ -27,13 +27,15 @@ BoxTree::BoxTree(std::span<const Aabb> items) {
   nodes_.reserve(2 * items.size() - 1);
   std::vector<int> order(items.size());
   std::iota(order.begin(), order.end(), 0);
-  build(items, order, 0);
+  build(items, order, -1);
 }
 
-int BoxTree::build(std::span<const Aabb> items, std::span<int> order, int level) {
+int BoxTree::build(std::span<const Aabb> items, std::span<int> order, int parent) {
   const int own = static_cast<int>(nodes_.size());
   Node node{items[static_cast<std::size_t>(order[0])]};
-  node.level = level;
+  node.parent = parent;
+  node.past = own + 1;
+  node.level = parent < 0 ? 0 : nodes_[static_cast<std::size_t>(parent)].level + 1;
   for (const int i : order) {
     const Aabb& box = items[static_cast<std::size_t>(i)];
     node.box = {node.box.lo.cwiseMin(box.lo), node.box.hi.cwiseMax(box.hi)};
@@ -51,11 +53,18 @@ int BoxTree::build(std::span<const Aabb> items, std::span<int> order, int level)
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return middle(i) != middle(j) ? middle(i) < middle(j) : i < j; });
   const std::size_t half = order.size() / 2;
-  const int first = build(items, order.first(half), level + 1);
-  const int last = build(items, order.subspan(half), level + 1);
-  nodes_[static_cast<std::size_t>(own)].first = first;
-  nodes_[static_cast<std::size_t>(own)].last = last;
+  const int first = build(items, order.first(half), own);
+  const int last = build(items, order.subspan(half), own);
+  Node& built = nodes_[static_cast<std::size_t>(own)];
+  built.first = first;
+  built.last = last;
+  built.past = static_cast<int>(nodes_.size());
   return own;
+}
+
+bool opensFirst(const BoxTree::Node& a, const BoxTree::Node& b) {
+  if (a.item >= 0 || b.item >= 0) return a.item < 0;
+  return (a.box.hi - a.box.lo).squaredNorm() >= (b.box.hi - b.box.lo).squaredNorm();
 }
 
 void Survivors::see(int level, bool survives) {

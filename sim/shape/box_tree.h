@@ -29,6 +29,8 @@ class BoxTree {
     Aabb box;
     int item = -1;              ///< of a leaf
     int first = -1, last = -1;  ///< children
+    int parent = -1;            ///< −1 of the root
+    int past = 0;               ///< all below it, and itself, are from its own index to before this
     int level = 0;              ///< 0: the root
   };
 
@@ -42,10 +44,13 @@ class BoxTree {
   bool empty() const { return nodes_.empty(); }
 
  private:
-  int build(std::span<const Aabb> items, std::span<int> order, int level);
+  int build(std::span<const Aabb> items, std::span<int> order, int parent);
 
   Nodes nodes_;
 };
+
+/// Whether the box of a is opened when two are descended, not that of b: the larger one is.
+bool opensFirst(const BoxTree::Node& a, const BoxTree::Node& b);
 
 /// Pairs of boxes looked at, and those not parted, by the deeper of their two levels.
 struct Survivors {
@@ -55,15 +60,20 @@ struct Survivors {
 
 namespace tree {
 
-template <class Visit>
+/// No pair of boxes is passed over.
+struct NoSkip {
+  bool operator()(int, int) const { return false; }
+};
+
+template <class Visit, class Skip>
 void descend(const BoxTree& a, int i, const BoxTree& b, int j, const Seat& seat,
-             const double& reach, Survivors* count, const Visit& visit) {
+             const double& reach, Survivors* count, const Visit& visit, const Skip& skip) {
+  if (skip(i, j)) return;
   const BoxTree::Node &p = a.nodes()[static_cast<std::size_t>(i)],
                       &q = b.nodes()[static_cast<std::size_t>(j)];
   if (p.item >= 0 && q.item >= 0) return visit(p.item, q.item);
-  // The larger box is opened, its nearer half first.
-  const bool openA = q.item >= 0 || (p.item < 0 && (p.box.hi - p.box.lo).squaredNorm() >=
-                                                       (q.box.hi - q.box.lo).squaredNorm());
+  // The nearer half first.
+  const bool openA = opensFirst(p, q);
   struct Child {
     int i, j;
     double gap;
@@ -78,20 +88,22 @@ void descend(const BoxTree& a, int i, const BoxTree& b, int j, const Seat& seat,
   }
   const int near = child[1].gap < child[0].gap ? 1 : 0;
   for (const int k : {near, 1 - near})
-    if (child[k].gap <= reach) descend(a, child[k].i, b, child[k].j, seat, reach, count, visit);
+    if (child[k].gap <= reach)
+      descend(a, child[k].i, b, child[k].j, seat, reach, count, visit, skip);
 }
 
 }  // namespace tree
 
 /// Calls visit(item of a, item of b) for all pairs whose boxes are within `reach` [m], which visit
-/// may shorten on the way. Nearer ones tend to come first.
-template <class Visit>
+/// may shorten on the way. Nearer ones tend to come first. What is below a pair of boxes of which
+/// skip(index of a, index of b) holds is passed over.
+template <class Visit, class Skip = tree::NoSkip>
 void forNear(const BoxTree& a, const BoxTree& b, const Seat& seat, const double& reach,
-             const Visit& visit, Survivors* count = nullptr) {
+             const Visit& visit, Survivors* count = nullptr, const Skip& skip = {}) {
   if (a.empty() || b.empty()) return;
   const bool near = gapOf(a.nodes()[0].box, b.nodes()[0].box, seat) <= reach;
   if (count) count->see(0, near);
-  if (near) tree::descend(a, 0, b, 0, seat, reach, count, visit);
+  if (near) tree::descend(a, 0, b, 0, seat, reach, count, visit, skip);
 }
 
 }  // namespace tumble
