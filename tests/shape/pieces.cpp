@@ -6,6 +6,7 @@
 
 #include "sim/body/mass_properties.h"
 #include "sim/shape/convex_hull.h"
+#include "tests/body/notched.h"
 #include "tests/body/solids.h"
 #include "tests/catch.h"
 
@@ -14,37 +15,6 @@ using namespace tumble;
 namespace {
 
 using Fraction = boost::multiprecision::cpp_rational;
-
-Polyhedron letterU() {
-  return solids::prism({{0, 0, 0},
-                        {3, 0, 0},
-                        {3, 2, 0},
-                        {2.5, 2, 0},
-                        {2.5, 0.5, 0},
-                        {0.5, 0.5, 0},
-                        {0.5, 2, 0},
-                        {0, 2, 0}},
-                       0.5)
-      .made();
-}
-Polyhedron comb(int teeth) {
-  std::vector<Vec3> outline = {{0, 0, 0}, {2.0 * teeth - 1, 0, 0}};
-  for (int k = teeth - 1; k >= 0; --k) {
-    outline.emplace_back(2.0 * k + 1, 2, 0);
-    outline.emplace_back(2.0 * k, 2, 0);
-    if (k > 0) outline.emplace_back(2.0 * k, 1, 0), outline.emplace_back(2.0 * k - 1, 1, 0);
-  }
-  // The first corner on the right stands below the last tooth.
-  return solids::prism(outline, 1).made();
-}
-Polyhedron star(int tips) {
-  std::vector<Vec3> outline;
-  for (int k = 0; k < 2 * tips; ++k) {
-    const double r = k % 2 == 0 ? 1.0 : 0.4, angle = 3.14159265358979323846 * k / tips;
-    outline.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
-  }
-  return solids::prism(outline, 0.3).made();
-}
 
 /// A ring about z, its corners rounded to `digits` decimals.
 Polyhedron ring(int around, int across, int digits) {
@@ -121,34 +91,6 @@ std::string refusalOf(const Polyhedron& solid, double tolerance) {
   return "";
 }
 
-/// A ball of 2 · n · n triangles or so with bumps, as a scan would be.
-Polyhedron scan(int n, double bump) {
-  std::vector<Vec3> points = {{0, 0, 1}};
-  std::vector<std::vector<int>> faces;
-  const double half = 3.14159265358979323846;
-  for (int i = 1; i < n; ++i)
-    for (int k = 0; k < 2 * n; ++k) {
-      const double a = half * i / n, b = half * k / n;
-      const double r = 1.0 + bump * (std::sin(3 * b) * std::sin(a) + 0.5 * std::cos(5 * a + b)) +
-                       0.02 * bump * ((i * 7919 + k * 104729) % 17 - 8);
-      points.emplace_back(r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b),
-                          1.3 * r * std::cos(a));
-    }
-  points.emplace_back(0, 0, -1.3);
-  points[0].z() = 1.3;
-  const int last = static_cast<int>(points.size()) - 1;
-  const auto at = [&](int i, int k) { return 1 + (i - 1) * 2 * n + k % (2 * n); };
-  for (int k = 0; k < 2 * n; ++k) {
-    faces.push_back({0, at(1, k), at(1, k + 1)});
-    faces.push_back({last, at(n - 1, k + 1), at(n - 1, k)});
-    for (int i = 1; i + 1 < n; ++i) {
-      faces.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-      faces.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-    }
-  }
-  return makePolyhedron(points, faces);
-}
-
 }  // namespace
 
 // Oracle: the fewest convex pieces by hand; volume, centre and inertia of the mesh as fractions.
@@ -169,16 +111,16 @@ TEST_CASE("a mesh comes apart into few pieces that are the mesh exactly") {
     check(solids::ell().made(), 2);
   }
   SECTION("a U") {
-    check(letterU(), 3);
+    check(solids::letterU().made(), 3);
   }
   SECTION("a comb") {
-    check(comb(5), 6);
+    check(solids::comb(5).made(), 6);
   }
 }
 
 // Oracle: the same fractions, corners rounded once. Measured 2e-16, allowed 1e-13.
 TEST_CASE("pieces whose corners have to be rounded have the moments of the mesh to rounding") {
-  const Polyhedron solid = star(5);
+  const Polyhedron solid = solids::star(5).made();
   const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
   CHECK(pieces.hulls.size() <= 6);  // a core and tips, or fewer
   const double off = worstOff(momentsOf(solid), momentsOf(pieces));
@@ -201,7 +143,7 @@ TEST_CASE("a ring of 48 by 24 faces comes apart into 48 pieces") {
 }
 
 TEST_CASE("what takes too many pieces is refused with the place, and a tolerance helps") {
-  const Polyhedron solid = scan(12, 0.05);
+  const Polyhedron solid = solids::scan(12, 0.05).made();
   const std::string why = refusalOf(solid, 0.0);
   INFO(why);
   CHECK(why.find("the mesh") != std::string::npos);
@@ -214,8 +156,21 @@ TEST_CASE("what takes too many pieces is refused with the place, and a tolerance
   CHECK(pieces.excess <= 0.08);
 }
 
+TEST_CASE("a scan of 2,024 faces is refused as it is, and taken to a few per cent",
+          "[long][figures]") {
+  const Polyhedron solid = solids::scan(23, 0.05).made();
+  CHECK(solid.faces.size() == 2024);
+  CHECK(refusalOf(solid, 0.0).find("pieces_tolerance") != std::string::npos);
+  const double tolerance = 0.047;  // of 2 m, half the diagonal of its box
+  const Pieces pieces = piecesOf(solid, PieceKind::Good, tolerance);
+  WARN("a scan of 2,024 faces, 2.6 m high, at "
+       << tolerance << " m: measured " << pieces.hulls.size() << " pieces, excess " << pieces.excess
+       << " m");
+  CHECK(pieces.excess <= tolerance);
+}
+
 TEST_CASE("a mesh of more faces than can be taken apart is refused with words, its hull is not") {
-  const Polyhedron solid = scan(101, 0.1);
+  const Polyhedron solid = solids::scan(101, 0.1).made();
   REQUIRE(solid.faces.size() > 20'000);
   CHECK(refusalOf(solid, 0.1).find("at most 20000 are taken apart") != std::string::npos);
   CHECK(piecesOf(solid, PieceKind::Hull, 0.1).hulls.size() == 1);

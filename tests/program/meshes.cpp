@@ -1,0 +1,101 @@
+// Mesh files that bound no solid: one line that says where, exit 3, and nothing half-written.
+#include <cmath>
+
+#include "tests/catch.h"
+#include "tests/program/program.h"
+
+namespace {
+
+/// The unit cube shifted along x, its points counted from `first`; `inside` out or not.
+std::string cube(double x, int first, bool inside = false) {
+  std::ostringstream text;
+  for (int k = 0; k < 8; ++k)
+    text << "v " << x + (k & 1) << " " << (k >> 1 & 1) << " " << (k >> 2 & 1) << "\n";
+  const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (const auto& face : faces) {
+    text << "f";
+    for (int k = 0; k < 4; ++k) text << " " << face[inside ? 3 - k : k] + first;
+    text << "\n";
+  }
+  return text.str();
+}
+
+/// A torus of 2 n² triangles.
+std::string torus(int n) {
+  std::ostringstream text;
+  const double turn = 6.283185307179586 / n;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double r = 2.0 + std::cos(turn * k);
+      text << "v " << r * std::cos(turn * i) << " " << r * std::sin(turn * i) << " "
+           << std::sin(turn * k) << "\n";
+    }
+  const auto at = [&](int i, int k) { return i % n * n + k % n + 1; };
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      text << "f " << at(i, k) << " " << at(i + 1, k) << " " << at(i + 1, k + 1) << "\n";
+      text << "f " << at(i, k) << " " << at(i + 1, k + 1) << " " << at(i, k + 1) << "\n";
+    }
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("a scene of a mesh that is no solid ends with 3, one line and no file") {
+  const Scratch scratch;
+  scratch.file("bad.toml", R"([world]
+duration = 0.1
+[[body]]
+name = "b"
+mass = 1.0
+shape = { mesh = "m.obj" }
+)");
+  const auto refused = [&](const std::string& text, const std::string& where,
+                           const std::string& what) {
+    scratch.file("m.obj", text);
+    const Outcome outcome =
+        tumbleRun(scratch, "simulate bad.toml -o out", "export XDG_CACHE_HOME=$PWD/cache");
+    CAPTURE(what, outcome.err);
+    CHECK(outcome.code == 3);
+    CHECK(outcome.lines() == 1);
+    CHECK(outcome.says("bad.toml:6:18: error: body.b.shape.mesh: m.obj" + where));
+    CHECK(outcome.says(what));
+    CHECK(outcome.out.empty());
+    CHECK(filesBelow(scratch.path) == 2);
+  };
+  const std::string solid = cube(0.0, 1);
+  refused(solid.substr(0, solid.rfind('f')), ":9: ", "is not closed");
+  refused(solid + "f 1 2 3\n", ":", "the edge");  // an edge of three faces
+  refused(solid + cube(5.0, 9, true), ":23: ", "inside out");
+  refused(solid + cube(0.5, 9), ":", "overlaps the shell");
+  refused("v 0.5 0 0\n" + cube(0.0, 2) + "f 2 1 3\n", ":16: ", "has no area");
+  refused(solid + "v 0 nan 0\n", ":15:5: ", "expected a finite number, found 'nan'");
+}
+
+TEST_CASE("a scene of a mesh that is not there ends with 3, one line and no file") {
+  const Scratch scratch;
+  scratch.file("bad.toml",
+               "[world]\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1.0\n"
+               "shape = { mesh = \"missing.obj\" }\n");
+  const Outcome outcome = tumbleRun(scratch, "simulate bad.toml -o out");
+  CHECK(outcome.code == 3);
+  CHECK(outcome.lines() == 1);
+  CHECK(outcome.says("bad.toml:6:18: error: body.b.shape.mesh: no file '"));
+  CHECK(filesBelow(scratch.path) == 1);
+}
+
+// Refused by its number of faces, once its surface has been found whole.
+TEST_CASE("a mesh of a million faces is refused in one line", "[long]") {
+  const Scratch scratch;
+  scratch.file("bad.toml",
+               "[world]\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1.0\n"
+               "shape = { mesh = \"m.obj\" }\n");
+  scratch.file("m.obj", torus(708));
+  const Outcome outcome = tumbleRun(scratch, "simulate bad.toml -o out");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 3);
+  CHECK(outcome.lines() == 1);
+  CHECK(outcome.says("m.obj: the mesh has 1002528 faces, and at most 20000 are taken apart"));
+  CHECK(filesBelow(scratch.path) == 2);
+}
