@@ -127,10 +127,11 @@ TEST_CASE("a thousand poses of tori: pieces, polygon pairs and all triangles agr
 }
 
 // Oracle: all pairs. Boxes by level let fewer through, and nothing that is near is lost.
-TEST_CASE("a tree of boxes finds what all pairs of boxes find, in fewer looks") {
+TEST_CASE("a tree of boxes finds what all pairs of boxes find, in fewer looks", "[figures]") {
   Random random(17);
   const Mesh mesh = meshes::ring(24);
   const PolygonSoup soup(mesh);
+  Survivors whole;
   for (int k = 0; k < 50; ++k) {
     const Pose poseA = random.pose(1.5), poseB = random.pose(0.2);
     const Seat seat = seatOf(poseA, poseB);
@@ -154,7 +155,20 @@ TEST_CASE("a tree of boxes finds what all pairs of boxes find, in fewer looks") 
     long tested = 0;
     for (const long level : count.tested) tested += level;
     CHECK(tested < n * n / 2);
+    whole.tested.resize(std::max(whole.tested.size(), count.tested.size()));
+    whole.left.resize(whole.tested.size());
+    for (std::size_t level = 0; level < count.tested.size(); ++level) {
+      whole.tested[level] += count.tested[level];
+      whole.left[level] += count.left[level];
+    }
   }
+  std::string levels;
+  for (std::size_t level = 0; level < whole.tested.size(); ++level)
+    levels += " " + std::to_string(whole.left[level]) + "/" + std::to_string(whole.tested[level]);
+  WARN(
+      "50 poses of two rings of 192 triangles: measured pairs of boxes left of those looked at, "
+      "from the root to the leaves:"
+      << levels);
 }
 
 // Oracle: the search anew. On a smooth way past each other planes mostly stay.
