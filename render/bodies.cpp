@@ -22,6 +22,9 @@ constexpr float kGhostLayer = 1e-6f;
 constexpr float kSunkOpacity = 0.35f;
 constexpr float kFarSideOpacity = 0.35f;
 
+/// What shaders call the surfaces.
+constexpr const char* kSurfaceWords[] = {"BOX", "CYLINDER", "ELLIPSOID", "BALL", "FACETS"};
+
 /// Bodies that differ by less than this look the same [px].
 constexpr double kSamePlace = 0.2;
 
@@ -47,7 +50,7 @@ bool superseded(const std::vector<Instance>& bodies, std::size_t index, const St
 
 }  // namespace
 
-Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
+Bodies::Bodies(const std::string& shaders) : shaders_(shaders), buffer_(gl::makeBuffer()) {
   struct Row {
     const char* fragment;
     const char* use;
@@ -56,9 +59,8 @@ Bodies::Bodies(const std::string& shaders) : buffer_(gl::makeBuffer()) {
                            {"body.frag", "GLASS"},       {"depth.frag", "DEPTH_ONLY"},
                            {"depth.frag", "FROM_LIGHT"}, {"above.frag", "FROM_ABOVE"},
                            {"above.frag", "CAST"}};
-  const char* surfaces[kSurfaces] = {"BOX", "CYLINDER", "ELLIPSOID", "BALL", "FACETS"};
   for (const Row& row : rows) {
-    for (const char* surface : surfaces) {
+    for (const char* surface : kSurfaceWords) {
       programs_.emplace_back(shaders, "body.vert", row.fragment,
                              std::vector<std::string>{row.use, surface});
       programs_.back().use();
@@ -182,6 +184,22 @@ void Bodies::draw(Use use, Group group, float opacity, float keepAbove) const {
     program.set("keepAbove", keepAbove);
     program.set("layer", group == kGhost ? kGhostLayer : 0.0f);
     drawn_[shape]->draw(buffer_, kStride, kAttributes, range.first, range.count);
+  }
+}
+
+void Bodies::drawMasks() {
+  if (masks_.empty())
+    for (const char* surface : kSurfaceWords)
+      masks_.emplace_back(shaders_, "body.vert", "mask.frag", std::vector<std::string>{surface});
+  for (const std::vector<Range>& ranges : ranges_) {
+    for (int shape = 0; shape < static_cast<int>(drawn_.size()); ++shape) {
+      if (ranges[shape].count == 0) continue;
+      const gl::Program& program = masks_[surfaceOf(shape)];
+      program.use();
+      program.set("keepAbove", 0.0f);
+      program.set("layer", 0.0f);
+      drawn_[shape]->draw(buffer_, kStride, kAttributes, ranges[shape].first, ranges[shape].count);
+    }
   }
 }
 

@@ -27,6 +27,7 @@ class Bodies {
   void drawSolids() const;     ///< with what sank below the floor shown through it
   void drawGhosts() const;     ///< at each sample the nearest ghost alone
   void drawGlass() const;      ///< far sides, then at each sample the nearest near side
+  void drawMasks();            ///< all, each in its own colour, and how far they are
   bool drawsInColour() const { return !instances_.empty(); }
 
  private:
@@ -60,7 +61,9 @@ class Bodies {
   void keepSurfaces(const Picture& picture);
   void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
 
+  std::string shaders_;
   std::vector<gl::Program> programs_;                             // [use][surface]
+  std::vector<gl::Program> masks_;                                // [surface], made when asked for
   std::vector<MeshBuffer> meshes_;                                // [shape]
   std::map<std::shared_ptr<const Facets>, MeshBuffer> surfaces_;  // of the latest picture
   std::vector<const MeshBuffer*> drawn_;  // [shape], facets behind the others

@@ -24,9 +24,37 @@ inline constexpr Colour page = {0.973f, 0.973f, 0.965f};
 inline constexpr Colour alarm = {0.835f, 0.251f, 0.102f};
 }  // namespace ink
 
-/// Draws in pixels of a page 720 high, scaled to the image; x to the right, y down, whole numbers
-/// at corners.
-class Canvas {
+/// Something that can be drawn on, in pixels; x to the right, y down.
+class Drawing {
+ public:
+  struct TextStyle {
+    double size = 14.0;
+    Face face = Face::Regular;
+    Align align = Align::Left;
+    Colour colour = ink::text;
+  };
+
+  virtual ~Drawing() = default;
+  virtual double width() const = 0;
+  virtual double height() const = 0;
+  virtual void fill(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size,
+                    const Colour& colour) = 0;
+  virtual void disc(const Eigen::Vector2d& centre, double radius, const Colour& colour,
+                    double alpha = 1.0) = 0;
+  virtual void ring(const Eigen::Vector2d& centre, double radius, double stroke,
+                    const Colour& colour) = 0;
+  virtual void stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
+                      const Colour& colour, double alpha = 1.0) = 0;
+  virtual void triangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                        const Eigen::Vector2d& c, const Colour& colour) = 0;
+  /// @param pen  where the text starts, ends or has its middle, on the baseline
+  virtual void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style) = 0;
+  /// Width of the text [px].
+  virtual double textWidth(std::string_view utf8, const TextStyle& style) = 0;
+};
+
+/// Draws in pixels of a page 720 high, scaled to the image; whole numbers at corners.
+class Canvas : public Drawing {
  public:
   /// Both must outlive the canvas.
   Canvas(Image& image, Fonts& fonts) : image_(image), fonts_(fonts), scale_(image.height / 720.0) {}
@@ -36,29 +64,23 @@ class Canvas {
   /// The colour that text is lifted off with; without it, that of the page behind a drawing.
   void setPaper(const Colour& paper) { paper_ = paper; }
 
-  double width() const { return image_.width / scale_; }
-  double height() const { return image_.height / scale_; }
+  double width() const override { return image_.width / scale_; }
+  double height() const override { return image_.height / scale_; }
 
-  void fill(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size, const Colour& colour);
-  void disc(const Eigen::Vector2d& centre, double radius, const Colour& colour, double alpha = 1.0);
-  void ring(const Eigen::Vector2d& centre, double radius, double stroke, const Colour& colour);
+  void fill(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size,
+            const Colour& colour) override;
+  void disc(const Eigen::Vector2d& centre, double radius, const Colour& colour,
+            double alpha = 1.0) override;
+  void ring(const Eigen::Vector2d& centre, double radius, double stroke,
+            const Colour& colour) override;
   void stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
-              const Colour& colour, double alpha = 1.0);
+              const Colour& colour, double alpha = 1.0) override;
   void triangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-                const Colour& colour);
+                const Colour& colour) override;
   void frame(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size, double stroke,
              const Colour& colour);
-
-  struct TextStyle {
-    double size = 14.0;
-    Face face = Face::Regular;
-    Align align = Align::Left;
-    Colour colour = ink::text;
-  };
-  /// @param pen  where the text starts, ends or has its middle, on the baseline
-  void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style);
-  /// Width of the text [px].
-  double textWidth(std::string_view utf8, const TextStyle& style);
+  void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style) override;
+  double textWidth(std::string_view utf8, const TextStyle& style) override;
   /// The text in lines that are at most as wide as asked [px], if a word is not; broken at blanks.
   std::vector<std::string> lines(std::string_view utf8, double width, const TextStyle& style);
 

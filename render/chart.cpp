@@ -5,6 +5,7 @@
 
 #include "render/canvas.h"
 #include "render/overlay.h"
+#include "render/svg.h"
 
 namespace tumble {
 namespace {
@@ -14,13 +15,13 @@ using Eigen::Vector2d;
 constexpr Colour kGrid = {0.886f, 0.894f, 0.910f}, kFaintGrid = {0.935f, 0.940f, 0.948f};
 constexpr double kLegendGap = 28.0, kLegendStep = 42.0, kMark = 4.2;
 
-const Canvas::TextStyle kTick{13.0, Face::Regular, Align::Left, ink::secondary};
-const Canvas::TextStyle kPower{9.5, Face::Regular, Align::Left, ink::secondary};
-const Canvas::TextStyle kCaption{14.0, Face::Regular, Align::Left, ink::text};
-const Canvas::TextStyle kLabel{14.0, Face::Bold, Align::Left, ink::text};
-const Canvas::TextStyle kNote{12.5, Face::Regular, Align::Left, ink::secondary};
+const Drawing::TextStyle kTick{13.0, Face::Regular, Align::Left, ink::secondary};
+const Drawing::TextStyle kPower{9.5, Face::Regular, Align::Left, ink::secondary};
+const Drawing::TextStyle kCaption{14.0, Face::Regular, Align::Left, ink::text};
+const Drawing::TextStyle kLabel{14.0, Face::Bold, Align::Left, ink::text};
+const Drawing::TextStyle kNote{12.5, Face::Regular, Align::Left, ink::secondary};
 
-Canvas::TextStyle aligned(Canvas::TextStyle style, Align align) {
+Drawing::TextStyle aligned(Drawing::TextStyle style, Align align) {
   style.align = align;
   return style;
 }
@@ -39,11 +40,11 @@ class TickText {
     }
   }
 
-  double width(Canvas& canvas) const {
+  double width(Drawing& canvas) const {
     return canvas.textWidth(base_, kTick) +
            (exponent_.empty() ? 0.0 : 1.0 + canvas.textWidth(exponent_, kPower));
   }
-  void draw(Vector2d pen, Canvas& canvas) const {
+  void draw(Vector2d pen, Drawing& canvas) const {
     canvas.text(pen, base_, kTick);
     if (exponent_.empty()) return;
     pen += Vector2d(canvas.textWidth(base_, kTick) + 1.0, -5.5);
@@ -59,7 +60,7 @@ double valueOf(const Tick& tick, const Scale& scale) {
   return scale.logarithmic() ? std::pow(10.0, tick.value) : tick.value;
 }
 
-void drawDashed(const Vector2d& from, const Vector2d& to, const Colour& colour, Canvas& canvas) {
+void drawDashed(const Vector2d& from, const Vector2d& to, const Colour& colour, Drawing& canvas) {
   constexpr double kDash = 7.0, kPeriod = 12.0;
   const double length = (to - from).norm();
   for (double done = 0.0; done < length; done += kPeriod)
@@ -68,7 +69,7 @@ void drawDashed(const Vector2d& from, const Vector2d& to, const Colour& colour, 
 }
 
 /// Shapes that stay apart where colours do not.
-void drawMark(std::size_t shape, const Vector2d& at, const Colour& colour, Canvas& canvas) {
+void drawMark(std::size_t shape, const Vector2d& at, const Colour& colour, Drawing& canvas) {
   const double r = kMark;
   const auto diamond = [&](const Vector2d& a, const Vector2d& b) {
     canvas.triangle(at + a, at + b, at - a, colour);
@@ -96,7 +97,7 @@ void drawMark(std::size_t shape, const Vector2d& at, const Colour& colour, Canva
 /// Where everything of one chart stands, and the canvas that it is drawn on.
 class Plot {
  public:
-  Plot(const Chart& chart, Canvas& canvas)
+  Plot(const Chart& chart, Drawing& canvas)
       : chart_(chart),
         canvas_(canvas),
         legend_(legendWidth()),
@@ -233,7 +234,7 @@ class Plot {
   }
 
   const Chart& chart_;
-  Canvas& canvas_;
+  Drawing& canvas_;
   double legend_, left_, right_, top_, bottom_;
   Scale x_, y_;
 };
@@ -247,6 +248,12 @@ Image drawChart(const Chart& chart, int width, int height, double scale, Fonts& 
   canvas.setPaper(ink::page);
   Plot(chart, canvas).draw();
   return image;
+}
+
+std::string svgOf(const Chart& chart, double width, double height, Fonts& fonts) {
+  SvgDrawing drawing(width, height, fonts);
+  Plot(chart, drawing).draw();
+  return drawing.document();
 }
 
 }  // namespace tumble

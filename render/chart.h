@@ -41,4 +41,7 @@ struct Chart {
 /// @param scale  pixels of the image per pixel of text: 1 gives text of 14 px
 Image drawChart(const Chart& chart, int width, int height, double scale, Fonts& fonts);
 
+/// The same as an SVG document of that size [px], text of 14 px.
+std::string svgOf(const Chart& chart, double width, double height, Fonts& fonts);
+
 }  // namespace tumble

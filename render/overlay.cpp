@@ -1,11 +1,11 @@
 #include "render/overlay.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "render/label_places.h"
 #include "render/lines.h"
 
 namespace tumble {
@@ -55,52 +55,24 @@ void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
   }
 }
 
-/// Draws labels side by side: one that would stand on another moves up or down by whole lines.
-class LabelDrawer {
- public:
-  LabelDrawer(const Projection& projection, Canvas& canvas)
-      : projection_(projection), canvas_(canvas) {}
-
-  void draw(const Label& label) {
+/// Labels, none on another.
+void drawLabels(const std::vector<Label>& labels, const Projection& projection, Canvas& canvas) {
+  LabelPlaces places({canvas.width(), canvas.height()});
+  for (const Label& label : labels) {
     const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
     const Canvas::TextStyle style{label.size, face, label.align, label.colour};
     Vector2d pen = label.offset;
     if (label.anchor) {
-      const auto place = projection_.project(*label.anchor);
-      if (!place) return;
-      pen = freePlace(label, pen + flat(*place), canvas_.textWidth(label.text, style));
+      const auto anchor = projection.project(*label.anchor);
+      if (!anchor) continue;
+      const LabelPlaces::Standing place =
+          places.place(label, flat(*anchor), canvas.textWidth(label.text, style));
+      if (place.leader) canvas.stroke(flat(*anchor), *place.leader, 1.0, ink::leader);
+      pen = place.pen;
     }
-    canvas_.text(pen, label.text, style);
+    canvas.text(pen, label.text, style);
   }
-
- private:
-  using Box = Eigen::AlignedBox2d;
-
-  // Where the ink of a line of text is, about [px].
-  static Box inkOf(const Label& label, const Vector2d& pen, double width) {
-    const double left = label.align == Align::Left     ? 0.0
-                        : label.align == Align::Centre ? -0.5 * width
-                                                       : -width;
-    return {pen + Vector2d(left, -0.7 * label.size),
-            pen + Vector2d(left + width, 0.1 * label.size)};
-  }
-
-  Vector2d freePlace(const Label& label, const Vector2d& pen, double width) {
-    for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0}) {
-      const Vector2d moved = pen + Vector2d(0.0, lines * label.size);
-      const Box ink = inkOf(label, moved, width);
-      const auto covers = [&](const Box& other) { return other.intersects(ink); };
-      if (std::any_of(taken_.begin(), taken_.end(), covers)) continue;
-      taken_.push_back(ink);
-      return moved;
-    }
-    return pen;
-  }
-
-  const Projection& projection_;
-  Canvas& canvas_;
-  std::vector<Box> taken_;
-};
+}
 
 void drawBar(const PageBar& bar, const Projection& projection, Canvas& canvas) {
   constexpr double kThick = 8.0;  // [px]
@@ -149,8 +121,7 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
   for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
   for (const PageBar& bar : picture.pageBars) drawBar(bar, projection, canvas);
-  LabelDrawer labels(projection, canvas);
-  for (const Label& label : picture.labels) labels.draw(label);
+  drawLabels(picture.labels, projection, canvas);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
   drawTitle(picture, canvas);
 }

@@ -11,6 +11,7 @@
 #include "render/font.h"
 #include "render/lines.h"
 #include "render/maps.h"
+#include "render/mask_target.h"
 #include "render/overlay.h"
 #include "render/page.h"
 #include "render/stage.h"
@@ -90,6 +91,7 @@ struct Renderer::Parts {
   Lines lines;
   Arrows arrows;
   Targets targets;
+  MaskTarget masks;
 
   Parts(Context& c, const std::string& shaders, const std::string& fontFolder)
       : context(c),
@@ -186,6 +188,25 @@ Image Renderer::draw(const Picture& picture, const RenderOptions& options) {
   const Projection page(picture.camera, canvas.width(), canvas.height());
   drawOverlay(picture, page, canvas);
   return image;
+}
+
+Masks Renderer::drawMasks(const Picture& picture, const RenderOptions& options) {
+  checkOptions(options);
+  Parts& parts = *parts_;
+  parts.context.makeCurrent();
+  RenderOptions plain = options;
+  plain.antialias = AntiAlias::None;
+  const Stage stage(picture, plain);
+  parts.stage.load(stage);
+  parts.bodies.load(picture, stage);
+  parts.masks.begin(stage.width, stage.height);
+  glDisable(GL_CULL_FACE);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  parts.bodies.drawMasks();
+  Masks masks = parts.masks.read();
+  gl::checkErrors("masks");
+  return masks;
 }
 
 }  // namespace tumble

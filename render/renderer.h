@@ -6,6 +6,7 @@
 
 #include "render/context/context.h"
 #include "render/image.h"
+#include "render/mask.h"
 #include "render/picture.h"
 
 namespace tumble {
@@ -33,6 +34,8 @@ class Renderer {
   ~Renderer();
 
   Image draw(const Picture& picture, const RenderOptions& options);
+  /// Its bodies alone, each in its own colour, and how far they are; without floor.
+  Masks drawMasks(const Picture& picture, const RenderOptions& options);
 
  private:
   struct Parts;

@@ -1,0 +1,44 @@
+// Where labels stand so that none covers another.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "render/picture.h"
+
+namespace tumble {
+
+/// Hands out free places on the page, label by label.
+class LabelPlaces {
+ public:
+  explicit LabelPlaces(const Eigen::Vector2d& page) : page_(page) {}
+
+  /// A place that is given away already.
+  void take(const Eigen::AlignedBox2d& ink) { taken_.push_back(ink); }
+
+  struct Standing {
+    Eigen::Vector2d pen;  ///< [px] of the text
+    /// Where a line from the anchor meets a label that had to go further away from it.
+    std::optional<Eigen::Vector2d> leader = {};
+  };
+  /// The place of a label next to its anchor: where it wants to be, else up or down by whole lines,
+  /// else on a ring about the anchor, the nearest that is free. Where all is taken it stands where
+  /// it wants to.
+  /// @param anchor  [px], from which label.offset counts
+  /// @param width   [px] of its text
+  Standing place(const Label& label, const Eigen::Vector2d& anchor, double width);
+
+ private:
+  using Box = Eigen::AlignedBox2d;
+  bool isFree(const Box& ink) const;
+  std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor, double width);
+
+  Eigen::Vector2d page_;
+  std::vector<Box> taken_;
+};
+
+/// What the ink of a line of text covers, about [px].
+Eigen::AlignedBox2d inkOf(const Eigen::Vector2d& pen, double width, double size, Align align);
+
+}  // namespace tumble
