@@ -73,6 +73,11 @@ Golden drawWindow(Renderer& renderer) {
     live.push_back({.pointer = ball + static_cast<float>(k) * Eigen::Vector2f(4.0f, -2.0f),
                     .pressed = true,
                     .seconds = 1.0 / 60.0});
+  // Turned, kept as the first view, left, and gone back to.
+  const Eigen::Vector2f page(500.0f, 120.0f), aside(620.0f, 150.0f);
+  std::vector<Deed> turned = {{page}, {page, true}, {aside, true}, {aside}}, kept = turned;
+  turned.push_back({.typed = "c"});
+  for (const char* key : {"k", "v", "1"}) kept.push_back({.typed = key});
   const struct {
     const char* name;
     double share;
@@ -81,6 +86,8 @@ Golden drawWindow(Renderer& renderer) {
                 {"picked", 0.5, picked},
                 {"forces", 1.0, shown},
                 {"live", 0.5, live},
+                {"kept", 0.5, kept},
+                {"command", 0.5, turned},
                 {"help", 0.0, {{.typed = "h"}}},
                 {"refused", 0.5, {{.dropped = "missing.toml"}}}};
   Golden golden{std::string(kWindowSubject), {}, {}};

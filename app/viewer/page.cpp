@@ -179,6 +179,9 @@ void Viewer::keys() {
     if (letter == 'v') orbit_ = home_, following_ = false;
     if (letter == 'f') following_ = picked_ && !following_;
     if (letter == 's') screenshot();
+    if (letter == 'k') keepView();
+    if (letter >= '1' && letter < '1' + static_cast<int>(kept_.size()))
+      orbit_ = kept_[letter - '1'], following_ = false;
     if (letter == 'c') ImGui::SetClipboardText(command().c_str()), told_ = command();
   }
 }

@@ -35,6 +35,7 @@ constexpr Key kKeys[] = {
     {"l", "live: it runs on from here, without an end, under settings"},
     {"", "beside the picture; drag a body to pull it"},
     {"v", "the view of the start"},
+    {"k", "keep this view;  1 to 9: back to a view kept"},
     {"s", "write the picture as PNG, 1280 × 720"},
     {"c", "copy the command that draws it"},
     {"h", "this help"},

@@ -98,7 +98,10 @@ void Viewer::load(const std::string& path) {
     Scene scene = readScene(path, same ? scene_->overrides : std::vector<std::string>());
     requireKnownChecks(scene);
     begin(std::move(scene));
-    if (same) orbit_ = view;
+    if (same)
+      orbit_ = view;
+    else
+      kept_.clear();
   } catch (const SceneError& error) {
     complaint_ = error.what();
     if (same) saved_ = timeOf(path);
@@ -190,7 +193,23 @@ void Viewer::pick(float x, float y, float width, float height) {
 std::string Viewer::command() const {
   std::string words = "tumble render " + scene_->file;
   for (const std::string& change : scene_->overrides) words += " --set '" + change + "'";
+  // A view that the user has turned to takes the place of the scene's camera.
+  if (!(orbit_ == home_)) {
+    const Camera seen = camera();
+    const auto list = [](const Eigen::Vector3d& p) {
+      return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", p.x(), p.y(), p.z());
+    };
+    words += fmt::format(" --set 'camera={{eye={}, target={}, fov={:g}}}'", list(seen.eye),
+                         list(seen.target), seen.fov);
+  }
   return words + fmt::format(" --still {:.6g}", playback_.time());
+}
+
+void Viewer::keepView() {
+  constexpr std::size_t kMost = 9;
+  if (kept_.size() == kMost) kept_.erase(kept_.begin());
+  kept_.push_back(orbit_);
+  told_ = fmt::format("{0} goes back to this view", kept_.size());
 }
 
 void Viewer::screenshot() {

@@ -83,6 +83,7 @@ class Viewer {
   void lead(float x, float y, float width, float height);
   void reloadIfSaved();
   void screenshot();
+  void keepView();
   Camera camera() const;
   std::string command() const;
 
@@ -99,6 +100,7 @@ class Viewer {
   std::string told_;                    ///< what the last command did
   Playback playback_;
   Orbit orbit_, home_;
+  std::vector<Orbit> kept_;    ///< views of this scene that the digits go back to
   std::optional<int> picked_;  ///< a body
   bool following_ = false;     ///< the picked body
   bool helping_ = false;
