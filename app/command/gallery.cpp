@@ -26,18 +26,18 @@ constexpr double kStillShare = 0.35;
 struct Options {
   std::string folder = "out";
   bool all = false;
-  std::vector<std::string> overrides;
+  std::vector<std::string> scenes, overrides;
 };
 
 // Draws one demo into folder/<name>; the worst exit code of its parts.
-int exhibit(const Options& options, const std::string& name, Studio& studio,
+int exhibit(const Options& options, const std::string& asked, Studio& studio,
             std::vector<Exhibit>& exhibits) {
+  Exhibit& shown = exhibits.emplace_back();
+  shown.scene = load({asked, options.overrides});
+  const Scene& scene = shown.scene;
+  const std::string& name = scene.name;
   say(name);
   std::fflush(stdout);
-  const SceneOptions named{name, options.overrides};
-  Exhibit& shown = exhibits.emplace_back();
-  shown.scene = load(named);
-  const Scene& scene = shown.scene;
   const std::string folder = options.folder + "/" + name;
   Shoot shoot(scene, folder, studio);
   shoot.strobe();
@@ -77,10 +77,11 @@ int exhibit(const Options& options, const std::string& name, Studio& studio,
 int gallery(int argc, char** argv) {
   Options options;
   CommandLine line(
-      "gallery", "Draws every demo and a page to leaf through them.",
+      "gallery", "Draws demos and a page to leaf through them.",
       {"             # out/index.html with still, strobe, sheet and sweep of each demo",
-       "--all        # every sequence and film too; needs ffmpeg",
+       "arch slope   # these alone", "--all        # every sequence and film too; needs ffmpeg",
        "-o out/moon --set world.gravity=[0,-1.62,0]"});
+  line.option("SCENE", options.scenes, "demos or TOML files [every demo]");
   line.option("-o,--output", options.folder, "folder for pages and pictures [out]");
   line.flag("--all", options.all, "every sequence and film too");
   addOverrides(line, options.overrides);
@@ -90,10 +91,11 @@ int gallery(int argc, char** argv) {
   Studio studio;
   studio.open();
   std::vector<Exhibit> exhibits;
-  exhibits.reserve(demoNames().size());  // scenes must stay where they are
+  if (options.scenes.empty()) options.scenes = demoNames();
+  exhibits.reserve(options.scenes.size());  // scenes must stay where they are
   int code = kOk;
-  for (const std::string& name : demoNames())
-    code = std::max(code, exhibit(options, name, studio, exhibits));
+  for (const std::string& scene : options.scenes)
+    code = std::max(code, exhibit(options, scene, studio, exhibits));
   writeFile(options.folder + "/index.html", galleryPage(exhibits));
   say(options.folder + "/index.html");
   return code;

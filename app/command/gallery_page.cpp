@@ -48,8 +48,8 @@ td:first-child, th:first-child { text-align: left; } .failed { color: #b03010; f
 dialog { width: 96vw; max-width: 96vw; border: 0; padding: 0; background: #f8f8f6; text-align: center; }
 dialog img { max-height: 92vh; width: auto; max-width: 100%; border: 0; cursor: zoom-out; }
 </style></head><body>
-<h1>tumble</h1>
-<p>Click a picture, or press Enter on it, to enlarge it; the arrow keys leaf through all of them.</p>
+<header><h1>tumble</h1>
+<p>Click a picture, or press Enter on it, to enlarge it; the arrow keys leaf through all of them.</p></header>
 )";
 
 constexpr const char* kTail =

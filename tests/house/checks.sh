@@ -96,6 +96,16 @@ page() {
   tests/house/page.sh "$release"
 }
 
+# The gallery's page, by the rules of a tool for accessibility.
+gallery() {
+  tests/house/axe.sh "$release"
+}
+
+# The window, driven by keys and mouse on a virtual display.
+window() {
+  tests/house/window.sh "$release"
+}
+
 passed=0 failed=0
 # step NAME FUNCTION: runs it and tells how it went; 77 is a step that has nothing to do.
 step() {
@@ -129,6 +139,8 @@ steps=(
   "oracle:references in many digits"
   "egl_goldens:goldens by EGL"
   "page:pages of runs play in a headless browser"
+  "window:the window does what keys and mouse ask for"
+  "gallery:the gallery's page has no finding by axe-core"
 )
 # Run when asked for: dear, or known not to hold everywhere – random scenes that cost more than they may or end apart
 # from the audit, and scenes beside which something moves.
