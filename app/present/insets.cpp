@@ -153,7 +153,7 @@ void addDot(const Axes& axes, const PairState& state, Picture& picture) {
             fourDigits(state.force) + " N", 14.0f, Align::Left, colour::kForce, picture);
   else
     addText(at + Vector2d(parts ? 0.0 : 14.0, -14.0),
-            parts ? fmt::format("{:.3g} m/s²", state.acceleration) : "neither", 14.0f,
+            parts ? fourDigits(state.acceleration) + " m/s²" : "neither", 14.0f,
             parts ? Align::Centre : Align::Left, colour::kForce, picture);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/present/digits.h"
 #include "app/present/palette.h"
 #include "render/camera.h"
 
@@ -33,7 +34,7 @@ void addImpacts(const Recording& recording, double t, double aspect, Picture& pi
     taken.push_back(place);
     picture.marks.push_back(
         {hit.p,
-         {fmt::format("t = {:.3f} s", hit.t), fmt::format("j = {:.1f} N·s", hit.j)},
+         {fmt::format("t = {:.3f} s", hit.t), "j = " + fourDigits(hit.j) + " N·s"},
          colour::kForce});
   }
 }

@@ -1,11 +1,10 @@
 #include "app/present/missteps.h"
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "app/claim/free_body.h"
 #include "app/present/bodies.h"
+#include "app/present/digits.h"
 #include "app/present/facets.h"
 #include "app/present/palette.h"
 
@@ -43,8 +42,8 @@ Label labelAt(const Vec3& anchor, Align align, const std::string& text, const Co
 }
 
 std::string mendedText(const Misstep& misstep) {
-  if (misstep.mendedAt < misstep.t) return fmt::format("back to t = {:.4f} s", misstep.mendedAt);
-  if (misstep.mendedAt > misstep.t) return fmt::format("free at t = {:.4g} s", misstep.mendedAt);
+  if (misstep.mendedAt < misstep.t) return "back to t = " + fourDigits(misstep.mendedAt) + " s";
+  if (misstep.mendedAt > misstep.t) return "free at t = " + fourDigits(misstep.mendedAt) + " s";
   return "moved out";
 }
 
@@ -56,10 +55,10 @@ void addMissteps(const Scene& scene, const Recording& recording, double t, Pictu
     if (misstep.t > t || !shown.insert(misstep.body).second) continue;
     const BodyDef& body = scene.world.bodies[misstep.body];
     picture.instances.push_back(ghostOf(body, misstep.pose, colour::kForce, 0.85f));
-    picture.labels.push_back(labelAt(
-        beside(body, misstep.pose, 1.0), Align::Left,
-        fmt::format("t = {:.4g} s: {:.3g} mm too deep", misstep.t, -1e3 * misstep.separation),
-        colour::kForce));
+    picture.labels.push_back(labelAt(beside(body, misstep.pose, 1.0), Align::Left,
+                                     "t = " + fourDigits(misstep.t) + " s: " +
+                                         fourDigits(-1e3 * misstep.separation) + " mm too deep",
+                                     colour::kForce));
     if (misstep.mendedAt > t) continue;
     picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), 0.85f));
     const Vec3 tip = beside(body, misstep.mended, -kAside);
