@@ -22,7 +22,7 @@ struct Options {
   double rate = 0.0;
   int jobs = 1;
   std::optional<double> still;
-  bool strobe = false, sheet = false, panels = false;
+  bool strobe = false, sheet = false, panels = false, events = false, masks = false;
 };
 
 bool readOptions(int argc, char** argv, Options& options) {
@@ -33,6 +33,7 @@ bool readOptions(int argc, char** argv, Options& options) {
        "my-scene.toml --panels         # its [[panel]], [[graph]] and [[chart]] on one page",
        "path-of-brick --still 1.2 --size 1920x1080",
        "path-of-brick --frames 0:60    # the first 60 images; run again to go on",
+       "pile --masks                   # and image-000000.depth.png, image-000000.identity.png",
        "path-of-brick --jobs 4         # by four processes; --shard 0/4 … 3/4 on four machines",
        "path-of-brick --video brick.mp4",
        "pile --html pile.html          # a page that plays it, to turn and to scrub",
@@ -52,6 +53,8 @@ bool readOptions(int argc, char** argv, Options& options) {
   line.flag("--strobe", options.strobe, "one image of the whole motion");
   line.flag("--sheet", options.sheet, "up to twelve stills on one page");
   line.flag("--panels", options.panels, "the scene's panels, graphs and charts");
+  line.flag("--events", options.events, "events.svg: all events on a line of time");
+  line.flag("--masks", options.masks, "depth and identity of bodies beside each image, as PNG");
   line.option("--video", options.video, "a film, by ffmpeg", {.type = "FILE"});
   line.option("--html", options.html, "one page that plays the run in a browser", {.type = "FILE"});
   return line.read(argc, argv);
@@ -109,20 +112,23 @@ int render(int argc, char** argv) {
         fmt::format("{} has neither [[panel]] nor [[graph]] nor [[chart]]", scene.file));
 
   const bool single = options.still || options.strobe || options.sheet || options.panels ||
-                      !options.video.empty() || !options.html.empty();
+                      options.events || !options.video.empty() || !options.html.empty();
   if (single && (options.jobs > 1 || !options.shard.empty()))
     throw UsageError("--jobs and --shard divide a sequence; leave them out or the single pictures");
   const std::vector<int> images = imagesOf(options, sampleCount(scene, scene.image.rate));
   Studio studio;
   // Processes that draw open OpenGL themselves: its threads would not live on in them.
   const bool pageAlone = !options.html.empty() && !options.still && !options.strobe &&
-                         !options.sheet && !options.panels && options.video.empty();
+                         !options.sheet && !options.panels && !options.events &&
+                         options.video.empty();
   if (options.jobs == 1 && !pageAlone) studio.open();
   Shoot shoot(scene, options.folder, studio);
+  if (options.masks) shoot.withMasks();
   std::vector<std::string> written;
   if (options.still) written.push_back(shoot.still(*options.still));
   if (options.strobe) written.push_back(shoot.strobe());
   if (options.sheet) written.push_back(shoot.sheet());
+  if (options.events) written.push_back(shoot.events());
   if (options.panels)
     for (const std::string& path : shoot.panels()) written.push_back(path);
   if (!options.video.empty()) {

@@ -15,6 +15,7 @@
 #include "app/command/video.h"
 #include "app/export/page.h"
 #include "app/file/file.h"
+#include "app/panel/event_line.h"
 #include "app/panel/page.h"
 #include "app/present/instants.h"
 #include "render/png_writer.h"
@@ -45,13 +46,37 @@ const Presenter& Shoot::presenter() {
 }
 
 bool Shoot::finished(const std::string& path, const std::string& what) const {
-  return readStamp(path) == stampOf(scene_, what);
+  Stamp stamp = readStamp(path);
+  stamp.erase(kMetresOfLevel);
+  return stamp == stampOf(scene_, what);
+}
+
+bool Shoot::hasMasks(const std::string& path, const std::string& what) const {
+  return finished(maskPath(path, "depth"), "depth of " + what) &&
+         finished(maskPath(path, "identity"), "identities of " + what);
+}
+
+void Shoot::drawMasks(int k, const std::string& path, const std::string& what) {
+  if (!masks_) {
+    masks_.emplace(scene_, recording(), studio_);
+    writeFile(folder_ + "/identities.csv", masks_->legend());
+  }
+  masks_->write(k, path, stampOf(scene_, "identities of " + what),
+                stampOf(scene_, "depth of " + what));
 }
 
 std::string Shoot::still(double t) {
   const std::string path = folder_ + "/still.png", what = fmt::format("still at {:.17g} s", t);
   if (!finished(path, what))
     writePng(path, studio_.draw(presenter().still(t), scene_.image), stampOf(scene_, what));
+  if (masked_ && !hasMasks(path, what)) drawMasks(presenter().sampleAt(t), path, what);
+  return path;
+}
+
+std::string Shoot::events() {
+  presenter();
+  const std::string path = folder_ + "/events.svg";
+  writeFile(path, eventLineSvg(scene_, recording(), studio_.fonts()));
   return path;
 }
 
@@ -106,6 +131,8 @@ std::vector<std::string> Shoot::panels() {
   };
   for (const Plot& plot : plotsOf(scene_, runs)) {
     writeFile(folder_ + "/" + plot.name + ".csv", plot.csv);
+    writeFile(folder_ + "/" + plot.name + ".svg",
+              svgOf(plot.chart, 720.0 * aspectOf(scene_), 720.0, studio_.fonts()));
     writePng(folder_ + "/" + plot.name + ".png",
              drawChart(plot.chart, scene_.image.width, scene_.image.height,
                        scene_.image.height / 720.0, studio_.fonts()),
@@ -121,7 +148,8 @@ std::string Shoot::imagePath(int k) const {
 }
 
 bool Shoot::hasImage(int k) const {
-  return finished(imagePath(k), fmt::format("image {}", k));
+  const std::string path = imagePath(k), what = fmt::format("image {}", k);
+  return finished(path, what) && (!masked_ || hasMasks(path, what));
 }
 
 void Shoot::drawImages(const std::vector<int>& images, const std::function<void()>& tell) {
@@ -129,8 +157,10 @@ void Shoot::drawImages(const std::vector<int>& images, const std::function<void(
   for (const int k : images) {
     if (Interrupt::asked()) break;
     if (k >= presenter().count()) break;
+    const std::string what = fmt::format("image {}", k);
     writer.write(imagePath(k), studio_.draw(presenter().image(k), scene_.image),
-                 stampOf(scene_, fmt::format("image {}", k)));
+                 stampOf(scene_, what));
+    if (masked_) drawMasks(k, imagePath(k), what);
     tell();
   }
   writer.finish();

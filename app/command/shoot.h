@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/command/masks.h"
 #include "app/command/progress.h"
 #include "app/command/studio.h"
 #include "app/present/present.h"
@@ -27,8 +28,13 @@ class Shoot {
   std::string still(double t);  ///< still.png, the sample nearest to t [s]
   std::string strobe();         ///< strobe.png
   std::string sheet();          ///< sheet.png: up to twelve stills, where the bodies have moved on
-  /// panels.png with all panels, graphs and charts of the scene, and graph.png, graph.csv,
-  /// chart.png, chart.csv, chart-2.png … of each plot alone. Nothing for a scene without them.
+  /// events.svg: all events on a line of time.
+  std::string events();
+  /// From now on each still and image of the sequence has masks beside it, image-000000.depth.png
+  /// and image-000000.identity.png, and the folder identities.csv.
+  void withMasks() { masked_ = true; }
+  /// panels.png with all panels, graphs and charts of the scene, and graph.png, graph.svg,
+  /// graph.csv, chart.png, …, chart-2.png … of each plot alone. Nothing for a scene without them.
   std::vector<std::string> panels();
   /// image-000000.png …: these images of the sequence, one per sample, by so many processes at
   /// once. Says which images of the folder are of another run.
@@ -50,6 +56,8 @@ class Shoot {
   bool finished(const std::string& path, const std::string& what) const;
   std::string imagePath(int k) const;
   bool hasImage(int k) const;
+  bool hasMasks(const std::string& path, const std::string& what) const;
+  void drawMasks(int k, const std::string& path, const std::string& what);
   void drawImages(const std::vector<int>& images, const std::function<void()>& tell);
   void drawBy(int jobs, const std::vector<int>& images, Progress& progress);
   void tellStrangers(const std::vector<int>& images) const;
@@ -59,6 +67,8 @@ class Shoot {
   Studio& studio_;
   std::optional<Recording> recording_;
   std::optional<Presenter> presenter_;
+  bool masked_ = false;
+  std::optional<MaskDrawer> masks_;
 };
 
 }  // namespace tumble

@@ -15,6 +15,9 @@ using Stamp = std::map<std::string, std::string>;
 /// the image: its size, rate and what it shows.
 Stamp stampOf(const Scene& scene, const std::string& what);
 
+/// Key of the metres that a level of grey stands for, in masks of depth.
+inline const std::string kMetresOfLevel = "Metres";
+
 /// Text chunks of a PNG that is whole; empty if the file is missing, broken or no PNG.
 Stamp readStamp(const std::string& path);
 

@@ -40,4 +40,9 @@ Image Studio::draw(const Picture& picture, const ImageFormat& format, double pag
   return renderer_->draw(picture, options);
 }
 
+Masks Studio::drawMasks(const Picture& picture, const ImageFormat& format) {
+  open();
+  return renderer_->drawMasks(picture, {.width = format.width, .height = format.height});
+}
+
 }  // namespace tumble

@@ -17,6 +17,8 @@ class Studio {
   /// @throws NoContext, FileError
   /// @param pageHeight  as in RenderOptions
   Image draw(const Picture& picture, const ImageFormat& format, double pageHeight = 720.0);
+  /// Masks of the picture's bodies, as large as its image.
+  Masks drawMasks(const Picture& picture, const ImageFormat& format);
   /// @throws NoContext, FileError
   Fonts& fonts();
   /// Opens OpenGL now, to learn before long work that it is there. @throws NoContext, FileError

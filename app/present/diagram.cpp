@@ -199,8 +199,10 @@ void addFlowDiagram(const Recording& recording, const Sample& sample, const Vect
                colour::kQuiet);
   sketch.text({second + 8.0, back + 4.0}, "too deep: back to the instant of touch",
               {12.5, Align::Left, colour::kQuiet});
-  drawEvents(recording, sample, left + 20.0, left + 5.0 * width + 4.0 * kGap - 40.0,
-             page.y() - kEdge - 8.0, sketch);
+  // The colour bar of a strobe stands in the corner.
+  const double right =
+      std::min(left + 5.0 * width + 4.0 * kGap - 40.0, page.x() - (picture.bar ? 400.0 : 0.0));
+  drawEvents(recording, sample, left + 20.0, right, page.y() - kEdge - 8.0, sketch);
 }
 
 }  // namespace tumble

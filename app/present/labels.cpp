@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/claim/free_body.h"
@@ -44,6 +45,23 @@ void addLabels(const Scene& scene, const Sample& sample, Picture& picture) {
     label.anchor = body.x + Vec3(reach(shape, body.q, Vec3::UnitX()), 0.0, 0.0);
     label.offset = {8.0, 5.0};
     label.text = text;
+    picture.labels.push_back(label);
+  }
+}
+
+void addTexts(const Scene& scene, const Sample& sample, Picture& picture) {
+  for (const TextDef& def : scene.texts) {
+    if (sample.t < def.from || sample.t > def.until) continue;
+    Label label;
+    label.anchor = def.point;
+    for (std::size_t i = 0; i < sample.bodies.size() && !def.body.empty(); ++i)
+      if (scene.world.bodies[i].name == def.body) label.anchor = sample.bodies[i].x;
+    const std::array<double, 2>& place = label.anchor ? def.offset : def.page;
+    label.offset = {place[0], place[1]};
+    label.text = def.text;
+    label.size = static_cast<float>(def.size);
+    label.bold = def.bold;
+    if (def.colour) std::copy(def.colour->begin(), def.colour->end(), label.colour.begin());
     picture.labels.push_back(label);
   }
 }

@@ -16,4 +16,7 @@ std::string labelOf(const Scene& scene, int body);
 /// Labels to the right of the bodies.
 void addLabels(const Scene& scene, const Sample& sample, Picture& picture);
 
+/// The texts of the scene that are seen at the sample's instant.
+void addTexts(const Scene& scene, const Sample& sample, Picture& picture);
+
 }  // namespace tumble

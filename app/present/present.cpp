@@ -10,7 +10,9 @@
 #include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/boxes.h"
+#include "app/present/camera_keys.h"
 #include "app/present/diagram.h"
+#include "app/present/digits.h"
 #include "app/present/facets.h"
 #include "app/present/inertia.h"
 #include "app/present/insets.h"
@@ -132,6 +134,11 @@ void Presenter::follow() {
 }
 
 Framing Presenter::framingAt(const Sample& sample) const {
+  if (!scene_.camera.keys.empty()) {
+    Framing framing = framing_;
+    framing.camera = cameraAt(scene_.camera.keys, sample.t);
+    return framing;
+  }
   if (!followed_) return framing_;
   const std::size_t body = static_cast<std::size_t>(*followed_);
   const Vec3 way = sample.bodies[body].x - recording_.samples.front().bodies[body].x;
@@ -155,18 +162,30 @@ Picture Presenter::image(int k) const {
   addTheory(picture);
   if (scene_.show.planes) addPlanes(scene_, recording_, k, picture);
   addLabels(scene_, sample, picture);
+  addTexts(scene_, sample, picture);
   addAnnotations(sample, picture);
   picture.subtitle +=
       fmt::format("{}t = {:.2f} s", picture.subtitle.empty() ? "" : "   ", sample.t);
   if (scene_.show.energy)
-    picture.subtitle += fmt::format("   energy {:.4g} J", sample.kinetic + sample.potential);
+    picture.subtitle += "   energy " + fourDigits(sample.kinetic + sample.potential) + " J";
   finish(picture);
   return picture;
 }
 
+Picture Presenter::bodiesAlone(int k) const {
+  const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
+  Picture picture = blank(framingAt(sample));
+  picture.instances.clear();
+  addBodies(sample, false, picture);
+  return picture;
+}
+
+int Presenter::sampleAt(double t) const {
+  return static_cast<int>(std::clamp<long>(std::lround(t * recording_.rate), 0, count() - 1));
+}
+
 Picture Presenter::still(double t) const {
-  const long k = std::lround(t * recording_.rate);
-  return image(static_cast<int>(std::clamp<long>(k, 0, count() - 1)));
+  return image(sampleAt(t));
 }
 
 // Page, floor and camera, without anything on them.
@@ -181,6 +200,11 @@ Picture Presenter::blank(const Framing& framing) const {
   picture.floor.rule = scene_.show.ruler;
   for (const BodyDef& body : scene_.world.bodies) {
     if (!scene_.show.floor || !isFloor(body) || picture.floor.visible) continue;
+    if (scene_.show.gel > 0.0) {
+      addGel(std::get<HalfSpace>(body.shape).d, scene_.show.gel, framing.centre, framing.radius,
+             picture);
+      break;
+    }
     picture.floor.visible = true;
     picture.floor.height = std::get<HalfSpace>(body.shape).d;
   }

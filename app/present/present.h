@@ -47,10 +47,13 @@ class Presenter {
 
   /// The picture of sample k in [0, count()).
   Picture image(int k) const;
-  /// The picture of the sample nearest to t [s].
+  int sampleAt(double t) const;  ///< the sample nearest to t [s]
+  /// The picture of that sample.
   Picture still(double t) const;
   /// The whole motion: ghosts every show.strobe seconds, paler the longer ago, and the last pose.
   Picture strobe() const;
+  /// The bodies of sample k alone, from where image k is seen.
+  Picture bodiesAlone(int k) const;
   /// A body of the scene as a sample has it, whether pictures show it or not.
   Instance body(const Sample& sample, std::size_t number) const;
 

@@ -29,6 +29,7 @@ Picture Presenter::strobe() const {
   if (scene_.show.planes) addPlanes(scene_, recording_, count() - 1, picture);
   addTheory(picture);
   addLabels(scene_, last, picture);
+  addTexts(scene_, last, picture);
   addAnnotations(last, picture);
   // Ghosts of the start alone are no strobe.
   const std::string what =

@@ -1,7 +1,5 @@
 #include "app/present/touch.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "app/claim/free_body.h"
+#include "app/present/digits.h"
 #include "app/present/named.h"
 #include "app/present/palette.h"
 #include "sim/body/rigid_body.h"
@@ -57,9 +56,7 @@ void addContactVelocities(const Scene& scene, const Sample& sample, double lengt
   for (const auto& [pair, at] : worst) {
     const double tidy = std::abs(at.approach) < kResting ? 0.0 : at.approach;
     picture.marks.push_back(
-        {at.p,
-         {kindOf(at.approach), fmt::format("{}{:.3g} m/s", tidy < 0.0 ? "−" : "", std::abs(tidy))},
-         colour::kForce});
+        {at.p, {kindOf(at.approach), fourDigits(tidy) + " m/s"}, colour::kForce});
   }
 }
 
@@ -97,6 +94,15 @@ void addSprings(const Scene& scene, const Sample& sample, double length, Picture
       picture.lines.push_back(std::move(coil));
     }
   }
+}
+
+void addGel(double height, double thickness, const Vec3& centre, double radius, Picture& picture) {
+  Instance slab;
+  slab.position = {centre.x(), height - 0.5 * thickness, centre.z()};
+  slab.scale = {1.1 * radius, 0.5 * thickness, 0.3 * radius};
+  slab.colour = hex(0x3F9C8C);
+  slab.finish = Finish::Glass;
+  picture.instances.push_back(slab);
 }
 
 }  // namespace tumble

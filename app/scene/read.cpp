@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/scene/array.h"
+#include "app/scene/camera.h"
 #include "app/scene/cloth.h"
 #include "app/scene/expect.h"
 #include "app/scene/force.h"
@@ -17,6 +18,7 @@
 #include "app/scene/panel.h"
 #include "app/scene/settings.h"
 #include "app/scene/soft.h"
+#include "app/scene/text.h"
 #include "app/scene/toml.h"
 
 namespace tumble {
@@ -60,6 +62,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   readImage(root, scene.image);
   readShow(root, scene.show);
   readExpects(root, scene);
+  readFreeTexts(root, scene);
   const std::vector<std::string> parts = partNames(tree);
   readSweep(root, scene.sweep);
   readPanels(root, parts, scene);

@@ -41,13 +41,34 @@ class SceneError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
+/// Where a camera is at an instant.
+struct CameraKey {
+  double at = 0.0;                        ///< [s]
+  Vec3 eye = Vec3::Zero(), target = eye;  ///< [m]
+  double fov = 24.0;                      ///< [deg] vertical
+};
+
 struct CameraView {
-  std::string name = "";            ///< of one of several
-  std::string follow = "";          ///< a body that stays where it is on the image, or ""
-  std::optional<Vec3> eye, target;  ///< [m]; without them the camera frames the whole motion
-  double fov = 24.0;                ///< [deg] vertical
-  double azimuth = 20.0;            ///< [deg] of the eye about the vertical; 0 looks along −Z
-  double elevation = 12.0;          ///< [deg] of the eye above the horizon
+  std::string name = "";             ///< of one of several
+  std::string follow = "";           ///< a body that stays where it is on the image, or ""
+  std::optional<Vec3> eye, target;   ///< [m]; without them the camera frames the whole motion
+  double fov = 24.0;                 ///< [deg] vertical
+  double azimuth = 20.0;             ///< [deg] of the eye about the vertical; 0 looks along −Z
+  double elevation = 12.0;           ///< [deg] of the eye above the horizon
+  std::vector<CameraKey> keys = {};  ///< that it goes through, in the order of time, or none
+};
+
+/// A [[text]]: words on the pictures, beside a body, at a point or on the page.
+struct TextDef {
+  std::string text;
+  std::string body;                            ///< that it goes with, or ""
+  std::optional<Vec3> point;                   ///< [m] or, without it and a body,
+  std::array<double, 2> page = {32.0, 690.0};  ///< [px] of a page 720 high
+  std::array<double, 2> offset = {8.0, 5.0};   ///< [px] from the body or point
+  double size = 16.0;                          ///< [px]
+  bool bold = false;
+  double from = 0.0, until = 1e6;  ///< [s] when it is seen
+  std::optional<Rgb> colour = {};
 };
 
 struct ImageFormat {
@@ -101,6 +122,7 @@ struct ShowFlags {
   bool contact_velocities = false;  ///< named arrows of n and of the point velocity at contacts
   bool impulses = false;            ///< arrows j n at impacts, and velocities before and after
   bool springs = false;             ///< coils where springs of the contact model push
+  double gel = 0.0;                 ///< [m] of a see-through slab drawn in place of the floor
   std::string diagram;              ///< state | solver | flow, on the page below, or ""
   std::vector<std::string> slots;   ///< what the diagram of the state knows of it: "x", "?", …
   double strobe = 0.1;              ///< [s] between ghosts of a strobe image
@@ -146,6 +168,7 @@ struct Scene {
   CameraView camera;                        ///< the first of `cameras`, unless another is chosen
   std::vector<CameraView> cameras;          ///< as the scene names them; none: the default one
   std::vector<ExpectDef> expects;
+  std::vector<TextDef> texts;
   ImageFormat image;
   ShowFlags show;
   std::optional<Sweep> sweep;

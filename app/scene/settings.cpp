@@ -118,61 +118,6 @@ void readStepping(Section& root, SteppingSettings& stepping) {
   section.finish();
 }
 
-namespace {
-
-CameraView readOneCamera(const Node& node, const std::string& key, Section& root,
-                         const std::vector<BodyDef>& bodies) {
-  CameraView camera;
-  Section section(node, key, root.findings());
-  section.read("name", camera.name);
-  section.read("follow", camera.follow);
-  section.read("eye", camera.eye, any("m"));
-  section.read("target", camera.target, any("m"));
-  section.read("azimuth", camera.azimuth, any("deg"));
-  section.read("elevation", camera.elevation, {-89.0, 89.0, false, "deg"});
-  double fov = camera.fov;
-  section.read("fov", fov, any("deg"));
-  if (fov > 1.0 && fov < 170.0)
-    camera.fov = fov;
-  else
-    section.complain("fov", "expected an angle [deg] between 1 and 170");
-  if (camera.eye && camera.target && (*camera.eye - *camera.target).norm() < 1e-9)
-    section.complain("eye", "stands where the target is; move one of them");
-  std::vector<std::string> names;
-  for (const BodyDef& body : bodies) names.push_back(body.name);
-  if (!camera.follow.empty() && std::find(names.begin(), names.end(), camera.follow) == names.end())
-    section.complain("follow",
-                     "unknown body " + inQuotes(camera.follow) + hint(camera.follow, names));
-  section.finish();
-  return camera;
-}
-
-}  // namespace
-
-// One table, or several of which each has a name.
-void readCamera(Section& root, Scene& scene) {
-  const Node* node = root.find("camera");
-  if (!node) return;
-  const Array* several = node->as<Array>();
-  if (!several) {
-    scene.cameras.push_back(readOneCamera(*node, "camera", root, scene.world.bodies));
-  } else {
-    for (const Node& one : *several) {
-      const std::string key = "camera." + std::to_string(scene.cameras.size());
-      scene.cameras.push_back(readOneCamera(one, key, root, scene.world.bodies));
-      const std::string& name = scene.cameras.back().name;
-      const auto same = [&](const CameraView& camera) { return camera.name == name; };
-      if (!isName(name))
-        root.findings().complain(one.spot, key + ".name",
-                                 "each of several cameras needs a name of A-Z a-z 0-9 _ and .");
-      else if (std::count_if(scene.cameras.begin(), scene.cameras.end(), same) > 1)
-        root.findings().complain(one.spot, key + ".name",
-                                 "there is a camera " + inQuotes(name) + " already");
-    }
-  }
-  if (!scene.cameras.empty()) scene.camera = scene.cameras.front();
-}
-
 void readImage(Section& root, ImageFormat& image) {
   const Node* node = root.find("image");
   if (!node) return;
@@ -236,6 +181,7 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("contact_velocities", show.contact_velocities);
   section.read("impulses", show.impulses);
   section.read("springs", show.springs);
+  section.read("gel", show.gel, notNegative("m"));
   std::string diagram = show.diagram.empty() ? "none" : show.diagram;
   section.read("diagram", diagram, {"none", "state", "solver", "flow"});
   show.diagram = diagram == "none" ? "" : diagram;

@@ -1,5 +1,4 @@
-// The tables of a scene that hold single settings: [world] [course] [stepping] [camera] [image]
-// [show].
+// The tables of a scene that hold single settings: [world] [course] [stepping] [image] [show].
 #pragma once
 
 #include "app/scene/section.h"
@@ -10,7 +9,6 @@ void readTexts(Section& root, Scene& scene);
 void readWorld(Section& root, Scene& scene);
 void readCourse(Section& root, CourseSettings& course);
 void readStepping(Section& root, SteppingSettings& stepping);
-void readCamera(Section& root, Scene& scene);
 void readImage(Section& root, ImageFormat& image);
 void readShow(Section& root, ShowFlags& show);
 

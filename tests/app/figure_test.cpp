@@ -1,4 +1,6 @@
 // The kit for figures: cameras, what frames the bodies, and which instants a sheet shows.
+#include <algorithm>
+
 #include "app/present/instants.h"
 #include "app/present/present.h"
 #include "tests/catch.h"
@@ -81,4 +83,19 @@ TEST_CASE("floor, ruler and title can be left out") {
     CHECK(picture.title.empty());
     CHECK(picture.subtitle.empty());
   }
+}
+
+TEST_CASE("a slab of gel stands in place of the floor, with its top at the floor's height") {
+  const Scene scene = parseScene(kDrop + "[show]\ngel = 0.5\n", "drop");
+  const Recording recording = record(scene, 60.0);
+  const Presenter presenter(scene, recording);
+  const Picture picture = presenter.image(0);
+  CHECK(!picture.floor.visible);
+  const auto glass = [](const Instance& instance) { return instance.finish == Finish::Glass; };
+  REQUIRE(std::count_if(picture.instances.begin(), picture.instances.end(), glass) == 1);
+  const Instance& slab = *std::find_if(picture.instances.begin(), picture.instances.end(), glass);
+  CHECK(slab.position.y() + slab.scale.y() == Approx(0.0).margin(1e-15));
+  CHECK(slab.scale.y() == 0.25);
+  // Masks know bodies alone.
+  CHECK(presenter.bodiesAlone(0).instances.size() == 1);
 }
