@@ -69,6 +69,7 @@ Margins marginsOf(const Scene& scene) {
   else if (scene.show.contact_forces)
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
   if (scene.show.tensors) margins.right = 0.32;
+  if (scene.show.gel > 0.0) margins.bottom = 0.26;
   margins.bottom += diagramShare(scene, {720.0 * aspectOf(scene), 720.0});
   return margins;
 }

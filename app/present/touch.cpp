@@ -99,7 +99,7 @@ void addSprings(const Scene& scene, const Sample& sample, double length, Picture
 void addGel(double height, double thickness, const Vec3& centre, double radius, Picture& picture) {
   Instance slab;
   slab.position = {centre.x(), height - 0.5 * thickness, centre.z()};
-  slab.scale = {1.1 * radius, 0.5 * thickness, 0.3 * radius};
+  slab.scale = {0.8 * radius, 0.5 * thickness, 0.25 * radius};
   slab.colour = hex(0x3F9C8C);
   slab.finish = Finish::Glass;
   picture.instances.push_back(slab);
