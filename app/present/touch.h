@@ -19,7 +19,8 @@ void addImpulses(const Recording& recording, double t, double length, Picture& p
 /// `length` [m] long where it does not.
 void addSprings(const Scene& scene, const Sample& sample, double length, Picture& picture);
 
-/// A see-through slab with its upper side at that height, under the middle of a motion of that radius.
+/// A see-through slab with its upper side at that height, under the middle of a motion of that
+/// radius.
 void addGel(double height, double thickness, const Vec3& centre, double radius, Picture& picture);
 
 }  // namespace tumble
