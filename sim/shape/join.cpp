@@ -17,11 +17,16 @@ Aabb boxOf(const Polyhedron& solid, double slack) {
   return {box.lo - more, box.hi + more};
 }
 
-/// The convex union of two solids, if it is one.
+/// The convex union of two solids, if it is one; none if both are flatter than numbers can tell.
 bool join(Polyhedron& a, const Polyhedron& b, double thin) {
   std::vector<Vec3> corners = a.points;
   corners.insert(corners.end(), b.points.begin(), b.points.end());
-  Polyhedron both = hullInFrame(corners);
+  Polyhedron both;
+  try {
+    both = hullInFrame(corners);
+  } catch (const NotASolid&) {
+    return false;
+  }
   if (std::abs(volumeOf(both) - volumeOf(a) - volumeOf(b)) > thin * areaOf(both)) return false;
   a = std::move(both);
   return true;

@@ -87,10 +87,10 @@ class Decomposer {
         const Vec3 u = size_ * Vec3::Unit((axis + 1) % 3), v = size_ * Vec3::Unit((axis + 2) % 3);
         cut::Halves halves =
             cut::halve(points_, rest, cut::planeThrough(p, p + u, p + v), kRounding * size_);
-        if (!halves.below.empty()) slices.push_back(hullOf(halves.below));
+        addSlice(halves.below, slices);
         rest = std::move(halves.above);
       }
-      if (!rest.empty()) slices.push_back(hullOf(rest));
+      addSlice(rest, slices);
     }
     if (slices.size() > kMostPieces)
       throw NoPieces("the mesh makes " + std::to_string(slices.size()) + " slivers, more than " +
@@ -116,6 +116,15 @@ class Decomposer {
   }
 
   Polyhedron hullOf(const Surface& piece) const { return hullInFrame(cornersOf(piece)); }
+
+  /// A slice flatter than numbers can tell is none.
+  void addSlice(const Surface& slice, std::vector<Polyhedron>& slices) const {
+    if (slice.empty()) return;
+    try {
+      slices.push_back(hullOf(slice));
+    } catch (const NotASolid&) {
+    }
+  }
 
   /// The hull of a piece that stands out of the mesh by no more than the tolerance.
   std::optional<Wrapping> wrapped(const Surface& piece, const std::vector<Notch>& notches) const {
