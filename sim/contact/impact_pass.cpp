@@ -21,7 +21,38 @@ constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is f
 struct Strike {
   Problem problem;
   std::vector<int> contacts;
+  std::vector<int>
+      number;  ///< per body: in the problem, < 0 of one that is not; none: all are in it
 };
+
+/// Bonds may join any bodies; contacts bring theirs with them.
+void begin(const Impact& impact, Strike& strike) {
+  if (impact.bound())
+    beginVelocityProblem(impact.bodies, strike.problem);
+  else
+    strike.number.assign(impact.bodies.size(), -1);
+}
+
+int numberOf(const Impact& impact, int i, Strike& strike) {
+  if (strike.number.empty()) return i;
+  if (strike.number[i] < 0) {
+    const RigidBody& body = impact.bodies[i];
+    Vec6 twist;
+    twist << body.v, body.omega;
+    strike.number[i] = static_cast<int>(strike.problem.invM.size());
+    strike.problem.invM.push_back(body.invM);
+    strike.problem.Iinv.push_back(body.Iinv);
+    strike.problem.vStar.push_back(twist);
+  }
+  return strike.number[i];
+}
+
+void addRow(const Impact& impact, const Contact& c, const Vec3& d, double bias, Strike& strike) {
+  Row& row =
+      strike.problem.rows.emplace_back(pointRow(impact.bodies, c.a, c.b, c.point.p, d, bias));
+  row.a = numberOf(impact, c.a, strike);
+  row.b = numberOf(impact, c.b, strike);
+}
 
 void addContact(const Impact& impact, int i, double bias, bool withFriction, Strike& strike) {
   const Contact& c = impact.contacts[i];
@@ -32,12 +63,11 @@ void addContact(const Impact& impact, int i, double bias, bool withFriction, Str
   problem.cones.push_back({.kind = cone ? ConeKind::Friction : ConeKind::Push,
                            .row = static_cast<int>(problem.rows.size()),
                            .mu = cone ? c.friction : 0.0});
-  problem.rows.push_back(pointRow(impact.bodies, c.a, c.b, c.point.p, c.point.n, bias));
+  addRow(impact, c, c.point.n, bias, strike);
   if (!cone) return;
   Vec3 t1, t2;
   tangents(c.point.n, slipVelocity(a, b, c.point), t1, t2);
-  for (const Vec3& t : {t1, t2})
-    problem.rows.push_back(pointRow(impact.bodies, c.a, c.b, c.point.p, t, 0.0));
+  for (const Vec3& t : {t1, t2}) addRow(impact, c, t, 0.0, strike);
 }
 
 /// Gives the impulses of all bonds as one, after which their λ hold the sum of all passes.
@@ -157,7 +187,7 @@ bool takesPart(PassKind kind, ContactClass now, double restitution) {
 
 void strikeOnce(const Impact& impact, PassKind kind, ImpactReport& report) {
   Strike pass;
-  beginVelocityProblem(impact.bodies, pass.problem);
+  begin(impact, pass);
   const std::vector<int> reached = reachOfImpact(impact);
   const auto vrel = [&](int i) {
     const Contact& c = impact.contacts[i];
@@ -182,7 +212,7 @@ void strikeOnce(const Impact& impact, PassKind kind, ImpactReport& report) {
 
 void strikeOne(const Impact& impact, int contact, ImpactReport& report) {
   Strike pass;
-  beginVelocityProblem(impact.bodies, pass.problem);
+  begin(impact, pass);
   const Contact& c = impact.contacts[contact];
   const double vrel = approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point);
   addContact(impact, contact, impact.restitution[contact] * vrel, false, pass);
@@ -198,7 +228,7 @@ std::vector<Compressed> compress(const Impact& impact, std::span<const int> cont
   constexpr int kRough = 60;         // sweeps, where a contact problem follows,
   constexpr double kRoughly = 1e-3;  // and the residual that is enough then
   Strike pass;
-  beginVelocityProblem(impact.bodies, pass.problem);
+  begin(impact, pass);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     addContact(impact, contacts[k], 0.0, true, pass);
     pass.problem.cones.back().mu *= 1.0 + e[k];
