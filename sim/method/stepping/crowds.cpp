@@ -46,12 +46,50 @@ double Stepping::roughTolerance(double scale) const {
   return std::max(stepping.tolerance, stepping.crowdTolerance * std::min(1.0, fastest / scale));
 }
 
+void Stepping::takeBack(std::span<const Link> links) {
+  for (const Link link : links)
+    if (isPair(link))
+      for (Touch& touch : memory_.pairs[link].touches) touch.due = std::max(touch.due, 0.0);
+}
+
+void Stepping::setAside(std::span<const Link> links, double scale, double h) {
+  constexpr double kFar = 0.1, kAside = -1.0;  // of the scale: few that part so fast are pushed
+  if (!again_ || !isHasty()) takeBack(links);
+  if (!isHasty()) return;
+  Problem& problem = work_.problem;
+  std::size_t cone = 0, kept = 0;
+  int rows = 0;
+  for (const Link link : links) {
+    for (Touch& touch : memory_.pairs[link].touches) {
+      if (flies(touch, h)) continue;
+      Cone of = problem.cones[cone++];
+      const Row& normal = problem.rows[of.row];
+      const double parts =
+          rowSpeed(normal, problem.vStar[normal.a], problem.vStar[normal.b]) + normal.bias;
+      if (!again_ && !closed(touch) && parts > kFar * scale) touch.due = kAside;
+      if (isAside(touch)) {
+        touch.impulse.setZero();
+        touch.contact.force.setZero();
+        touch.contact.sliding = touch.contact.lasting = false;
+        continue;
+      }
+      for (int r = 0; r < coneRows(of.kind); ++r) problem.rows[rows + r] = problem.rows[of.row + r];
+      of.row = rows;
+      rows += coneRows(of.kind);
+      problem.cones[kept++] = of;
+    }
+  }
+  problem.rows.resize(rows);
+  problem.cones.resize(kept);
+  work_.pull.clear();
+}
+
 void Stepping::startFromBefore(std::span<const Link> links, double h) {
   work_.solution.lambda.assign(work_.problem.rows.size(), 0.0);
   std::size_t cone = 0;
   for (const Link link : links) {
     for (const Touch& touch : memory_.pairs[link].touches) {
-      if (flies(touch, h)) continue;
+      if (flies(touch, h) || isAside(touch)) continue;
       const Cone& of = work_.problem.cones[cone++];
       const double longer = touch.length > 0.0 ? h / touch.length : 0.0;
       for (int r = of.row; r < of.row + coneRows(of.kind); ++r)

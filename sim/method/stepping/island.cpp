@@ -22,7 +22,9 @@ void Stepping::solveSteadily(double h) {
   allKept_ = true;
   if (bends() && !bend(h)) return;
   const auto solve = [&] {
+    again_ = false;
     solveIslands(h);
+    again_ = true;
     for (int round = 0; round < kRounds && work_.crushed.empty() && seeFurther(h); ++round)
       solveIslands(h);
   };
@@ -210,8 +212,13 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
     allKept_ = false;
     build(links, h);
     if (bent) coupleBent();
-    const double part = !bent && crowd_ ? roughTolerance(velocityScale(work_.problem)) : 0.0;
+    const double scale = !bent && crowd_ ? velocityScale(work_.problem) : 0.0;
+    const double part = scale > 0.0 ? roughTolerance(scale) : 0.0;
     memory.rough = part > 0.0;
+    if (memory.rough)
+      setAside(links, scale, h);
+    else
+      takeBack(links);
     const SolveReport solved = memory.rough ? solveRough(links, part, h) : solveFine(links);
     if (!work_.crushed.empty()) return;
     memory.residual = solved.residual;
@@ -333,7 +340,8 @@ void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h
     PairMemory& pair = memory_.pairs[link];
     memory.seen.push_back({.look = pair.look, .form = pair.form});
     for (Touch& touch : pair.touches)
-      if (!flies(touch, h)) shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
+      if (!flies(touch, h) && !isAside(touch))
+        shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
   }
   memory.movers.clear();
   for (const int i : work_.movers)

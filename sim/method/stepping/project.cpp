@@ -1,5 +1,6 @@
 // Position projection: the least displacement, weighed by mass, that lifts what overlaps.
 #include <algorithm>
+#include <limits>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
@@ -31,11 +32,13 @@ bool Stepping::project() {
 }
 
 double Stepping::deepestOverlap() {
+  for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, memory_.pairs[k].margin);
+  return deepestKnown();
+}
+
+double Stepping::deepestKnown() const {
   double deepest = 0.0;
-  for (std::size_t k = 0; k < state_.near.size(); ++k) {
-    look(k, memory_.pairs[k].margin);
-    deepest = std::max(deepest, memory_.pairs[k].deepest);
-  }
+  for (const PairMemory& pair : memory_.pairs) deepest = std::max(deepest, pair.deepest);
   return deepest;
 }
 
@@ -61,6 +64,9 @@ int Stepping::lift(int most, bool asCrowd) {
   constexpr int kMost = 200, kMostOfCrowd = 20;  // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
   const int atMost = std::min(most, asCrowd ? kMostOfCrowd : kMost);
+  // Where overlap may be left alone, gaps wider than the deepest overlap are not asked to stay.
+  double reach = std::numeric_limits<double>::infinity();
+  if (asCrowd && isHasty()) reach = deepestKnown();
   beginVelocityProblem(state_.bodies, work_.problem);
   for (Vec6& v : work_.problem.vStar) v.setZero();
   findOverlapping();
@@ -68,6 +74,7 @@ int Stepping::lift(int most, bool asCrowd) {
     if (memory_.pairs[k].touches.empty() || !work_.open[rootOf(k)]) continue;
     for (const Touch& touch : memory_.pairs[k].touches) {
       const Contact& c = touch.contact;
+      if (c.point.separation > reach) continue;
       work_.problem.cones.push_back(
           {.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});
       work_.problem.rows.push_back(

@@ -147,6 +147,16 @@ class Stepping {
   /// moves, the part that is planned for crowds. 0 for any other problem.
   /// @param scale [m/s] its velocityScale
   double roughTolerance(double scale) const;
+  /// Whether all that is asked of any crowd is to leave a little open.
+  bool isHasty() const {
+    return model_.def.stepping.anyCrowd && model_.def.stepping.crowdOpen > 0.0;
+  }
+  /// In haste, takes out of a rough problem the points that part too fast for its forces to bring
+  /// them together, and gives them no force; rows move up.
+  /// @param scale [m/s] as for roughTolerance
+  void setAside(std::span<const Link> links, double scale, double h);
+  bool isAside(const Touch& touch) const { return touch.due < 0.0; }
+  void takeBack(std::span<const Link> links);
   SolveReport solveFine(std::span<const Link> links);
   SolveReport solveRough(std::span<const Link> links, double tolerance, double h);
   /// The λ that the contacts had in the step before.
@@ -266,6 +276,7 @@ class Stepping {
   /// @return whether all that overlapped or gaped is closed
   bool project();
   double deepestOverlap();
+  double deepestKnown() const;
   double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
   void findOverlapping();
   int rootOf(std::size_t pair);
@@ -299,6 +310,7 @@ class Stepping {
   int cluster_ = 0;         ///< whose clock runs
   bool crowd_ = false;      ///< the bodies whose clock runs are one
   bool rough_ = false;      ///< an island is solved as far as is planned for crowds
+  bool again_ = false;      ///< islands are solved once more, with what their bodies met
   double leftOpen_ = 0.0;   ///< [m] overlap that such a plan leaves
   int parts_ = 0;           ///< of the step that is most divided
   double partStart_ = 0.0;  ///< [s] of the part under way

@@ -137,13 +137,18 @@ bool Stepping::lookFurther(std::size_t k, double h) {
     if (memory.form != before) return !memory.touches.empty();
   }
   bool meets = false;
-  for (const Touch& touch : memory.touches) {
-    if (!flies(touch, h)) continue;
+  for (Touch& touch : memory.touches) {
+    const bool aside = isAside(touch);
+    if (!flies(touch, h) && !aside) continue;
     const ContactPoint& c = touch.contact.point;
     const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[ia].x) - vb.head<3>() -
                       vb.tail<3>().cross(c.p - state_.bodies[ib].x);
-    if (c.separation + h * c.n.dot(rate) >= -tolerance_.drift) continue;
-    hold(touch.contact);
+    const double left = aside ? std::max(tolerance_.drift, leftOpen_) : tolerance_.drift;
+    if (c.separation + h * c.n.dot(rate) >= -left) continue;
+    if (aside)
+      touch.due = 0.0;
+    else
+      hold(touch.contact);
     meets = true;
   }
   return meets;
