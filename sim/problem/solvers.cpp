@@ -43,13 +43,13 @@ std::span<const SolverPreset> solverPresets() {
                    true,
                    0.1},
       SolverPreset{"draft",
-                   "as fast, but no step is divided",
+                   "as fast, but no step is divided, and ten times as much stays open",
                    "newton",
                    {1e-6, 4000},
                    "pgs",
                    {1e-2, 20},
                    true,
-                   0.1,
+                   1.0,
                    false},
   };
   return kTable;
