@@ -2,6 +2,7 @@
 // writes the page.
 #include "tests/stability/hard_case.h"
 
+#include <cstdio>
 #include <ctime>
 #include <limits>
 

@@ -1,5 +1,6 @@
 // Hard cases of forces: springs and dampers from soft to stiff, against their closed forms.
 #include <algorithm>
+#include <cstdio>
 
 #include "tests/stability/hard_case.h"
 
