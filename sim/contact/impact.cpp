@@ -149,6 +149,7 @@ ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contac
       const ImpulseEnergy step = applyContactImpulse(impact, s.contact, J);
       energy.lost += step.lost;
       energy.work += step.work;
+      energy.rows += 2;
       change = std::max(change, J.norm());
     }
     if (change <= std::max(kSettled * largest, rounding)) break;

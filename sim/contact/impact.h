@@ -18,6 +18,7 @@ struct ImpactReport {
   double cut = 0.0;                ///< restitution held back, that would have added energy
   double residual = 0.0;           ///< worst natural-map residual
   bool finishedInelastic = false;  ///< the passes ran out; the last one took e = 0
+  long rows = 0;                   ///< that solvers and sweeps went over: what it cost
 };
 
 /// The contacts struck at one instant, and what they get.
@@ -101,6 +102,7 @@ std::vector<int> reachOfImpact(const Impact& impact);
 /// move.
 struct ImpulseEnergy {
   double lost = 0.0, work = 0.0;
+  long rows = 0;  ///< gone over to find it
 };
 
 /// Gives J [N·s] to a and −J to b of a contact, at its point, and adds it to impact.impulse.

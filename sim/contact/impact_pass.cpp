@@ -153,6 +153,7 @@ SolveReport solvePass(const Impact& impact, Strike& strike, Solution& solution,
     }
   }
   report.residual = std::max(report.residual, solved.residual);
+  report.rows += (1 + solved.iterations) * static_cast<long>(strike.problem.rows.size());
   if (impact.bound()) {
     const ImpulseEnergy energy = giveBonds(impact, solution, firstBond);
     report.lostNormal += energy.lost;
@@ -167,6 +168,7 @@ void rub(const Impact& impact, std::span<const int> contacts, std::span<const do
   const ImpulseEnergy energy = frictionImpulses(impact, contacts, j);
   report.lostFriction += energy.lost;
   report.work += energy.work;
+  report.rows += energy.rows;
   tighten(impact, true, report);
 }
 
@@ -302,6 +304,7 @@ void add(const ImpactReport& part, ImpactReport& sum) {
   sum.lostFriction += part.lostFriction;
   sum.work += part.work;
   sum.cut += part.cut;
+  sum.rows += part.rows;
   sum.residual = std::max(sum.residual, part.residual);
   sum.finishedInelastic = sum.finishedInelastic || part.finishedInelastic;
 }

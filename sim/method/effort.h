@@ -15,11 +15,15 @@ struct Effort {
   /// What a contact problem to the last digits costs in these, a body; and one that none of the
   /// solvers solves, whatever its size.
   static constexpr long kPolished = 20, kUnsolved = 500;
+  /// Rows of impacts that sweeps go over in the time of one.
+  static constexpr long kRows = 20;
 
-  long most = std::numeric_limits<long>::max();  ///< after which a better method is looked for
+  long most = std::numeric_limits<long>::max();   ///< after which a better method is looked for
+  long close = std::numeric_limits<long>::max();  ///< after which joints are followed less closely
   long done = 0;
 
   bool spent() const { return done >= most; }
+  bool hurries() const { return done >= close; }
 };
 
 inline long countMoving(std::span<const RigidBody> bodies) {

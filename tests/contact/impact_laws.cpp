@@ -321,3 +321,22 @@ TEST_CASE("reflections do not prefer a side or an order") {
     }
   }
 }
+
+// Oracle: a heavy ball drives a light one against a wall: floor(pi/atan(sqrt(m/M))) hits, one row
+// each, which a solver goes over twice. A law that ran out of passes would count fewer.
+TEST_CASE("an impact tells how many rows it cost to work out") {
+  const auto rows = [](double ratio) {
+    Heap heap;
+    heap.bodies = {makeFixedBody(Pose{}, Vec3::Zero(), Vec3::Zero()),
+                   ballAt({0.5, 0.0, 0.0}, Vec3::Zero()),
+                   ballAt({1.5, 0.0, 0.0}, {-1.0, 0.0, 0.0}, ratio)};
+    heap.touch(1, 0, Vec3::Zero(), Vec3::UnitX());
+    heap.touch(2, 1, {1.0, 0.0, 0.0}, Vec3::UnitX());
+    return heap.strike("reflections").rows;
+  };
+  for (const double ratio : {4.0, 100.0}) {
+    CAPTURE(ratio);
+    CHECK(rows(ratio) ==
+          2 * static_cast<long>(std::floor(M_PI / std::atan(1.0 / std::sqrt(ratio)))));
+  }
+}

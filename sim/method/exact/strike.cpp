@@ -202,6 +202,7 @@ void Exact::respond(double t, const Cluster& cluster) {
   }
   state_.kineticMax = std::max(state_.kineticMax, kinetic);
   bookImpact(impact, report_);
+  state_.effort.done += impact.rows / Effort::kRows;
   recordImpacts(t, cluster, vrel, impulse);
   if (!(impact.residual > kHopeless)) return;
   const std::string crushed = findCrushed(model_, t, state_.bodies, cluster.contacts);

@@ -108,7 +108,7 @@ void SustainedSystem::findForces(std::span<RigidBody> bodies) const {
     if (!body.fixed()) outerForce_ += body.force;
   for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
   modes_.apply(bodies, contacts_);
-  effort.done += moving_;
+  effort.done += moving_ + static_cast<long>(contacts_.size());
 }
 
 SustainedSystem::Books SustainedSystem::rates() const {
