@@ -30,8 +30,12 @@ class CourseSteppers {
 
   /// The one for a system as it is now.
   Stepper& of(const System& system) { return *(stands(system) ? standIn_ : chosen_); }
+  /// Whether it divides a step as it finds fit, so that a step in two parts is the same step.
+  bool adaptive(const System& system) const { return row_.adaptive && !stands(system); }
   /// True if the other one stands in.
-  bool stands(const System& system) const { return !suits(row_, system); }
+  bool stands(const System& system) const { return hurry || !suits(row_, system); }
+
+  bool hurry = false;  ///< what it costs counts for more than how close it is
 
  private:
   const Integrator& row_;
@@ -52,6 +56,8 @@ class Course {
   void move();
 
  private:
+  /// Begins a stretch of motion that may last until then [s].
+  void begin(double grid);
   void findNear();
   void findTouching();
   /// Stops the run where something touches that cannot have contacts here: a body with a pivot, or
@@ -87,6 +93,7 @@ class Course {
   /// Separation [m] of a pair a time h after now; trial_ is then there.
   double gapAfter(double h, int a, int b);
   bool wasLasting(int a, int b) const;
+  bool isJoined(int body) const;
   /// Whether the same features stuck to each other in the stretch before.
   bool wasSticking(const Contact& contact) const;
   /// Upper estimate [m/s²] of what outer forces do to any body.
@@ -125,6 +132,10 @@ class Course {
   RestForces rest_;
   std::vector<Contact> touching_;
   std::vector<double> y0_, y_;
+  /// Y at the furthest instant [s] of this stretch that is known to be allowed, from where an
+  /// adaptive integrator goes on.
+  std::vector<double> yAllowed_;
+  double allowed_ = 0.0;
   std::vector<RigidBody> trial_;
   Problem lift_;
   Solution lifted_;

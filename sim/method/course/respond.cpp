@@ -96,6 +96,11 @@ void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> i
   }
 }
 
+bool Course::isJoined(int body) const {
+  return std::any_of(model_.joints.begin(), model_.joints.end(),
+                     [&](const Joint& joint) { return joint.a == body || joint.b == body; });
+}
+
 void Course::chooseLasting() {
   const double scale = accelerationScale();
   std::vector<Contact> lasting;
@@ -117,6 +122,11 @@ void Course::chooseLasting() {
     // fades with the pull of a lasting contact, inside Coulomb's cone.
     if (c.creeping && state_.recentBackUps >= kSticksInStep) c.sliding = c.creeping = false;
     c.mayStick = c.sliding;
+    // A wedge that friction locks in its joint cannot be drawn out, however slowly.
+    if (!c.sliding && c.friction > 0.0 && (isJoined(c.a) || isJoined(c.b))) {
+      c.pull = 0.0;
+      c.slipPull.setZero();
+    }
     lasting.push_back(c);
   }
   state_.limits = restingLimits(state_.bodies, model_.joints, tolerance_.touch, tolerance_.rest,
