@@ -15,6 +15,8 @@ namespace {
 
 /// Error of a substep, where the exact method has to make steps.
 constexpr double kJointTolerance = 1e-13;
+/// Times the effort that `auto` grants the exact method, where that is asked for by name.
+constexpr long kAsked = 5;
 
 std::string bodyPath(std::size_t i, const char* field = "") {
   return "bodies[" + std::to_string(i) + "]" + field;
@@ -251,7 +253,11 @@ void World::Parts::build(const WorldDef& def) {
   model.runs = method->name;
   if (def.method == "auto") {
     model.runs = chooseMethod(model, state.bodies);
-    if (model.runs == "exact") state.effort.most = mostEffort(model);
+  }
+  if (model.runs == "exact") {
+    const long most = mostEffort(model);
+    state.effort.most = def.method == "auto" ? most : kAsked * most;
+    state.effort.close = most;
   }
   if (model.runs == "exact" && !model.joints.empty()) {
     // Where the closed forms end, the most accurate steps that there are.

@@ -63,11 +63,13 @@ double gridTime(const Model& model, long k, double h) {
   return next > end - 1e-9 * h ? end : next;  // no sliver of a step is left before the end
 }
 
-std::string spentBy(const State& state) {
+std::string spentBy(const Model& model, const State& state) {
+  const bool asked = model.def.method == "exact";
   return "the exact method takes too long where things move or touch as fast as here (" +
-         std::to_string(state.effort.done) +
-         " evaluations of forces so far); for steps throughout set world.method = \"stepping\", to "
-         "wait for it \"exact\"";
+         std::to_string(state.effort.done) + " evaluations of forces so far)" +
+         (asked ? "; set world.method = \"stepping\", or \"auto\", which goes on by it"
+                : "; for steps throughout set world.method = \"stepping\", to wait for it "
+                  "\"exact\"");
 }
 
 void trimTrail(State& state, double t) {

@@ -77,7 +77,7 @@ double gridTime(const Model& model, long k, double h);
 void trimTrail(State& state, double t);
 
 /// Why a method leaves a scene to another one after all that effort.
-std::string spentBy(const State& state);
+std::string spentBy(const Model& model, const State& state);
 
 /// Brings the running totals and the certificate up to date at the end of a step.
 void account(const Model& model, State& state, Report& report);

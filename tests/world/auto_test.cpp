@@ -188,7 +188,14 @@ TEST_CASE("auto follows a coin that spins on a table by the exact method, to the
 TEST_CASE("auto says why the exact method gave up, and what to set, in words of a scene") {
   State state;
   state.effort.done = 1'500'000;
-  CHECK(spentBy(state) ==
+  Model model;
+  model.def.method = "exact";
+  CHECK(spentBy(model, state) ==
+        "the exact method takes too long where things move or touch as fast as here (1500000 "
+        "evaluations of forces so far); set world.method = \"stepping\", or \"auto\", which goes "
+        "on by it");
+  model.def.method = "auto";
+  CHECK(spentBy(model, state) ==
         "the exact method takes too long where things move or touch as fast as here (1500000 "
         "evaluations of forces so far); for steps throughout set world.method = \"stepping\", to "
         "wait for it \"exact\"");

@@ -34,7 +34,9 @@ void lookCourse(const Model& model, const State& state, double t, std::vector<Ri
   if (!now && t > segment->t0 && !segment->still) {
     std::vector<double> y(system.size());
     system.pack(bodies, y);
-    CourseSteppers(model, system).of(system).step(system, segment->t0, t - segment->t0, y);
+    CourseSteppers steppers(model, system);
+    steppers.hurry = state.effort.hurries();
+    steppers.of(system).step(system, segment->t0, t - segment->t0, y);
     system.unpack(y, bodies);
   }
   system.findForces(bodies);

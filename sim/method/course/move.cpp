@@ -14,6 +14,8 @@ namespace {
 /// step.
 constexpr int kRefill = 20, kPatience = 50;
 constexpr double kLate = 0.05;
+/// What is followed less closely has a store so many times smaller.
+constexpr int kHasty = 10;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
 
@@ -25,21 +27,30 @@ bool allFinite(std::span<const double> y) {
 
 }  // namespace
 
-void Course::move() {
-  const double grid = gridTime(model_, state_.gridIndex, model_.def.course.step);
-  const double span = grid - state_.t;
+void Course::begin(double grid) {
   state_.trail.push_back(
       {.t0 = state_.t, .t1 = grid, .start = state_.bodies, .end = {}, .contacts = state_.lasting});
   state_.trail.back().limits = state_.limits;
 
   system_.begin(state_.lasting, state_.limits);
   system_.effort = state_.effort;
-  if (steppers_.stands(system_))
+  steppers_.hurry = state_.effort.hurries();
+  if (!steppers_.hurry) system_.effort.most = std::min(state_.effort.most, state_.effort.close);
+  if (steppers_.hurry)
+    report_.note("more than the exact method can follow closely went on in steps of rk4");
+  else if (steppers_.stands(system_))
     report_.note("while contacts last, rk4 stands in for an integrator that cannot have them");
   y0_.resize(system_.size());
   y_.resize(system_.size());
   system_.pack(state_.bodies, y0_);
+  yAllowed_ = y0_;
+  allowed_ = 0.0;
+}
 
+void Course::move() {
+  const double grid = gridTime(model_, state_.gridIndex, model_.def.course.step);
+  const double span = grid - state_.t;
+  begin(grid);
   if (rests()) {
     y_ = y0_;
     state_.trail.back().still = true;
@@ -57,6 +68,11 @@ void Course::move() {
     closeMissteps(trial_, state_.t + h);
   }
   if (!contact_.impulses) h = firstTouch(h);
+  if (system_.effort.spent() && system_.effort.most < state_.effort.most) {  // the same, in a hurry
+    state_.effort.done = system_.effort.done;
+    state_.trail.pop_back();
+    return move();
+  }
   commit(h < span ? state_.t + h : grid);
 }
 
@@ -99,8 +115,10 @@ void Course::lookAtLimits(std::span<const RigidBody> bodies) {
 }
 
 double Course::allowance(double h) {
-  y_ = y0_;
-  steppers_.of(system_).step(system_, state_.t, h, y_);
+  const bool goesOn = steppers_.adaptive(system_) && h >= allowed_;
+  y_ = goesOn ? yAllowed_ : y0_;
+  const double from = goesOn ? allowed_ : 0.0;
+  if (h > from) steppers_.of(system_).step(system_, state_.t + from, h - from, y_);
   if (!allFinite(y_)) return 0.0;  // commit() reports it
   system_.unpack(y_, trial_);
   double least = kInfinity;
@@ -122,6 +140,10 @@ double Course::allowance(double h) {
     follow(trial_[c.a], trial_[c.b], c);
     least = std::min(least, slipVelocity(trial_[c.a], trial_[c.b], c.point).dot(c.slipDirection));
   }
+  if (goesOn && least >= 0.0) {
+    allowed_ = h;
+    yAllowed_ = y_;
+  }
   return least;
 }
 
@@ -132,7 +154,8 @@ double Course::backUp(double span, double tooFar) {
   const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
   ++state_.recentBackUps;
   state_.stalled = h > instant ? 0 : state_.stalled + 1;
-  if (++state_.backUpsSpent <= kBackUps && state_.stalled < kPatience) return std::max(h, instant);
+  const int store = steppers_.hurry ? kBackUps / kHasty : kBackUps;
+  if (++state_.backUpsSpent <= store && state_.stalled < kPatience) return std::max(h, instant);
 
   // The store is used up: from here to the end of the step events are seen late rather than never.
   report_.note("more events than a step can hold were seen late; max_penetration has the cost");
@@ -141,11 +164,11 @@ double Course::backUp(double span, double tooFar) {
 
 void Course::commit(double t1) {
   Certificate& books = report_.certificate;
-  state_.effort = system_.effort;
+  state_.effort.done = system_.effort.done;
   if (!allFinite(y_)) {
     report_.stopped = true;
     report_.reason = state_.effort.spent()
-                         ? spentBy(state_)
+                         ? spentBy(model_, state_)
                          : "the motion left the range of numbers; try a smaller course.step";
     state_.trail.pop_back();
     return;
@@ -168,7 +191,9 @@ void Course::commit(double t1) {
     ++state_.gridIndex;
     state_.recentImpacts.clear();
     state_.recentBackUps = 0;
-    state_.backUpsSpent = std::max(0, std::min(state_.backUpsSpent, kBackUps) - kRefill);
+    const int part = steppers_.hurry ? kHasty : 1;
+    state_.backUpsSpent =
+        std::max(0, std::min(state_.backUpsSpent, kBackUps / part) - kRefill / part);
   }
 }
 

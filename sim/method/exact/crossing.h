@@ -37,8 +37,8 @@ class Crossing {
   bool touches = false;   ///< something touches at its end that did not at its start
   double residual = 0.0;  ///< of the contact problem
   double deepest = 0.0;   ///< [m] overlap at the end, before it is mended
-  double left = 0.0;      ///< and what could not be mended,
-  Contact worst;          ///< where that is deepest
+  double left = 0.0;      ///< and what could not be mended
+  Contact worst;          ///< where what is left is deepest; if nothing is, what was mended
   Segment segment;        ///< for the trail
   double lostImpact = 0.0, lostFriction = 0.0;  ///< [J]
   double work = 0.0;            ///< [J] of forces without a potential, and of moving fixed bodies

@@ -34,11 +34,17 @@ void Crossing::mend() {
     return kineticEnergy(end_) + potentialEnergy(model_.def.gravity, model_.def.forces, end_);
   };
   const double before = energy();
+  const auto deepestOf = [&] {
+    return *std::min_element(found_.begin(), found_.end(), [](const Contact& c, const Contact& d) {
+      return c.point.separation < d.point.separation;
+    });
+  };
   Problem problem;
   for (int pass = 0; pass < kMends; ++pass) {
     const double deep = overlap();
-    deepest = std::max(deepest, deep);
     if (deep <= off) break;
+    if (deep > deepest) worst = deepestOf();
+    deepest = std::max(deepest, deep);
     beginVelocityProblem(end_, problem);
     for (Vec6& v : problem.vStar) v.setZero();
     for (const Contact& c : found_) {
@@ -58,10 +64,7 @@ void Crossing::mend() {
   }
   mended = energy() - before;
   left = overlap();
-  if (!found_.empty())
-    worst = *std::min_element(found_.begin(), found_.end(), [](const Contact& c, const Contact& d) {
-      return c.point.separation < d.point.separation;
-    });
+  if (left > off) worst = deepestOf();
 }
 
 void Crossing::keepBooks() {

@@ -50,6 +50,14 @@ std::string crowdedAt(double t) {
          " s; try method \"stepping\", or a little less restitution or friction";
 }
 
+std::string unheldAt(const Model& model, const Contact& c, double t, double deep) {
+  const auto of = [&](int i) { return "\"" + model.def.bodies[i].name + "\""; };
+  return "rounding drives " + of(c.a) + " " + shortNumber(deep) + " m into " + of(c.b) +
+         " at t = " + shortNumber(t) +
+         " s: the forces on them are too large for their masses; bring the masses of what touches "
+         "closer together";
+}
+
 std::string crushedAt(const Model& model, const Contact& c, double t) {
   const int victim = model.fixed(c.a) ? c.b : c.a, other = victim == c.a ? c.b : c.a;
   return "\"" + model.def.bodies[victim].name + "\" is crushed by \"" +
@@ -60,12 +68,12 @@ std::string crushedAt(const Model& model, const Contact& c, double t) {
 
 namespace {
 
-/// Stops where the scene may go on by another method and that would be the better one.
-void giveUp(const State& state, Report& report) {
-  if (state.effort.most == std::numeric_limits<long>::max()) return;
+/// Stops where it takes too long, or where the scene may go on by a method that is better there.
+void giveUp(const Model& model, const State& state, Report& report) {
   if (state.effort.spent()) {
-    report.reason = spentBy(state);
-  } else if (state.pace.level > 0 && countMoving(state.bodies) > 1) {  // alone, one goes on well
+    report.reason = spentBy(model, state);
+  } else if (model.def.method == "auto" && state.pace.level > 0 &&
+             countMoving(state.bodies) > 1) {  // alone, one goes on well
     report.reason = "the exact method met more events than it could follow closely";
   } else {
     return;
@@ -112,11 +120,12 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
     state.settled = false;
     if (!state.sustained) {
       exact.next(t_end);
+      if (!report.stopped && state.effort.spent()) giveUp(model, state, report);
     } else {
       if (!sustained) sustained.emplace(model, state, report);
       sustained->next();
       exact.closeRests(state.t);
-      if (!report.stopped) giveUp(state, report);
+      if (!report.stopped) giveUp(model, state, report);
     }
   }
   state.lookedAt = t_end;

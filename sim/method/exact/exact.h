@@ -132,6 +132,8 @@ class Exact {
 std::string digits(double value);
 /// Why a run ends where there are too many events, and what to try.
 std::string crowdedAt(double t);
+/// Whom rounding drives how deep [m] into each other, and what to change.
+std::string unheldAt(const Model& model, const Contact& contact, double t, double deep);
 /// Who cannot get out of whose way.
 std::string crushedAt(const Model& model, const Contact& contact, double t);
 

@@ -25,6 +25,9 @@ constexpr double kGiven = 1e-6;
 constexpr double kUnsolved = 1e-9;
 /// [m] per size of the world: overlap that nothing mends is no touch any more.
 constexpr double kCrushed = 1e-6;
+/// [m] per size of the world: overlap at the end of a step, mended or not, of bodies that numbers
+/// cannot keep apart.
+constexpr double kUnheld = 1e-3;
 constexpr char kCrowdedNote[] =
     "more events than time can hold were crossed in short steps, which are right to first order";
 constexpr char kLawlessNote[] =
@@ -220,6 +223,10 @@ void Sustained::cross(double most) {
                          ? crushedAt(model_, step.worst, state_.t)
                          : crowdedAt(state_.t);
   }
+  if (!report_.stopped && step.deepest > kUnheld * std::max(1.0, model_.size)) {
+    report_.stopped = true;
+    report_.reason = unheldAt(model_, step.worst, state_.t, step.deepest);
+  }
   leave();
 }
 
@@ -310,7 +317,7 @@ void Sustained::commit(double h) {
     state_.effort = system_.effort;
     report_.reason =
         state_.effort.spent()
-            ? spentBy(state_)
+            ? spentBy(model_, state_)
             : "the motion left the range of numbers at t = " + shortNumber(state_.t) + " s";
     return;
   }
