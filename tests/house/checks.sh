@@ -142,8 +142,8 @@ steps=(
   "window:the window does what keys and mouse ask for"
   "gallery:the gallery's page has no finding by axe-core"
 )
-# Run when asked for: dear, or known not to hold everywhere – random scenes that cost more than they may or end apart
-# from the audit, and scenes beside which something moves.
+# Run when asked for: dear, or known not to hold everywhere – random scenes of which some, by stepping in
+# joints, end apart from the audit, and scenes beside which something moves.
 on_request=(
   "soak:random scenes under the audit"
   "mutations:quick tests catch each line of the physics made wrong"

@@ -158,7 +158,7 @@ void requireSound(const std::map<std::string, Tally>& tallies, double share) {
 // Oracle: the audit, and counts. Scenes are drawn by their seeds, from 1 on.
 TEST_CASE("random scenes of one to six bodies end by every method, and the audit agrees",
           "[.][soak]") {
-  requireSound(soak(1, 100), 0.99);
+  requireSound(soak(1, 200), 0.99);
 }
 
 TEST_CASE("ten thousand random scenes end by every method, and the audit agrees", "[.][long]") {
