@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/claim/verdict.h"
+#include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/state_picture.h"
 
@@ -29,15 +30,18 @@ bool comparable(const VariantRun& runA, const VariantRun& runB) {
 // The camera that sees the motion of every run that can be compared with this one.
 Framing sharedFraming(const std::deque<VariantRun>& runs, const VariantRun& run) {
   std::vector<Eigen::Vector3d> points;
-  double fastest = 0.0;
+  double fastest = 0.0, strained = 0.0;
   for (const VariantRun& other : runs) {
     if (!comparable(run, other)) continue;
     for (const Eigen::Vector3d& point : motionPoints(other.scene, other.recording))
       points.push_back(point);
     fastest = std::max(fastest, fastestOf(other.scene, other.recording));
+    if (other.scene.show.strain)
+      strained = std::max(strained, usualStrain(other.scene, other.recording));
   }
   Framing framing = framingOf(run.scene, points);
   framing.fastest = fastest;
+  framing.strained = strained;
   return framing;
 }
 

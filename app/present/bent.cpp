@@ -4,8 +4,10 @@
 #include <limits>
 #include <map>
 
+#include "app/present/bands.h"
 #include "app/present/palette.h"
 #include "app/present/strands.h"
+#include "sim/elastic/strain.h"
 
 namespace tumble {
 
@@ -47,30 +49,37 @@ Shell shellOf(const BentDef& bent, const Sample& sample) {
   return shell;
 }
 
-void addCorner(const Vec3& place, const Vec3& normal, Facets& facets) {
-  facets.corners.push_back(
+// Triangles, and the point that each of their corners goes with.
+struct Sheet {
+  Facets facets;
+  std::vector<int> points;
+};
+
+void addCorner(int point, const Vec3& place, const Vec3& normal, Sheet& surface) {
+  surface.facets.corners.push_back(
       {place.cast<float>(), normal.cast<float>(), Eigen::Vector3f::Constant(kNoEdge)});
-  facets.reach = std::max(facets.reach, place.norm());
+  surface.facets.reach = std::max(surface.facets.reach, place.norm());
+  surface.points.push_back(point);
 }
 
 // One face, `offset` [m] from the points along their normals; turned over if that is negative.
-void addFace(const BentDef& bent, const Shell& shell, double offset, Facets& facets) {
+void addFace(const BentDef& bent, const Shell& shell, double offset, Sheet& surface) {
   const double side = offset < 0.0 ? -1.0 : 1.0;
   for (std::size_t n = 0; n < bent.triangles.size(); ++n)
     for (int k = 0; k < 3; ++k) {
       const int p = bent.triangles[n][side > 0.0 ? k : 2 - k];
       const Vec3& normal = shell.normals[cornerOf(bent, n, p)];
-      addCorner(shell.places[p] + offset * normal, side * normal, facets);
+      addCorner(p, shell.places[p] + offset * normal, side * normal, surface);
     }
 }
 
 // The surface of a solid: a skin off its points along the normals of all sides that meet there.
-void addSkin(const BentDef& bent, Shell& shell, Facets& facets) {
+void addSkin(const BentDef& bent, Shell& shell, Sheet& surface) {
   std::vector<Vec3> out(static_cast<std::size_t>(bent.count), Vec3::Zero());
   for (std::size_t n = 0; n < shell.normals.size(); ++n)
     out[n % static_cast<std::size_t>(bent.count)] += shell.normals[n];
   for (std::size_t p = 0; p < out.size(); ++p) shell.places[p] += bent.skin * out[p];
-  addFace(bent, shell, 0.0, facets);
+  addFace(bent, shell, 0.0, surface);
 }
 
 // Edges that only one triangle has, each as that triangle goes along it.
@@ -84,27 +93,43 @@ std::vector<std::pair<int, int>> rimOf(const std::vector<Triangle>& triangles) {
   return rim;
 }
 
-void addRim(const BentDef& bent, const Shell& shell, Facets& facets) {
+void addRim(const BentDef& bent, const Shell& shell, Sheet& surface) {
   const double half = 0.5 * bent.thickness;
   for (const auto& [p, q] : rimOf(bent.triangles)) {
     const Vec3 along = shell.places[q] - shell.places[p];
     const Vec3 out = along.cross(shell.normals[p] + shell.normals[q]).normalized();
     const auto corner = [&](int i, double side) {
-      addCorner(shell.places[i] + side * half * shell.normals[i], out, facets);
+      addCorner(i, shell.places[i] + side * half * shell.normals[i], out, surface);
     };
     corner(p, 1.0), corner(p, -1.0), corner(q, -1.0);
     corner(p, 1.0), corner(q, -1.0), corner(q, 1.0);
   }
 }
 
-Instance instanceOf(const Shell& shell, Facets facets, double thickness, const Colour& colour) {
-  facets.thickness = thickness;
+Colour colourOf(const Rgb& rgb) {
+  return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
+}
+
+Instance instanceOf(const Shell& shell, Facets facets, const Colour& colour) {
   Instance instance;
   instance.form = Form::Facets;
   instance.position = shell.middle;
   instance.colour = colour;
   instance.facets = std::make_shared<const Facets>(std::move(facets));
   return instance;
+}
+
+// The surface in the colours of the strains of its points.
+void addStrained(const Shell& shell, const Sheet& surface, const std::vector<double>& strains,
+                 double top, std::vector<Instance>& surfaces) {
+  constexpr int kBands = 24;
+  std::vector<double> values;
+  for (const int point : surface.points) values.push_back(strains[static_cast<std::size_t>(point)]);
+  int band = 0;
+  for (Facets& part : inBands(surface.facets, values, top, kBands)) {
+    const Colour colour = ramp(strainStops(), (band++ + 0.5) / kBands);
+    if (!part.corners.empty()) surfaces.push_back(instanceOf(shell, std::move(part), colour));
+  }
 }
 
 }  // namespace
@@ -115,8 +140,39 @@ std::vector<bool> partsOfSurfaces(const Scene& scene) {
   return parts;
 }
 
+std::vector<double> strainsAt(const Scene& scene, const BentDef& bent, const Sample& sample) {
+  std::vector<Vec3> places;
+  for (int p = 0; p < bent.count; ++p)
+    places.push_back(sample.bodies[static_cast<std::size_t>(bent.first + p)].x);
+  for (const Force& force : scene.world.forces)
+    if (const Bending* bending = std::get_if<Bending>(&force))
+      if (bending->body->bodies.front() == bent.first) return strainsOf(*bending->body, places);
+  return std::vector<double>(places.size(), 0.0);
+}
+
+double usualStrain(const Scene& scene, const Recording& recording) {
+  constexpr double kUsual = 0.98;    // of all points and samples
+  constexpr double kNothing = 1e-6;  // strains that are rounding
+  std::vector<double> strains;
+  for (const BentDef& bent : scene.bent)
+    for (const Sample& sample : recording.samples)
+      if (bent.strand == 0)
+        for (const double strain : strainsAt(scene, bent, sample)) strains.push_back(strain);
+  if (strains.empty()) return 0.0;
+  const auto usual = strains.begin() +
+                     static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(strains.size() - 1));
+  std::nth_element(strains.begin(), usual, strains.end());
+  return *usual > kNothing ? *usual : 0.0;
+}
+
+std::span<const Colour> strainStops() {
+  static constexpr std::array kHeat = {hex(0xF3ECDD), hex(0xEBCB8B), hex(0xE39A50), hex(0xC9542F),
+                                       hex(0x7D1F2A)};
+  return kHeat;
+}
+
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
-                                   const std::vector<Colour>& colours) {
+                                   const std::vector<Colour>& colours, double top) {
   constexpr float kShade = 0.72f;  // of the colour: a back that has none of its own
   std::vector<Instance> surfaces;
   for (const BentDef& bent : scene.bent) {
@@ -126,23 +182,27 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
       continue;
     }
     Shell shell = shellOf(bent, sample);
+    const std::vector<double> strains =
+        top > 0.0 ? strainsAt(scene, bent, sample) : std::vector<double>();
+    const auto add = [&](Sheet surface, double thickness, const Colour& colour) {
+      surface.facets.thickness = thickness;
+      if (top > 0.0) return addStrained(shell, surface, strains, top, surfaces);
+      surfaces.push_back(instanceOf(shell, std::move(surface.facets), colour));
+    };
     const double half = 0.5 * bent.thickness;
-    Facets facets;
+    Sheet outside;
     if (half == 0.0) {
-      addSkin(bent, shell, facets);
-      surfaces.push_back(instanceOf(shell, std::move(facets), facets.reach, front));
+      addSkin(bent, shell, outside);
+      const double reach = outside.facets.reach;
+      add(std::move(outside), reach, front);
       continue;
     }
-    addFace(bent, shell, half, facets);
-    addRim(bent, shell, facets);
-    surfaces.push_back(instanceOf(shell, std::move(facets), half, front));
-    Facets back;
+    addFace(bent, shell, half, outside);
+    addRim(bent, shell, outside);
+    add(std::move(outside), half, front);
+    Sheet back;
     addFace(bent, shell, -half, back);
-    const Colour behind =
-        bent.back ? Colour{static_cast<float>((*bent.back)[0]), static_cast<float>((*bent.back)[1]),
-                           static_cast<float>((*bent.back)[2])}
-                  : shade(front, kShade);
-    surfaces.push_back(instanceOf(shell, std::move(back), half, behind));
+    add(std::move(back), half, bent.back ? colourOf(*bent.back) : shade(front, kShade));
   }
   return surfaces;
 }

@@ -1,6 +1,7 @@
 // What bends, as surfaces that go with its points.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "app/record/recording.h"
@@ -15,7 +16,18 @@ std::vector<bool> partsOfSurfaces(const Scene& scene);
 /// The surfaces of all that bends at a sample, smoothly shaded; a cloth has two sides half its
 /// thickness from its points, each with its colour, and a rim.
 /// @param colours  per body
+/// @param top      0, or the strain of the last colour: then cloths and solids are coloured by it,
+///                 as where it is larger
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
-                                   const std::vector<Colour>& colours);
+                                   const std::vector<Colour>& colours, double top = 0.0);
+
+/// The strain at each point of a cloth or a soft solid at a sample.
+std::vector<double> strainsAt(const Scene& scene, const BentDef& bent, const Sample& sample);
+
+/// What 98 % of the strains of all points and samples stay below; strands of fur have none.
+double usualStrain(const Scene& scene, const Recording& recording);
+
+/// From pale, at rest, to dark red.
+std::span<const Colour> strainStops();
 
 }  // namespace tumble

@@ -33,12 +33,13 @@ namespace tumble {
 
 namespace {
 
-ColourBar speedBar(double fastest) {
-  ColourBar bar{"speed / m/s", {cividisStops().begin(), cividisStops().end()}, 0.0, fastest, {}};
-  const double values[] = {0.0, fastest};
+// From 0 to that.
+ColourBar barTo(const std::string& caption, std::span<const Colour> stops, double top) {
+  ColourBar bar{caption, {stops.begin(), stops.end()}, 0.0, top, {}};
+  const double values[] = {0.0, top};
   const Scale scale({"", false}, values, 0.0, 220.0, 40.0);
   for (const Tick& tick : scale.ticks())
-    if (tick.value <= fastest) bar.ticks.push_back(tick.value);
+    if (tick.value <= top) bar.ticks.push_back(tick.value);
   return bar;
 }
 
@@ -114,6 +115,8 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
       framing_(framing) {
   facets_ = facetsOfBodies(scene.world.bodies);
   fastest_ = framing.fastest > 0.0 ? framing.fastest : fastestOf(scene, recording);
+  if (scene.show.strain)
+    strained_ = framing.strained > 0.0 ? framing.strained : usualStrain(scene, recording);
   expectations_ = expectationsOf(scene, recording);
   follow();
   if (!scene.show.theory) return;
@@ -209,7 +212,8 @@ Picture Presenter::blank(const Framing& framing) const {
     picture.floor.visible = true;
     picture.floor.height = std::get<HalfSpace>(body.shape).d;
   }
-  if (scene_.show.speed) picture.bar = speedBar(fastest_);
+  if (scene_.show.speed) picture.bar = barTo("speed / m/s", cividisStops(), fastest_);
+  if (strained_ > 0.0) picture.bar = barTo("strain / %", strainStops(), 100.0 * strained_);
   const double decade = decadeOf(framing.radius, 0.08);
   const double size = framing.radius / decade;
   picture.floor.grid = decade * (size < 0.8 ? 0.1 : size < 15.0 ? 1.0 : 10.0);
@@ -242,7 +246,7 @@ void Presenter::addBodies(const Sample& sample, bool byTime, Picture& picture) c
     picture.instances.push_back(body(sample, i));
     if (byTime && moves(def)) picture.instances.back().colour = timeStops().back();
   }
-  for (Instance& surface : bentSurfaces(scene_, sample, colours_))
+  for (Instance& surface : bentSurfaces(scene_, sample, colours_, strained_))
     picture.instances.push_back(std::move(surface));
 }
 

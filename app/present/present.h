@@ -20,6 +20,7 @@ struct Framing {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 1.0;                               ///< [m] of all motion about the centre
   Eigen::Vector2d page = {1280.0, 720.0};            ///< [px] that text and flat shapes stand on
+  double strained = 0.0;                             ///< of the last colour; 0: of the run
   double fastest = 0.0;  ///< [m/s] of the longest velocity and the last colour; 0: of the run
 };
 
@@ -87,6 +88,7 @@ class Presenter {
   bool alone_ = false;           ///< framed for this run alone
   std::optional<int> followed_;  ///< the body that stays where it is on the image
   Framing following_;            ///< of it at the start
+  double strained_ = 0.0;        ///< of the last colour, if what bends is coloured by strain
   double fastest_ = 1.0;  ///< [m/s] speed of the last colour, if bodies are coloured by speed
 };
 

@@ -21,7 +21,8 @@ namespace tumble {
 Picture Presenter::strobe() const {
   const Sample& last = recording_.samples.back();
   Picture picture = blank(framingOfStrobe());
-  const bool byTime = movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed;
+  const bool byTime =
+      movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed && strained_ == 0.0;
   addGhosts(byTime, picture);
   addBodies(last, byTime, picture);
   addJoints(scene_, last, framing_.radius, picture);
@@ -96,7 +97,7 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);
     }
-    for (Instance& surface : bentSurfaces(scene_, sample, colours_)) {
+    for (Instance& surface : bentSurfaces(scene_, sample, colours_, strained_)) {
       surface.finish = Finish::Ghost;
       surface.alpha = static_cast<float>(0.22 + 0.48 * u);
       picture.instances.push_back(std::move(surface));

@@ -111,6 +111,7 @@ struct ShowFlags {
   bool polhode = false;    ///< Poinsot's ellipsoid with the way of the angular velocity on it
   bool body_box = false;   ///< bounding boxes that turn with the bodies
   bool speed = false;      ///< bodies coloured by their speed
+  bool strain = false;     ///< what bends coloured by its strain
   bool momenta = false;    ///< arrows of linear and angular momentum and angular velocity
   bool missteps = false;   ///< poses that the plan of the course did not let stand, in red
   bool motion = false;     ///< named arrows x, v and F of bodies

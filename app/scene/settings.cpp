@@ -170,6 +170,7 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("polhode", show.polhode);
   section.read("body_box", show.body_box);
   section.read("speed", show.speed);
+  section.read("strain", show.strain);
   section.read("momenta", show.momenta);
   section.read("missteps", show.missteps);
   section.read("motion", show.motion);
