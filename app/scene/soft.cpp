@@ -35,14 +35,23 @@ SoftDef readSolid(Section& section) {
   section.read("size", soft.size, positive("m"));
   section.read("density", soft.density, positive("kg/m³"));
   std::string law = "corotated";
-  section.read("law", law, {"corotated", "neo-hookean"});
-  soft.law = law == "corotated" ? SoftLaw::Corotated : SoftLaw::NeoHookean;
-  double young = 0.0, poisson = 0.3, viscosity = 0.0;
+  section.read("law", law, {"corotated", "neo-hookean", "lattice"});
+  soft.law = law == "lattice"     ? SoftLaw::Lattice
+             : law == "corotated" ? SoftLaw::Corotated
+                                  : SoftLaw::NeoHookean;
+  const bool lattice = soft.law == SoftLaw::Lattice;
+  double young = 0.0, poisson = lattice ? 0.25 : 0.3, viscosity = 0.0;
   if (!section.find("young")) section.complain("young", "missing; Young's modulus in Pa");
   section.read("young", young, positive("Pa"));
   section.read("poisson", poisson, {0.0, 0.49, false, {}});
   section.read("viscosity", viscosity, notNegative("Pa s"));
+  if (lattice && poisson != 0.25)
+    section.complain("poisson", "springs that pull along themselves alone have 0.25; leave it out");
   if (section.good()) soft.solid = solidityOf(young, poisson, viscosity);
+  if (section.good() && lattice && !hasLattice(soft))
+    section.complain("cells",
+                     "too flat for a lattice, whose springs would push; take cells whose "
+                     "edges are more alike");
   return soft;
 }
 

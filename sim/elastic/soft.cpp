@@ -38,6 +38,7 @@ std::vector<Vec3> softPlaces(const SoftDef& soft) {
 }
 
 std::vector<double> softMasses(const SoftDef& soft) {
+  const bool even = soft.law == SoftLaw::Lattice;
   const double cell =
       soft.density * soft.size.prod() / (soft.cells[0] * soft.cells[1] * soft.cells[2]);
   std::vector<double> masses(softPoints(soft), 0.0);
@@ -46,13 +47,14 @@ std::vector<double> softMasses(const SoftDef& soft) {
       const std::array<int, 3> at = {i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)};
       // Neighbours are mirrored: corners of tetrahedra in the middle are those of even sum.
       const bool inMiddle = (at[0] + at[1] + at[2]) % 2 == 0;
-      masses[softPoint(soft, at[0], at[1], at[2])] += cell / (inMiddle ? 6.0 : 12.0);
+      masses[softPoint(soft, at[0], at[1], at[2])] += cell / (even ? 8.0 : inMiddle ? 6.0 : 12.0);
     }
   });
   return masses;
 }
 
 std::vector<Element> softElements(const SoftDef& soft, int first) {
+  if (soft.law == SoftLaw::Lattice) return latticeElements(soft, first);
   const std::vector<Vec3> places = softPlaces(soft);
   std::vector<Element> elements;
   forGrid(soft, 0, [&](int i, int j, int k) {
