@@ -34,7 +34,8 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
 /// one, and rounding does not move it from piece to piece. s = mu |u_t| n follows from stage to
 /// stage, which makes the cone Coulomb's (de Saxcé & Feng 1998; Rockafellar 1976; Acary, Brémond &
 /// Huber 2018). ρ is one for the whole problem. It starts from λ = 0 whatever the solution holds,
-/// and from solution.v if that is of the right length.
+/// and from solution.v if that is of the right length; a problem with couplings, whose forces are
+/// not chosen among many, from solution.lambda too.
 ///
 /// Which forces, where several solve the problem: those of contact points, and rows of joints, of
 /// one compliance ε in all directions, without a load at first, in the limit ε → 0, where there is

@@ -88,6 +88,10 @@ void Stepping::startFromBefore(std::span<const Link> links, double h) {
   work_.solution.lambda.assign(work_.problem.rows.size(), 0.0);
   std::size_t cone = 0;
   for (const Link link : links) {
+    if (!isPair(link)) {
+      ++cone;
+      continue;
+    }
     for (const Touch& touch : memory_.pairs[link].touches) {
       if (flies(touch, h) || isAside(touch)) continue;
       const Cone& of = work_.problem.cones[cone++];
