@@ -128,6 +128,23 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   return energy;
 }
 
+double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
+                   std::span<const Vec6> after, double h) {
+  double energy = 0.0;
+  ElementTerms terms;
+  ElementPlaces x;
+  x.fill(Vec3::Zero());
+  for (const Element& element : part.body->elements) {
+    for (int k = 0; k < element.count; ++k) {
+      const int i = element.points[k];
+      x[k] = bodies[i].x + h * after[i].head<3>();
+    }
+    differentiate(element.energy, x, ElementAsk::Energy, terms);
+    energy += terms.energy;
+  }
+  return energy;
+}
+
 bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h) {
   part.factor.begin(*part.structure);
   part.side.resize(part.moving.size());

@@ -30,6 +30,7 @@ struct BendingPart {
   std::vector<Vec3> about;     ///< [m/s] u
   std::vector<Vec3> star;      ///< [m/s] per point: v without λ
   double stored = 0.0;         ///< [J] at the start of the step
+  double reached = 0.0;        ///< [J] where the velocities found lead
 
   std::unique_ptr<BlockStructure> structure;  ///< of A
   BlockCholesky<3> factor;
@@ -50,6 +51,10 @@ Bendings bendingsOf(const Model& model);
 /// @return the energy [J] there
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h);
+
+/// The energy [J] where its points are after h seconds at these velocities of bodies.
+double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
+                   std::span<const Vec6> after, double h);
 
 /// The velocities at the end of the step, were there no λ. @return false if A is not positive
 /// definite to rounding

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/body/force.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -17,11 +16,6 @@ bool Stepping::bend(double h) {
   }
   bent_ = std::numeric_limits<double>::infinity();
   return work_.crushed.empty();
-}
-
-std::span<const Force> Stepping::forcesOf(const BendingPart& part) const {
-  const std::size_t k = &part - memory_.bendings->parts.data();
-  return std::span(memory_.drives->bendings).subspan(k, 1);
 }
 
 std::string Stepping::unbent(const BendingPart& part) const {
@@ -99,33 +93,53 @@ void Stepping::coupleBent() {
   }
 }
 
-/// What the implicit step takes, by the impulses p of what bends and its energies alone: with
+/// What the implicit step takes [J], by the impulses p of what bends and its energies alone: with
 /// v̄ the mean of the velocities before and after, a point gains p·v̄ while the energies give
 /// −ΔE; gravity acts on the way h v⁺, which is ½ h Δv longer than that of v̄. Points that are led
 /// along take −p from who leads them.
-void Stepping::bookBent(double h) {
-  Certificate& books = report_.certificate;
+Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   std::vector<Vec3> v, pull;
-  for (BendingPart& part : memory_.bendings->parts) {
-    v.clear();
-    for (const int i : part.bodies) v.push_back(work_.after[i].head<3>());
-    part.timesK(v, pull);
-    double gained = potentialEnergy(Vec3::Zero(), forcesOf(part), state_.bodies) - part.stored;
-    double led = 0.0;
-    for (std::size_t p = 0; p < part.bodies.size(); ++p) {
-      const RigidBody& body = state_.bodies[part.bodies[p]];
-      const Vec3 impulse = part.constant[p] - pull[p];
-      const Vec3 before = work_.before[part.bodies[p]].head<3>();
-      if (part.mover[p] < 0) {
-        led -= impulse.dot(body.v);
-        state_.externalImpulse -= impulse;
-        continue;
-      }
-      gained += impulse.dot(0.5 * (before + v[p])) -
-                0.5 * h * body.M * model_.def.gravity.dot(v[p] - before);
+  for (const int i : part.bodies) v.push_back(work_.after[i].head<3>());
+  part.timesK(v, pull);
+  BentBooks books;
+  double gained = part.reached - part.stored;
+  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
+    const RigidBody& body = state_.bodies[part.bodies[p]];
+    const Vec3 impulse = part.constant[p] - pull[p];
+    const Vec3 before = work_.before[part.bodies[p]].head<3>();
+    if (part.mover[p] < 0) {
+      books.led -= impulse.dot(body.v);
+      books.external -= impulse;
+      continue;
     }
-    books.work_of_forces += led;
-    books.energy_lost_bending += led - gained;
+    gained += impulse.dot(0.5 * (before + v[p])) -
+              0.5 * h * body.M * model_.def.gravity.dot(v[p] - before);
+    books.size += 0.5 * body.M * (v[p].squaredNorm() + before.squaredNorm());
+  }
+  books.taken = books.led - gained;
+  books.size += part.reached + part.stored;
+  return books;
+}
+
+/// Whether linear forces give energy, as those of what buckles or turns far in a step can: about
+/// the motion that they give they do not, but for what is left of Newton's method.
+bool Stepping::gains(double h) {
+  constexpr double kGain = 1e-7;  // of the energies at both ends
+  bool gain = false;
+  for (BendingPart& part : memory_.bendings->parts) {
+    part.reached = energyAfter(part, state_.bodies, work_.after, h);
+    const BentBooks books = booksOf(part, h);
+    gain = gain || books.taken < -kGain * books.size;
+  }
+  return gain;
+}
+
+void Stepping::bookBent(double h) {
+  for (const BendingPart& part : memory_.bendings->parts) {
+    const BentBooks books = booksOf(part, h);
+    state_.externalImpulse += books.external;
+    report_.certificate.work_of_forces += books.led;
+    report_.certificate.energy_lost_bending += books.taken;
   }
 }
 

@@ -155,8 +155,7 @@ Drives drivesOf(const Model& model, std::span<const RigidBody> bodies) {
   }
   for (DrivenGroup& group : drives.groups) prepare(model, bodies, group);
   for (const Force& force : model.def.forces) {
-    const bool bends = std::holds_alternative<Bending>(force);
-    (bends ? drives.bendings : drives.outer).push_back(force);
+    if (!std::holds_alternative<Bending>(force)) drives.outer.push_back(force);
     if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
       forEachMoving(model, drag->body, [&](int i) {
         int& number = drives.dragOf[i];

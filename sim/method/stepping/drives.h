@@ -90,8 +90,7 @@ struct Drives {
   std::vector<Drag> drags;
   std::vector<int> groupOf, dragOf;  ///< per body; −1: none
   std::vector<Force> steady;         ///< wind and point forces, one for each body that they act on
-  std::vector<Force> bendings;       ///< what bends,
-  std::vector<Force> outer;          ///< and all others
+  std::vector<Force> outer;          ///< all but those of what bends
 };
 Drives drivesOf(const Model& model, std::span<const RigidBody> bodies);
 

@@ -18,7 +18,7 @@ std::pair<int, int> Stepping::ends(Link link) const {
 }
 
 void Stepping::solveSteadily(double h) {
-  constexpr int kRounds = 10;
+  constexpr int kRounds = 10, kAgain = 12;
   allKept_ = true;
   if (bends() && !bend(h)) return;
   const auto solve = [&] {
@@ -29,8 +29,12 @@ void Stepping::solveSteadily(double h) {
       solveIslands(h);
   };
   solve();
-  const int most = bends() ? model_.def.stepping.linearisations : 1;
-  for (int k = 1; k < most && work_.crushed.empty() && bendFurther(h); ++k) solve();
+  const int most = model_.def.stepping.linearisations;
+  for (int k = 1; bends() && work_.crushed.empty(); ++k) {
+    const bool again = gains(h) && k < kAgain;
+    if (!(again || k < most) || !bendFurther(h)) break;
+    solve();
+  }
   if (work_.crushed.empty() && !meeting_) bookIslands(h);
 }
 
@@ -219,6 +223,7 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
       setAside(links, scale, h);
     else
       takeBack(links);
+    if (bent) startFromBefore(links, h);
     const SolveReport solved = memory.rough ? solveRough(links, part, h) : solveFine(links);
     if (!work_.crushed.empty()) return;
     memory.residual = solved.residual;

@@ -260,7 +260,14 @@ class Stepping {
   /// @return false, with words in work_.crushed, if nothing can be made of it.
   bool bend(double h);
   bool bendFurther(double h);
-  std::span<const Force> forcesOf(const BendingPart& part) const;
+  struct BentBooks {
+    double taken = 0.0;            ///< [J] by the implicit step
+    double led = 0.0;              ///< [J] work of points that are led along
+    double size = 0.0;             ///< [J] of the energies that make it up
+    Vec3 external = Vec3::Zero();  ///< [N·s] on the points that move, by those
+  };
+  BentBooks booksOf(const BendingPart& part, double h) const;
+  bool gains(double h);
   std::string unbent(const BendingPart& part) const;
   /// The velocities at the end of the step without contacts.
   void foreseeBent();
