@@ -15,6 +15,17 @@ int Stepping::weightOf(const PairMemory& pair) {
                           pair.touches.front().contact.friction);
 }
 
+bool Stepping::isCrowd(std::span<const Link> links) const {
+  int weight = 0;
+  bool bounces = model_.def.stepping.anyCrowd;
+  for (const Link link : links) {
+    if (!isPair(link) || memory_.pairs[link].touches.empty()) continue;
+    bounces = bounces || memory_.pairs[link].bounces;
+    weight += weightOf(memory_.pairs[link]);
+  }
+  return bounces && weight > kReflectionsReach;
+}
+
 bool Stepping::isCrowd() const {
   int weight = 0;
   bool bounces = false;

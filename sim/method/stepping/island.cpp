@@ -216,7 +216,8 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
     allKept_ = false;
     build(links, h);
     if (bent) coupleBent();
-    const double scale = !bent && crowd_ ? velocityScale(work_.problem) : 0.0;
+    const bool crowd = crowd_ && isCrowd(links);
+    const double scale = !bent && crowd ? velocityScale(work_.problem) : 0.0;
     const double part = scale > 0.0 ? roughTolerance(scale) : 0.0;
     memory.rough = part > 0.0;
     if (memory.rough)
@@ -231,7 +232,7 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
     rough_ = rough_ || memory.rough;
     if (memory.rough) leaveOpen(memory.scale, h);
     share(links, memory, h);
-    if (!bent && work_.bonds.empty()) stand(memory, h);
+    if (!bent && work_.bonds.empty()) stand(memory, crowd, h);
   }
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {

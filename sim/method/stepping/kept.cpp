@@ -52,17 +52,17 @@ bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, do
 /// An island none of whose bodies moves by more than the solver left, before a step or after it,
 /// stands, where that would bring one of them to another pose: it was no motion. In a crowd it
 /// stands as soon as all of them are at rest.
-void Stepping::stand(IslandMemory& memory, double h) const {
+void Stepping::stand(IslandMemory& memory, bool crowd, double h) const {
   constexpr double kLeft = 10.0;  // of the residual
   const double left = kLeft * memory.residual * memory.scale;
-  const double still = crowd_ ? tolerance_.rest : std::min(left, tolerance_.rest);
+  const double still = crowd ? tolerance_.rest : std::min(left, tolerance_.rest);
   const auto stands = [&](int body, const Vec6& twist) {
     return twist.head<3>().norm() + model_.radius[body] * twist.tail<3>().norm() <= still;
   };
-  bool leaves = crowd_;
+  bool leaves = crowd;
   for (const IslandMemory::Mover& mover : memory.movers) {
     if (!stands(mover.body, work_.before[mover.body]) || !stands(mover.body, mover.v)) return;
-    leaves = leaves || h * mover.v.head<3>().norm() > kPoseRounding * model_.size ||
+    leaves = leaves || h * mover.v.head<3>().norm() > roundingAt(state_.bodies[mover.body].x) ||
              h * mover.v.tail<3>().norm() > kPoseRounding;
   }
   if (!leaves) return;

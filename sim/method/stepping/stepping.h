@@ -6,6 +6,7 @@
 // move, and then velocities are what the joints allow.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -89,6 +90,10 @@ class Stepping {
   /// Gives a pair the points that were found; numbers the look, if it sees other levers.
   void renew(PairMemory& memory, std::pair<int, int> pair);
   Lever leverOf(const ContactPoint& c, std::pair<int, int> pair) const;
+  /// What rounding may leave of a place [m].
+  double roundingAt(const Vec3& x) const {
+    return kPoseRounding * std::max(scale_, x.lpNorm<Eigen::Infinity>());
+  }
   void matchFeatures(PairMemory& memory, std::pair<int, int> pair);
 
   // seams.cpp: what a third body keeps apart.
@@ -139,6 +144,8 @@ class Stepping {
   /// Whether the bodies whose clock runs are one: they rebound, and touch at more points than
   /// reflections are for.
   bool isCrowd() const;
+  /// The same of an island.
+  bool isCrowd(std::span<const Link> links) const;
   /// What the points of a pair, of which there are some, weigh in it.
   static int weightOf(const PairMemory& pair);
   /// Whether their hits divide no step.
@@ -196,7 +203,7 @@ class Stepping {
   bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
-  void stand(IslandMemory& memory, double h) const;
+  void stand(IslandMemory& memory, bool crowd, double h) const;
   void stretch(IslandMemory& memory, std::span<const Link> links, double h);
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);
@@ -304,6 +311,7 @@ class Stepping {
   Report& report_;
   SteppingMemory& memory_;
   SteppingWork& work_;  ///< empty of meaning between steps
+  double scale_;        ///< [m] what tolerances grow with
   ContactTolerance tolerance_;
   double gravity_;  ///< [m/s²] its size
   const Solver& solver_;

@@ -8,19 +8,18 @@ namespace tumble {
 namespace {
 
 /// Whether a body has a pose but for rounding.
-bool isAt(const Pose& pose, const RigidBody& body, double size) {
-  return (pose.x - body.x).lpNorm<Eigen::Infinity>() <= kPoseRounding * size &&
+bool isAt(const Pose& pose, const RigidBody& body, double rounding) {
+  return (pose.x - body.x).lpNorm<Eigen::Infinity>() <= rounding &&
          (pose.q.coeffs() - body.q.coeffs()).lpNorm<Eigen::Infinity>() <= kPoseRounding;
 }
 
 /// Whether two levers are one but for rounding.
-bool isSame(const Lever& p, const Lever& q, double size) {
+bool isSame(const Lever& p, const Lever& q, double rounding) {
   const auto near = [](const Vec3& x, const Vec3& y, double within) {
     return (x - y).lpNorm<Eigen::Infinity>() <= within;
   };
-  return near(p.n, q.n, kPoseRounding) && near(p.armA, q.armA, kPoseRounding * size) &&
-         near(p.armB, q.armB, kPoseRounding * size) &&
-         std::abs(p.separation - q.separation) <= kPoseRounding * size;
+  return near(p.n, q.n, kPoseRounding) && near(p.armA, q.armA, rounding) &&
+         near(p.armB, q.armB, rounding) && std::abs(p.separation - q.separation) <= rounding;
 }
 
 }  // namespace
@@ -168,8 +167,8 @@ bool Stepping::seeFurther(double h) {
   PairMemory& memory = memory_.pairs[pair];
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
-  if (memory.margin == margin && isAt(memory.poseA, a, model_.size) &&
-      isAt(memory.poseB, b, model_.size))
+  if (memory.margin == margin && isAt(memory.poseA, a, roundingAt(a.x)) &&
+      isAt(memory.poseB, b, roundingAt(b.x)))
     return;
   findNearPoints(model_, state_, pair, margin, work_.found, report_);
   const bool hadNone = memory.touches.empty() && memory.margin >= 0.0;
@@ -193,7 +192,8 @@ bool Stepping::seeFurther(double h) {
     Touch& touch = memory.touches[i];
     touch.contact.point = work_.found[i];
     memory.deepest = std::max(memory.deepest, -touch.contact.point.separation);
-    same = same && isSame(touch.lever, leverOf(touch.contact.point, pair), model_.size);
+    const ContactPoint& c = touch.contact.point;
+    same = same && isSame(touch.lever, leverOf(c, pair), roundingAt(c.p));
   }
   if (same) return;
   memory.look = ++memory_.looks;
