@@ -149,6 +149,14 @@ void Stepping::leaveOpen(double scale, double h) {
   leftOpen_ = std::max(leftOpen_, stepping.crowdOpen * h * scale * stepping.crowdTolerance);
 }
 
+bool Stepping::isFarOff(const SolveReport& solved, double tolerance) const {
+  constexpr int kMeant = 100;          // sweeps: a plan of fewer takes what they leave
+  constexpr std::size_t kSmall = 128;  // contacts that cost little to be solved to the end
+  constexpr double kFarOff = 5.0;      // times the tolerance
+  return model_.def.stepping.crowdIterations >= kMeant && work_.problem.cones.size() <= kSmall &&
+         solved.residual > kFarOff * tolerance;
+}
+
 SolveReport Stepping::solveRough(std::span<const Link> links, double tolerance, double h) {
   const SteppingSettings& stepping = model_.def.stepping;
   startFromBefore(links, h);
@@ -157,7 +165,7 @@ SolveReport Stepping::solveRough(std::span<const Link> links, double tolerance, 
           ->solve(work_.problem,
                   {.tolerance = tolerance, .maxIterations = stepping.crowdIterations},
                   work_.solution);
-  if (solved.status != SolveStatus::Solved && isLed(links)) {
+  if (solved.status != SolveStatus::Solved && (isLed(links) || isFarOff(solved, tolerance))) {
     work_.solution.lambda.clear();
     return solveFine(links);
   }

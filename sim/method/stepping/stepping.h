@@ -165,6 +165,8 @@ class Stepping {
   bool isAside(const Touch& touch) const { return touch.due < 0.0; }
   void takeBack(std::span<const Link> links);
   SolveReport solveFine(std::span<const Link> links);
+  /// Whether sweeps left a small island far from what was planned for it.
+  bool isFarOff(const SolveReport& solved, double tolerance) const;
   SolveReport solveRough(std::span<const Link> links, double tolerance, double h);
   /// The λ that the contacts had in the step before.
   void startFromBefore(std::span<const Link> links, double h);
