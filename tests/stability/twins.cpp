@@ -1,0 +1,168 @@
+// The same scene in other numbers: turned, mirrored, shifted, in another order. It ends as it does,
+// and no further off than twins whose start was moved by rounding.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "sim/world.h"
+#include "tests/catch.h"
+#include "tests/problem/problems.h"
+#include "tests/stability/random_scene.h"
+#include "tests/stability/seen.h"
+
+using namespace tumble;
+
+namespace {
+
+constexpr double kMoved = 1e-14;  // [m] what twins start apart
+constexpr int kTwins = 10;
+/// [m] what rounding leaves of the numbers of 240 steps at 10 m.
+constexpr double kRounding = 1e-12;
+
+struct Way {
+  const char* name;
+  test::Seen seen;
+};
+
+std::vector<Way> waysOf(test::Draw& draw, int count) {
+  const double w = draw(-1.0, 1.0), x = draw(-1.0, 1.0), y = draw(-1.0, 1.0), z = draw(-1.0, 1.0);
+  const Mat3 turn = Quat(w, x, y, z).normalized().toRotationMatrix();
+  std::vector<int> order;
+  for (int i = 0; i < count; ++i) order.insert(order.begin() + draw.below(i + 1), i);
+  const Mat3 mirror = Vec3(1.0, 1.0, -1.0).asDiagonal();
+  return {{"turned", {.turn = turn}},
+          {"mirrored", {.turn = mirror}},
+          {"shifted", {.shift = {10.0, 10.0, 10.0}}},
+          {"permuted", {.order = order}}};
+}
+
+/// How a scene ends.
+struct End {
+  bool stopped = false;
+  std::vector<BodySample> bodies;  ///< in the order and the numbers of the scene
+};
+
+End endOf(const WorldDef& def, const test::Seen& seen = {}) {
+  World world(test::seenFrom(seen, def));
+  world.advance(def.duration);
+  End end{.stopped = world.report().stopped, .bodies = {}};
+  if (end.stopped) return end;
+  const Sample last = world.sample(def.duration);
+  end.bodies.resize(last.bodies.size());
+  for (std::size_t i = 0; i < last.bodies.size(); ++i)
+    end.bodies[static_cast<std::size_t>(seen.bodyAt(static_cast<int>(i)))] =
+        test::asItIs(seen, last.bodies[i]);
+  return end;
+}
+
+/// The farthest [m] that a body, or a point 0.1 m from its centre, is from where it is otherwise.
+double apart(const WorldDef& def, const End& p, const End& q) {
+  constexpr double kArm = 0.1;
+  double most = 0.0;
+  if (p.stopped || q.stopped) return p.stopped == q.stopped ? 0.0 : 1e9;
+  for (std::size_t i = 0; i < p.bodies.size(); ++i) {
+    if (def.bodies[i].fixed) continue;
+    const double turn = p.bodies[i].q.angularDistance(q.bodies[i].q);
+    most = std::max(most, (p.bodies[i].x - q.bodies[i].x).norm() + kArm * turn);
+  }
+  return most;
+}
+
+/// The farthest that twins are from each other.
+double apartTwins(const WorldDef& def, const End& end, test::Draw& draw) {
+  std::vector<End> ends = {end};
+  for (int k = 0; k < kTwins; ++k) {
+    WorldDef twin = def;
+    for (BodyDef& body : twin.bodies) {
+      if (body.fixed) continue;
+      const double x = draw(-1.0, 1.0), y = draw(-1.0, 1.0), z = draw(-1.0, 1.0);
+      body.position += kMoved * Vec3(x, y, z).normalized();
+    }
+    ends.push_back(endOf(twin));
+  }
+  double most = 0.0;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) most = std::max(most, apart(def, ends[i], ends[k]));
+  return most;
+}
+
+/// Scenes by how far apart they end, beside their twins: the k-th entry up to 10^k times as far.
+struct Histogram {
+  std::map<std::string, std::array<int, 7>> ways;
+  std::vector<std::string> farthest;  ///< words on those beyond
+
+  void add(const char* way, std::uint64_t seed, double off, double twins) {
+    const double share = off / std::max(twins, kRounding);
+    const int bin = std::clamp(static_cast<int>(std::ceil(std::log10(share + 1e-300))), 0, 6);
+    ++ways[way][static_cast<std::size_t>(bin)];
+    if (bin < 1) return;
+    char words[160];
+    std::snprintf(words, sizeof words, "seed %llu %s: %.1e m, twins %.1e m",
+                  static_cast<unsigned long long>(seed), way, off, twins);
+    farthest.push_back(words);
+  }
+
+  /// Scenes that end more than 100 times as far apart as their twins.
+  int beyond(const std::string& way) const {
+    const std::array<int, 7>& counts = ways.at(way);
+    return std::accumulate(counts.begin() + 3, counts.end(), 0);
+  }
+
+  void print() const {
+    std::printf("%-10s %7s %7s %7s %7s %7s %7s %7s\n", "times", "1", "10", "1e2", "1e3", "1e4",
+                "1e5", "more");
+    for (const auto& [way, counts] : ways) {
+      std::printf("%-10s", way.c_str());
+      for (const int count : counts) std::printf(" %7d", count);
+      std::printf("\n");
+    }
+    for (const std::string& words : farthest) std::printf("  %s\n", words.c_str());
+    std::fflush(stdout);
+  }
+};
+
+Histogram lookFromElsewhere(const std::string& method, std::uint64_t first, int scenes) {
+  Histogram histogram;
+  for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(scenes); ++seed) {
+    const WorldDef def = parseScene(test::randomScene(seed), "seed " + std::to_string(seed),
+                                    {"world.method=" + method})
+                             .world;
+    test::Draw draw(seed);
+    const End end = endOf(def);
+    const double twins = apartTwins(def, end, draw);
+    for (const Way& way : waysOf(draw, static_cast<int>(def.bodies.size())))
+      histogram.add(way.name, seed, apart(def, end, endOf(def, way.seen)), twins);
+  }
+  histogram.print();
+  return histogram;
+}
+
+}  // namespace
+
+// Oracle: the same scene. Mirrored and permuted it ends as far off as twins do, or as much as
+// rounding leaves; shifted by 10 m, where rounding is ten times as large, within 100 times that.
+// Turned, boxes of other bodies meet: what is near a hit in one frame may not be so in another, and
+// its step is then divided there alone, an error of first order that some scenes show.
+TEST_CASE("random scenes end alike from wherever they are seen") {
+  const Histogram found = lookFromElsewhere("stepping", 1, 12);
+  CHECK(found.beyond("mirrored") == 0);
+  CHECK(found.beyond("permuted") == 0);
+  CHECK(found.beyond("shifted") == 0);
+  CHECK(found.beyond("turned") == 0);
+}
+
+TEST_CASE("a thousand random scenes end alike from wherever they are seen", "[long]") {
+  constexpr int kScenes = 1000;
+  const Histogram found = lookFromElsewhere("stepping", 1, kScenes);
+  for (const char* way : {"mirrored", "permuted", "shifted"}) {
+    CAPTURE(way);
+    CHECK(found.beyond(way) <= kScenes / 100);
+  }
+  CHECK(found.beyond("turned") <= kScenes / 10);
+}
