@@ -13,6 +13,7 @@ const std::string kRing = R"(
 [world]
 gravity = [0, 0, 0]
 duration = 6.283185307179586
+method = "course"
 [course]
 step = 0.01
 [[array]]

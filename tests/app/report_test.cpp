@@ -20,6 +20,7 @@ constexpr const char* kOrbit = R"(
 [world]
 gravity = [0, 0, 0]
 duration = 1.0
+method = "course"
 [[body]]
 name = "dot"
 shape = "particle"
