@@ -21,8 +21,7 @@ constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is f
 struct Strike {
   Problem problem;
   std::vector<int> contacts;
-  std::vector<int>
-      number;  ///< per body: in the problem, < 0 of one that is not; none: all are in it
+  std::vector<int> number;  ///< per body, in the problem; < 0: not in it. Empty: as in the world
 };
 
 /// Bonds may join any bodies; contacts bring theirs with them.
@@ -35,15 +34,8 @@ void begin(const Impact& impact, Strike& strike) {
 
 int numberOf(const Impact& impact, int i, Strike& strike) {
   if (strike.number.empty()) return i;
-  if (strike.number[i] < 0) {
-    const RigidBody& body = impact.bodies[i];
-    Vec6 twist;
-    twist << body.v, body.omega;
-    strike.number[i] = static_cast<int>(strike.problem.invM.size());
-    strike.problem.invM.push_back(body.invM);
-    strike.problem.Iinv.push_back(body.Iinv);
-    strike.problem.vStar.push_back(twist);
-  }
+  if (strike.number[i] < 0)
+    strike.number[i] = addToVelocityProblem(impact.bodies[i], strike.problem);
   return strike.number[i];
 }
 

@@ -3,6 +3,16 @@
 namespace tumble {
 namespace {
 
+void addMass(const RigidBody& body, Problem& problem) {
+  problem.invM.push_back(body.invM);
+  problem.Iinv.push_back(body.Iinv);
+}
+
+void addTwist(const RigidBody& body, Problem& problem) {
+  Vec6& twist = problem.vStar.emplace_back();
+  twist << body.v, body.omega;
+}
+
 void beginProblem(std::span<const RigidBody> bodies, Problem& problem) {
   problem.invM.clear();
   problem.Iinv.clear();
@@ -10,21 +20,20 @@ void beginProblem(std::span<const RigidBody> bodies, Problem& problem) {
   problem.rows.clear();
   problem.cones.clear();
   problem.couplings.clear();
-  for (const RigidBody& body : bodies) {
-    problem.invM.push_back(body.invM);
-    problem.Iinv.push_back(body.Iinv);
-  }
+  for (const RigidBody& body : bodies) addMass(body, problem);
 }
 
 }  // namespace
 
 void beginVelocityProblem(std::span<const RigidBody> bodies, Problem& problem) {
   beginProblem(bodies, problem);
-  for (const RigidBody& body : bodies) {
-    Vec6 twist;
-    twist << body.v, body.omega;
-    problem.vStar.push_back(twist);
-  }
+  for (const RigidBody& body : bodies) addTwist(body, problem);
+}
+
+int addToVelocityProblem(const RigidBody& body, Problem& problem) {
+  addMass(body, problem);
+  addTwist(body, problem);
+  return static_cast<int>(problem.invM.size()) - 1;
 }
 
 void beginAccelerationProblem(std::span<const RigidBody> bodies, Problem& problem) {

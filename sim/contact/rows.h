@@ -32,6 +32,9 @@ inline Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec
 /// Empties the problem and writes inverse masses and inertias; vStar = twists of the bodies now.
 void beginVelocityProblem(std::span<const RigidBody> bodies, Problem& problem);
 
+/// The same for one body more. @return its number in the problem
+int addToVelocityProblem(const RigidBody& body, Problem& problem);
+
 /// The same with vStar = accelerations under each body's force and torque:
 ///   v̇ = F/m,  ω̇ = I⁻¹(τ − ω × L).  A fixed body keeps its velocity: 0.
 void beginAccelerationProblem(std::span<const RigidBody> bodies, Problem& problem);
