@@ -121,22 +121,22 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   return books;
 }
 
-/// Whether linear forces give energy, as those of what buckles or turns far in a step can: about
-/// the motion that they give they do not, but for what is left of Newton's method.
+/// Finds the books of the velocities at hand. @return whether linear forces give energy, as those
+/// of what buckles or turns far in a step can: about the motion that they give they do not, but for
+/// what is left of Newton's method.
 bool Stepping::gains(double h) {
   constexpr double kGain = 1e-7;  // of the energies at both ends
-  bool gain = false;
+  bentBooks_.clear();
   for (BendingPart& part : memory_.bendings->parts) {
     part.reached = energyAfter(part, state_.bodies, work_.after, h);
-    const BentBooks books = booksOf(part, h);
-    gain = gain || books.taken < -kGain * books.size;
+    bentBooks_.push_back(booksOf(part, h));
   }
-  return gain;
+  return std::any_of(bentBooks_.begin(), bentBooks_.end(),
+                     [](const BentBooks& books) { return books.taken < -kGain * books.size; });
 }
 
-void Stepping::bookBent(double h) {
-  for (const BendingPart& part : memory_.bendings->parts) {
-    const BentBooks books = booksOf(part, h);
+void Stepping::bookBent() {
+  for (const BentBooks& books : bentBooks_) {
     state_.externalImpulse += books.external;
     report_.certificate.work_of_forces += books.led;
     report_.certificate.energy_lost_bending += books.taken;

@@ -157,6 +157,32 @@ bool Stepping::isFarOff(const SolveReport& solved, double tolerance) const {
          solved.residual > kFarOff * tolerance;
 }
 
+SolveReport Stepping::solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
+                                     IslandMemory& memory, double h) {
+  const double scale = !bent && crowd ? velocityScale(work_.problem) : 0.0;
+  const double part = scale > 0.0 ? roughTolerance(scale) : 0.0;
+  memory.rough = part > 0.0;
+  if (memory.rough) {
+    setAside(links, scale, h);
+    return solveRough(links, part, h);
+  }
+  takeBack(links);
+  if (bent) startFromBefore(links, h);
+  return solveFine(links);
+}
+
+SolveReport Stepping::solveFine(std::span<const Link> links) {
+  const SteppingSettings& stepping = model_.def.stepping;
+  const SolveReport solved = solver_.solve(
+      work_.problem,
+      {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
+      work_.solution);
+  findCrushed(links, solved);
+  if (solved.status != SolveStatus::Solved)
+    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
+  return solved;
+}
+
 SolveReport Stepping::solveRough(std::span<const Link> links, double tolerance, double h) {
   const SteppingSettings& stepping = model_.def.stepping;
   startFromBefore(links, h);

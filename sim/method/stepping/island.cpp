@@ -190,18 +190,6 @@ void Stepping::swing(std::span<const Link> links, double h) {
   }
 }
 
-SolveReport Stepping::solveFine(std::span<const Link> links) {
-  const SteppingSettings& stepping = model_.def.stepping;
-  const SolveReport solved = solver_.solve(
-      work_.problem,
-      {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
-      work_.solution);
-  findCrushed(links, solved);
-  if (solved.status != SolveStatus::Solved)
-    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
-  return solved;
-}
-
 [[gnu::flatten]] void Stepping::solveIsland(std::span<const Link> links, double h) {
   collectBodies(links);
   if (work_.movers.empty()) return;
@@ -217,15 +205,7 @@ SolveReport Stepping::solveFine(std::span<const Link> links) {
     build(links, h);
     if (bent) coupleBent();
     const bool crowd = crowd_ && isCrowd(links);
-    const double scale = !bent && crowd ? velocityScale(work_.problem) : 0.0;
-    const double part = scale > 0.0 ? roughTolerance(scale) : 0.0;
-    memory.rough = part > 0.0;
-    if (memory.rough)
-      setAside(links, scale, h);
-    else
-      takeBack(links);
-    if (bent) startFromBefore(links, h);
-    const SolveReport solved = memory.rough ? solveRough(links, part, h) : solveFine(links);
+    const SolveReport solved = solveAsPlanned(links, bent, crowd, memory, h);
     if (!work_.crushed.empty()) return;
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);

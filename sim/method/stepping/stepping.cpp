@@ -164,7 +164,7 @@ void Stepping::moveTo(double t1, double h) {
   recordEvents(t1);
   moveBodies(h);
   bookSprings(h);
-  if (bends()) bookBent(h);
+  if (bends()) bookBent();
   if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
   if (!project()) {
     if (const Joint* open = brokenJoint()) {

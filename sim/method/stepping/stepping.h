@@ -164,6 +164,10 @@ class Stepping {
   void setAside(std::span<const Link> links, double scale, double h);
   bool isAside(const Touch& touch) const { return touch.due < 0.0; }
   void takeBack(std::span<const Link> links);
+  /// Solves the island's problem to the last digits, or as far as is planned for crowds.
+  /// @param bent, crowd  something in it bends; it is a crowd
+  SolveReport solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
+                             IslandMemory& memory, double h);
   SolveReport solveFine(std::span<const Link> links);
   /// Whether sweeps left a small island far from what was planned for it.
   bool isFarOff(const SolveReport& solved, double tolerance) const;
@@ -286,7 +290,7 @@ class Stepping {
   bool anyBends() const;
   void collectBent();
   void coupleBent();
-  void bookBent(double h);
+  void bookBent();
 
   // project.cpp
   /// @return whether all that overlapped or gaped is closed
@@ -320,17 +324,18 @@ class Stepping {
 
   int stillSteps_ = 0;  ///< in a row that end here, in which nothing changes
   bool allKept_ = false;
-  bool known_ = false;      ///< the touches are those of the bodies as they are
-  bool parted_ = false;     ///< clusters go through the step one by one
-  bool divided_ = false;    ///< the bodies whose clock runs have gone a part of the step
-  bool meeting_ = false;    ///< two clusters come near each other: they are one
-  int cluster_ = 0;         ///< whose clock runs
-  bool crowd_ = false;      ///< the bodies whose clock runs are one
-  bool rough_ = false;      ///< an island is solved as far as is planned for crowds
-  bool again_ = false;      ///< islands are solved once more, with what their bodies met
-  double leftOpen_ = 0.0;   ///< [m] overlap that such a plan leaves
-  int parts_ = 0;           ///< of the step that is most divided
-  double partStart_ = 0.0;  ///< [s] of the part under way
+  bool known_ = false;                ///< the touches are those of the bodies as they are
+  bool parted_ = false;               ///< clusters go through the step one by one
+  bool divided_ = false;              ///< the bodies whose clock runs have gone a part of the step
+  bool meeting_ = false;              ///< two clusters come near each other: they are one
+  int cluster_ = 0;                   ///< whose clock runs
+  bool crowd_ = false;                ///< the bodies whose clock runs are one
+  bool rough_ = false;                ///< an island is solved as far as is planned for crowds
+  bool again_ = false;                ///< islands are solved once more, with what their bodies met
+  std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
+  double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
+  int parts_ = 0;                     ///< of the step that is most divided
+  double partStart_ = 0.0;            ///< [s] of the part under way
   double bent_ = 0.0;  ///< [m/s] by which the last linearisation of what bends changed the motion
 };
 
