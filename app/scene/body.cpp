@@ -205,15 +205,21 @@ bool BodyList::full(Spot spot, Findings& findings) const {
   return true;
 }
 
+void requireBody(Section& section, std::string_view key, const std::string& name,
+                 std::span<const BodyDef> bodies) {
+  std::vector<std::string> names;
+  for (const BodyDef& body : bodies) names.push_back(body.name);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    section.complain(key, "unknown body " + inQuotes(name) + hint(name, names));
+}
+
 std::optional<int> BodyList::named(Section& section, std::string_view key) const {
   std::string name;
   section.read(key, name);
   if (!section.find(key) || !section.good()) return {};
   const auto it = indices_.find(name);
   if (it != indices_.end()) return it->second;
-  std::vector<std::string> names;
-  for (const BodyDef& body : scene_.world.bodies) names.push_back(body.name);
-  section.complain(key, "unknown body " + inQuotes(name) + hint(name, names));
+  requireBody(section, key, name, scene_.world.bodies);
   return {};
 }
 

@@ -16,6 +16,10 @@ struct BodyEntry {
 /// A key of the body wins over its material.
 BodyEntry readBody(Section& section, const std::string& name, const Materials& materials);
 
+/// Complains, with the nearest name there is, if none of the bodies has the name that a key gives.
+void requireBody(Section& section, std::string_view key, const std::string& name,
+                 std::span<const BodyDef> bodies);
+
 /// Appends to the scene, where forces will look for the name.
 class BodyList {
  public:

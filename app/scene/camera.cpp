@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/scene/body.h"
+
 namespace tumble {
 
 namespace {
@@ -67,11 +69,7 @@ CameraView readOneCamera(const Node& node, const std::string& key, Section& root
   readFov(section, camera.fov);
   if (camera.eye && camera.target) complainOfNoSight(section, *camera.eye, *camera.target);
   readKeys(section, camera);
-  std::vector<std::string> names;
-  for (const BodyDef& body : bodies) names.push_back(body.name);
-  if (!camera.follow.empty() && std::find(names.begin(), names.end(), camera.follow) == names.end())
-    section.complain("follow",
-                     "unknown body " + inQuotes(camera.follow) + hint(camera.follow, names));
+  if (!camera.follow.empty()) requireBody(section, "follow", camera.follow, bodies);
   section.finish();
   return camera;
 }

@@ -1,7 +1,6 @@
 #include "app/scene/text.h"
 
-#include <algorithm>
-
+#include "app/scene/body.h"
 #include "app/scene/settings.h"
 
 namespace tumble {
@@ -22,10 +21,7 @@ void readPlace(Section& section, const std::vector<BodyDef>& bodies, TextDef& te
     section.complain("page", "expected one of `body`, a name, `point` [m] and `page` [px]");
   if (section.find("offset") && section.find("page"))
     section.complain("offset", "counts from a body or a point; `page` needs none");
-  std::vector<std::string> names;
-  for (const BodyDef& body : bodies) names.push_back(body.name);
-  if (!text.body.empty() && std::find(names.begin(), names.end(), text.body) == names.end())
-    section.complain("body", "unknown body " + inQuotes(text.body) + hint(text.body, names));
+  if (!text.body.empty()) requireBody(section, "body", text.body, bodies);
 }
 
 }  // namespace
