@@ -5,11 +5,8 @@ set -euo pipefail
 house=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tumble=$(realpath "$1")/tumble
 version=4.10.3
-browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
-  { echo "axe: skipped, there is no chromium"; exit 77; }
+. "$house/browser.sh"
 command -v npm >/dev/null || { echo "axe: skipped, there is no npm"; exit 77; }
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
 
 npm pack --silent --pack-destination "$scratch" "axe-core@$version" >/dev/null 2>&1 ||
   { echo "axe: skipped, axe-core $version cannot be had from npm; is there a network?"; exit 77; }
@@ -37,18 +34,11 @@ for width in 1280 360; do
     cat "$house/axe.js"
     echo '</script>'
   } >"$scratch/out/driven.html"
-  said=''
-  for try in 1 2 3 4 5 6; do
-    [[ -n $said ]] && break
-    said=$("$browser" --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1280,900 \
-      --virtual-time-budget=60000 --user-data-dir="$(mktemp -d -p "$scratch")" \
-      --dump-dom "file://$scratch/out/driven.html" 2>/dev/null |
-      sed -n 's/.*<pre id="said">\(.*\)<\/pre>.*/\1/p' || true)
-  done
-  if [[ $said == "done 0 "* ]]; then
-    echo "ok   gallery at $width px: no finding by ${said#done 0 } rules of axe-core $version"
+  answer=$(said "$scratch/out/driven.html" 1280,900)
+  if [[ $answer == "done 0 "* ]]; then
+    echo "ok   gallery at $width px: no finding by ${answer#done 0 } rules of axe-core $version"
   else
-    echo "FAIL gallery at $width px: ${said:-the page did not answer}"
+    echo "FAIL gallery at $width px: ${answer:-the page did not answer}"
     status=1
   fi
 done

@@ -4,22 +4,11 @@
 set -euo pipefail
 house=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tumble=$(realpath "$1")/tumble
-browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
-  { echo "page: skipped, there is no chromium"; exit 77; }
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+. "$house/browser.sh"
 
 # Without what stands flat on the images; floor, bodies, light, shadows and arrows are compared.
 bare=(--set show.title=false --set show.ruler=false --set show.path=false --set show.theory=false
   --set show.ladder=false --set image.size=[960,540])
-
-# What the driven page says of itself.
-play() {
-  "$browser" --headless --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-    --hide-scrollbars --window-size=960,540 --force-device-scale-factor=1 --virtual-time-budget=60000 \
-    --user-data-dir="$(mktemp -d -p "$scratch")" --dump-dom "file://$1" 2>/dev/null |
-    sed -n 's/.*<pre id="said">\(.*\)<\/pre>.*/\1/p' || true
-}
 
 status=0
 check() {  # scene, instant [s], allowed share of pixels off by more than 16 levels [%], allowed mean [levels], bytes
@@ -33,13 +22,7 @@ check() {  # scene, instant [s], allowed share of pixels off by more than 16 lev
     echo '</script>'
     cat "$page"
   } >"$scratch/driven.html"
-  # A browser that says nothing at all tells nothing of the page: it is asked again.
-  local said='' try
-  for try in 1 2 3 4 5 6; do
-    [[ -n $said ]] && break
-    said=$(play "$scratch/driven.html")
-  done
-  awk -v scene="$1" -v said="$said" -v share="$3" -v mean="$4" -v bytes="$bytes" -v most="$5" 'BEGIN {
+  awk -v scene="$1" -v said="$(said "$scratch/driven.html" 960,540)" -v share="$3" -v mean="$4" -v bytes="$bytes" -v most="$5" 'BEGIN {
     n = split(said, field, " "); ok = n == 5 && field[1] == "done" && field[2] + 0 <= share && field[3] + 0 <= mean && bytes <= most
     printf "%s page of %s, %d bytes (allowed %d): %s\n", ok ? "ok  " : "FAIL", scene, bytes, most,
       n == 5 && field[1] == "done" ? field[2] " % of pixels off by more than 16 (allowed " share "), mean " field[3] " (allowed " mean "), " field[4] " draws, drag " field[5] : said == "" ? "the page did not answer" : said
