@@ -1,10 +1,11 @@
 // Meshes in pieces, for tests of collide.
 #pragma once
 
-#include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
+#include "sim/math/rotation.h"
 #include "sim/shape/pieces.h"
 #include "tests/body/solids.h"
 #include "tests/collide/random_pose.h"
@@ -19,16 +20,17 @@ inline Mesh prism(const std::vector<Vec3>& outline, double height) {
   return mesh;
 }
 
-/// A ring about z of flat faces all around: its section is a square on edge.
-inline Mesh ring(int around) {
+/// A ring about z of flat faces all around: its section is a square on edge, `thick` from its
+/// middle to a corner.
+inline Mesh ring(int around, double r = 1.0, double thick = 0.3) {
   std::vector<Vec3> points;
   std::vector<std::vector<int>> faces;
-  const double turn = 2.0 * 3.14159265358979323846;
   for (int i = 0; i < around; ++i)
     for (int k = 0; k < 4; ++k) {
-      const double a = turn * i / around;
-      const double r = k == 0 ? 1.3 : k == 2 ? 0.7 : 1.0, z = k == 1 ? 0.3 : k == 3 ? -0.3 : 0.0;
-      points.emplace_back(r * std::cos(a), r * std::sin(a), z);
+      double s = 0.0, c = 0.0;
+      sinCos(2.0 * std::numbers::pi * i / around, s, c);
+      const double out = r + (k == 0 ? thick : k == 2 ? -thick : 0.0);
+      points.emplace_back(out * c, out * s, k == 1 ? thick : k == 3 ? -thick : 0.0);
       const int j = (i + 1) % around, l = (k + 1) % 4;
       faces.push_back({4 * i + k, 4 * j + k, 4 * j + l, 4 * i + l});
     }

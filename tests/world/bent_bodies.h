@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/elastic/cloth.h"
 #include "sim/elastic/soft.h"
@@ -10,46 +12,44 @@
 
 namespace tumble {
 
-/// A cloth in a world: its points are the last bodies. @return the number of its first point
-inline int addCloth(WorldDef& def, const ClothDef& cloth, const Vec3& middle, double skin,
-                    double friction = 0.0) {
+/// Points of what bends in a world, as its last bodies. @return the number of the first
+inline int addPoints(WorldDef& def, const std::string& name, const std::vector<Vec3>& places,
+                     const std::vector<double>& masses, const Vec3& middle, double skin,
+                     double friction) {
   const int first = static_cast<int>(def.bodies.size());
-  const auto places = clothPlaces(cloth);
-  const auto masses = clothMasses(cloth);
-  auto body = std::make_shared<ElasticBody>();
-  body->name = "cloth";
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    body->bodies.push_back(first + static_cast<int>(p));
-    def.bodies.push_back({.name = "cloth." + std::to_string(p),
+  for (std::size_t p = 0; p < places.size(); ++p)
+    def.bodies.push_back({.name = name + "." + std::to_string(p),
                           .shape = Particle{skin},
                           .mass = masses[p],
                           .friction = friction,
                           .position = middle + places[p]});
-  }
-  body->elements = clothElements(cloth, first);
+  return first;
+}
+
+/// Lets the bodies from the first on bend by those elements.
+inline int bend(WorldDef& def, const std::string& name, int first, std::vector<Element> elements) {
+  auto body = std::make_shared<ElasticBody>();
+  body->name = name;
+  for (int i = first; i < static_cast<int>(def.bodies.size()); ++i) body->bodies.push_back(i);
+  body->elements = std::move(elements);
   def.forces.push_back(Bending{body});
   return first;
+}
+
+/// A cloth in a world. @return the number of its first point
+inline int addCloth(WorldDef& def, const ClothDef& cloth, const Vec3& middle, double skin,
+                    double friction = 0.0) {
+  const int first =
+      addPoints(def, "cloth", clothPlaces(cloth), clothMasses(cloth), middle, skin, friction);
+  return bend(def, "cloth", first, clothElements(cloth, first));
 }
 
 /// A soft box in a world. @return the number of its first point
 inline int addSoft(WorldDef& def, const SoftDef& soft, const Vec3& middle, double skin,
                    double friction = 0.5) {
-  const int first = static_cast<int>(def.bodies.size());
-  const auto places = softPlaces(soft);
-  const auto masses = softMasses(soft);
-  auto body = std::make_shared<ElasticBody>();
-  body->name = "soft";
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    body->bodies.push_back(first + static_cast<int>(p));
-    def.bodies.push_back({.name = "soft." + std::to_string(p),
-                          .shape = Particle{skin},
-                          .mass = masses[p],
-                          .friction = friction,
-                          .position = middle + places[p]});
-  }
-  body->elements = softElements(soft, first);
-  def.forces.push_back(Bending{body});
-  return first;
+  const int first =
+      addPoints(def, "soft", softPlaces(soft), softMasses(soft), middle, skin, friction);
+  return bend(def, "soft", first, softElements(soft, first));
 }
 
 }  // namespace tumble

@@ -10,14 +10,14 @@ using namespace tumble;
 namespace {
 
 /// Runs a world to its end: it goes on, every contact is solved, and no step gives energy.
-Certificate certified(World& world, double duration) {
+Certificate certified(World& world, double duration, double residual = 1e-9) {
   world.advance(duration);
   CAPTURE(world.report().reason);
   REQUIRE_FALSE(world.report().stopped);
   const Certificate c = world.report().certificate;
   CAPTURE(c.max_complementarity, c.max_penetration, c.max_energy_gain, c.max_joint_gap,
           c.energy_start, c.energy_balance_error, c.momentum_error);
-  CHECK(c.max_complementarity <= 1e-7);  // measured 1.2e-8, of the chain; else below 1e-12
+  CHECK(c.max_complementarity <= residual);  // measured below 1e-12
   CHECK(c.max_penetration <= 1e-9);
   CHECK(c.max_joint_gap <= 1e-9);
   CHECK(c.momentum_error <= 1e-9);
@@ -67,7 +67,7 @@ TEST_CASE("a chain of rigid links hangs from the middle of a cloth") {
     above = link;
   }
   World world(def);
-  certified(world, def.duration);
+  certified(world, def.duration, 1e-7);  // measured 1.2e-8
   CHECK(world.sample(def.duration).bodies[first + 24].x.y() < -0.02);
 }
 

@@ -9,6 +9,7 @@
 #include "sim/shape/pieces.h"
 #include "tests/body/solids.h"
 #include "tests/catch.h"
+#include "tests/collide/meshes.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
@@ -218,25 +219,6 @@ TEST_CASE("a thin compound that flies at 100 m/s does not pass through a thin on
 
 namespace {
 
-/// A ring about z: its section is a square on edge.
-Mesh ringMesh(int around, double r, double thick) {
-  std::vector<Vec3> points;
-  std::vector<std::vector<int>> faces;
-  for (int i = 0; i < around; ++i)
-    for (int k = 0; k < 4; ++k) {
-      double s = 0.0, c = 0.0;
-      sinCos(2.0 * std::numbers::pi * i / around, s, c);
-      const double out = r + (k == 0 ? thick : k == 2 ? -thick : 0.0);
-      points.emplace_back(out * c, out * s, k == 1 ? thick : k == 3 ? -thick : 0.0);
-      const int j = (i + 1) % around, l = (k + 1) % 4;
-      faces.push_back({4 * i + k, 4 * j + k, 4 * j + l, 4 * i + l});
-    }
-  Mesh mesh{std::make_shared<const Polyhedron>(makePolyhedron(points, faces))};
-  mesh.origin = -points[0];
-  mesh.pieces = std::make_shared<const Pieces>(piecesOf(*mesh.solid, PieceKind::Good, 1e-9));
-  return mesh;
-}
-
 struct Placed {
   std::vector<Vec3> points;
   const Polyhedron& solid;
@@ -283,7 +265,7 @@ double edgesMeet(const Placed& a, const Placed& b, const Vec3& v) {
 // Oracle: every corner against every face and every edge against every edge, in closed form.
 // Measured 4e-16 s, allowed 1e-12 s.
 TEST_CASE("a ring that flies into a ring meets it when the first of all pairs of features meets") {
-  const Mesh ring = ringMesh(24, 1.0, 0.25), small = ringMesh(16, 0.5, 0.125);
+  const Mesh ring = meshes::ring(24, 1.0, 0.25), small = meshes::ring(16, 0.5, 0.125);
   double off = 0.0;
   int hits = 0;
   for (int k = 0; k < 12; ++k) {
