@@ -10,6 +10,8 @@
 #include "app/command/progress.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
+#include "app/panel/variant_run.h"
+#include "app/report/headline.h"
 #include "app/report/machine.h"
 #include "app/report/page.h"
 #include "app/report/plot.h"
@@ -23,9 +25,23 @@ struct Options {
   std::vector<std::string> scenes;
   std::string folder = "out/report";
   double budget = 0.1;  // [s] of CPU time a point
-  bool convergence = false;
+  bool quick = false, convergence = false;
   std::vector<std::string> overrides;
 };
+
+// How much is measured.
+struct Extent {
+  std::size_t every;  // point of a curve: all, or each second one …
+  double budget;      // [s] of CPU time a point
+  int instants;       // of each demo at which the solvers are asked
+  double demo;        // [s] of each demo at most
+  int bodies, crowd;  // at most, of the broad phase and of a crowd
+};
+
+Extent extentOf(const Options& options) {
+  if (options.quick) return {4, std::min(options.budget, 0.005), 2, 0.25, 3000, 50};
+  return {1, options.budget, 30, 1e9, 100000, 400};
+}
 
 // The report's own scenes, in the order of their names.
 std::vector<std::string> reportScenes() {
@@ -36,61 +52,113 @@ std::vector<std::string> reportScenes() {
   return paths;
 }
 
+// The first of each so many values of every curve.
+void thin(std::size_t every, ChartDef& chart) {
+  for (CurveDef& curve : chart.curves) {
+    auto& values = curve.along.values;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < values.size(); k += every) values[kept++] = values[k];
+    values.resize(kept);
+  }
+}
+
 std::size_t pointsOf(const ChartDef& chart) {
   std::size_t points = 0;
   for (const CurveDef& curve : chart.curves) points += curve.along.values.size();
   return points;
 }
 
+// Numbers first: they stay if gnuplot is missing.
+template <class Figure>
+void write(const Options& options, const Figure& figure, const std::string& csv,
+           const std::string& script) {
+  writeFile(options.folder + "/" + figure.name + ".csv", csv);
+  writeFile(options.folder + "/" + figure.name + ".gp", script);
+}
+
 // Runs every chart of every scene and writes its numbers.
-std::vector<Study> study(const Options& options) {
+std::vector<Study> study(const Options& options, const std::string& machine) {
   std::vector<Study> studies;
   for (const std::string& path : options.scenes) {
-    const Scene scene = load({path, options.overrides});
+    Scene scene = load({path, options.overrides});
     if (scene.charts.empty())
       throw SceneError(
           {{{scene.file}, "there is no [[chart]] in it, so there is nothing to report"}});
     for (std::size_t k = 0; k < scene.charts.size(); ++k) {
+      thin(extentOf(options).every, scene.charts[k]);
       Progress progress(scene.charts[k].variant.title);
       const double points = static_cast<double>(pointsOf(scene.charts[k]));
       double done = 0.0;
-      Study now = runStudy(scene, k, options.budget, [&] { progress.show(++done / points); });
+      Study now =
+          runStudy(scene, k, extentOf(options).budget, [&] { progress.show(++done / points); });
       now.name = freeName(scene.name, studies);
-      writeFile(options.folder + "/" + now.name + ".csv", studyCsv(now));
       studies.push_back(std::move(now));
     }
   }
+  for (const Study& one : studies)
+    write(options, one, studyCsv(one), plotScript(one, labelsOf(studies), machine));
+  const std::vector<HeadlineRow> rows = headlineRows(studies);
+  writeFile(options.folder + "/table.csv", headlineCsv(rows));
+  writeFile(options.folder + "/table.md", headlineMarkdown(rows));
+  fmt::print("{}", headlineMarkdown(rows));
   return studies;
 }
 
-// What finding contacts costs: the chapter of the report that has no scene.
-std::vector<Scaling> detection(const Options& options) {
+// Who is within a factor of the fastest method how often: of several that come to some accuracy.
+std::vector<Profile> methodProfiles(const Options& options, const std::vector<Study>& studies,
+                                    const std::string& machine) {
+  Profile profile = methodProfile(studies);
+  if (profile.curves.size() < 2) return {};
+  write(options, profile, profileCsv(profile), plotScript(profile, machine));
+  return {std::move(profile)};
+}
+
+// What grows with size.
+std::vector<Scaling> growth(const Options& options, const std::string& machine) {
+  const Extent extent = extentOf(options);
   std::vector<Scaling> scalings;
-  Progress progress("Detection");
-  for (Scaling (*measure)() : {broadPhaseScaling, searchScaling}) {
-    scalings.push_back(measure());
-    writeFile(options.folder + "/" + scalings.back().name + ".csv", scalingCsv(scalings.back()));
-    progress.show(static_cast<double>(scalings.size()) / 2.0);
-  }
+  Progress progress("Growth");
+  scalings.push_back(broadPhaseScaling(extent.bodies));
+  progress.show(0.3);
+  scalings.push_back(searchScaling());
+  progress.show(0.5);
+  scalings.push_back(crowdScaling(extent.crowd));
+  for (const Scaling& one : scalings)
+    write(options, one, scalingCsv(one), plotScript(one, machine));
   return scalings;
 }
 
+// What scenes cost that differ by one thing.
+std::vector<Price> prices(const Options& options) {
+  const Scene ladder = readScene(dataFolder("report") + "/parts/rungs.toml");
+  std::vector<Scene> rungs;
+  for (const PanelDef& panel : ladder.panels) {
+    rungs.push_back(sceneOf(ladder, panel.variant));
+    rungs.back().title = panel.variant.title;
+  }
+  std::vector<Price> prices = pricesOf(rungs, extentOf(options).budget);
+  writeFile(options.folder + "/prices.csv", priceCsv(prices));
+  return prices;
+}
+
 // How the solvers of the contact problem do on what the demos ask of them.
-std::vector<Profile> contact(const Options& options) {
-  constexpr int kInstants = 30;
+std::vector<Profile> contact(const Options& options, const std::string& machine) {
   constexpr double kStep = 1.0 / 240.0;  // s
   Progress progress("Contact");
   std::vector<Problem> problems;
   const std::vector<std::string> names = demoNames();
   for (std::size_t i = 0; i < names.size(); ++i) {
-    for (Problem& problem : contactProblems(load({names[i], {}}), kInstants, kStep))
+    Scene demo = load({names[i], {}});
+    demo.world.duration = std::min(demo.world.duration, extentOf(options).demo);
+    for (Problem& problem : contactProblems(demo, extentOf(options).instants, kStep))
       problems.push_back(std::move(problem));
     progress.show(0.5 * static_cast<double>(i + 1) / static_cast<double>(names.size()));
   }
   std::vector<Profile> profiles;
   for (const double goal : {1e-4, 1e-8, 1e-12}) {
     profiles.push_back(solverProfile(problems, goal));
-    writeFile(options.folder + "/" + profiles.back().name + ".csv", profileCsv(profiles.back()));
+    write(options, profiles.back(), profileCsv(profiles.back()),
+          plotScript(profiles.back(), machine));
     progress.show(0.5 + static_cast<double>(profiles.size()) / 6.0);
   }
   return profiles;
@@ -125,15 +193,15 @@ std::vector<SpeedOfScene> convergence(const Options& options, const std::string&
   return demos;
 }
 
-// The page on convergence, without figures first: it stays if gnuplot is missing.
-void writeConvergence(const Options& options, const std::string& machine) {
-  const std::vector<SpeedOfScene> demos = convergence(options, machine);
-  const std::string page = options.folder + "/convergence.html";
-  writeFile(page, convergencePage(demos, machine, false));
-  for (const SpeedOfScene& demo : demos)
-    if (drawable(demo.speed)) runGnuplot(options.folder, demo.speed.name);
-  writeFile(page, convergencePage(demos, machine, true));
-  fmt::print("{}\n", page);
+// The page with all chapters: without figures first, so that it stays if gnuplot is missing.
+void writePage(const Options& options, const std::string& name, const std::string& machine,
+               const std::vector<Chapter>& chapters) {
+  const std::string file = options.folder + "/" + name, title = "Speed against error";
+  writeFile(file, reportPage(title, machine, chapters, ""));
+  for (const Chapter& chapter : chapters)
+    for (const PageFigure& figure : chapter.figures) runGnuplot(options.folder, figure.name);
+  writeFile(file, reportPage(title, machine, chapters, options.folder));
+  fmt::print("{}\n", file);
 }
 
 }  // namespace
@@ -142,14 +210,16 @@ int report(int argc, char** argv) {
   Options options;
   CommandLine line(
       "report", "Measures speed against error: CSV, figures, a table, a page.",
-      {"             # charts of assets/report, detection, solvers, into out/report/index.html",
+      {"             # charts of assets/report, solvers, growth, prices, convergence of all demos",
+       "--quick      # a third of the points, without convergence: a minute",
        "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
-  line.option(
-      "SCENE", options.scenes,
-      "scenes with [[chart]]s [those of assets/report, and what detection and contact cost]");
+  line.option("SCENE", options.scenes,
+              "scenes with [[chart]]s [those of assets/report, and chapters that have no scene]");
   line.option("-o,--output", options.folder, "folder for numbers and figures [out/report]");
   line.option("--budget", options.budget, "CPU seconds for the cost of each point [0.1]",
               {.type = "S", .range = {{0.0, 100.0}}});
+  line.flag("--quick", options.quick,
+            "fewer points, sizes and instants, no halved steps: a minute");
   line.flag("--convergence", options.convergence,
             "instead: only the page on halved steps of the demos, convergence.html");
   addOverrides(line, options.overrides);
@@ -157,34 +227,22 @@ int report(int argc, char** argv) {
   const bool whole = options.scenes.empty();
   if (whole) options.scenes = reportScenes();
 
-  // Numbers first: they stay if gnuplot is missing.
   makeFolder(options.folder);
   const std::string machine = machineLine();
   if (options.convergence) {
-    writeConvergence(options, machine);
+    writePage(options, "convergence.html", machine,
+              {convergenceChapter(convergence(options, machine))});
     return kOk;
   }
-  const std::vector<Study> studies = study(options);
-  const std::vector<Scaling> scalings = whole ? detection(options) : std::vector<Scaling>{};
-  const std::vector<Profile> profiles = whole ? contact(options) : std::vector<Profile>{};
-  const std::vector<HeadlineRow> rows = headlineRows(studies);
-  writeFile(options.folder + "/table.csv", headlineCsv(rows));
-  writeFile(options.folder + "/table.md", headlineMarkdown(rows));
-  writeFile(options.folder + "/index.html",
-            reportPage(studies, machine, false, scalings, profiles));
-  for (const Study& one : studies)
-    writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, labelsOf(studies), machine));
-  for (const Scaling& one : scalings)
-    writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, machine));
-  for (const Profile& one : profiles)
-    writeFile(options.folder + "/" + one.name + ".gp", plotScript(one, machine));
-  fmt::print("{}", headlineMarkdown(rows));
-  for (const Study& one : studies) runGnuplot(options.folder, one.name);
-  for (const Scaling& one : scalings) runGnuplot(options.folder, one.name);
-  for (const Profile& one : profiles) runGnuplot(options.folder, one.name);
-  writeFile(options.folder + "/index.html", reportPage(studies, machine, true, scalings, profiles));
-  fmt::print("{}/index.html\n", options.folder);
-  if (whole) writeConvergence(options, machine);
+  const std::vector<Study> studies = study(options, machine);
+  std::vector<Chapter> chapters = chaptersOf(studies, methodProfiles(options, studies, machine));
+  if (whole) {
+    chapters.push_back(solverChapter(contact(options, machine)));
+    chapters.push_back(growthChapter(growth(options, machine)));
+    chapters.push_back(priceChapter(prices(options)));
+    if (!options.quick) chapters.push_back(convergenceChapter(convergence(options, machine)));
+  }
+  writePage(options, "index.html", machine, chapters);
   return kOk;
 }
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <new>
 
-#include "app/golden/report.h"
+#include "app/file/html.h"
 
 namespace tumble {
 

@@ -8,19 +8,6 @@
 
 namespace tumble {
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t triple = 0;
-    for (std::size_t k = 0; k < 3; ++k) triple = triple << 8 | (k < count ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? digits[triple >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 namespace {
 
 constexpr const char* kHead = R"html(<!doctype html>

@@ -13,7 +13,4 @@ namespace tumble {
 /// accepts it. Images are embedded: the file can be mailed.
 std::string htmlReport(const Holding& holding);
 
-/// RFC 4648, with padding.
-std::string base64(const std::vector<std::uint8_t>& bytes);
-
 }  // namespace tumble

@@ -80,6 +80,12 @@ std::string convergenceCsv(const Convergence& convergence);
 /// instant that it came to.
 std::string convergenceTable(std::span<const Convergence> scenes);
 
+/// A scene of the report; its study has no points if none can be drawn.
+struct SpeedOfScene {
+  Convergence convergence;
+  Study speed;
+};
+
 /// Speed against error at the last instant that a run came to, as a study of the report.
 Study speedOf(const Convergence& convergence);
 

@@ -1,34 +1,21 @@
-// The report as one page: its figures and the headline table.
+// The page of a report: one file, figures within, that prints.
 #pragma once
 
-#include "app/report/convergence.h"
-#include "app/report/headline.h"
-#include "app/report/profile.h"
-#include "app/report/scaling.h"
+#include "app/report/chapter.h"
 
 namespace tumble {
-
-/// A scene of the page on convergence; its figure's study has no points if none can be drawn.
-struct SpeedOfScene {
-  Convergence convergence;
-  Study speed;
-};
 
 /// The start of a page with that title, up to and with its heading.
 std::string pageHead(const std::string& title);
 
 /// A figure of a page, with links to its numbers and its script.
-/// @param figures  whether gnuplot has drawn it
-std::string figureSection(const Study& study, bool figures);
+/// @param folder  whose <name>.svg, drawn already, is put into the page; "" leaves it out
+/// @throws FileError if it is not there
+std::string figureSection(const PageFigure& figure, const std::string& folder);
 
-/// index.html beside the figures.
-/// @param figures  whether gnuplot has drawn them; without them the page links the numbers alone
-std::string reportPage(const std::vector<Study>& studies, const std::string& machine, bool figures,
-                       const std::vector<Scaling>& scalings = {},
-                       const std::vector<Profile>& profiles = {});
-
-/// convergence.html: what halved steps say of each scene.
-std::string convergencePage(const std::vector<SpeedOfScene>& demos, const std::string& machine,
-                            bool figures);
+/// A page in one file: title, machine and build, contents, chapters.
+/// @param folder  as above
+std::string reportPage(const std::string& title, const std::string& machine,
+                       const std::vector<Chapter>& chapters, const std::string& folder);
 
 }  // namespace tumble

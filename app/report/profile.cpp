@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "app/claim/free_body.h"
 #include "app/record/recording.h"
@@ -63,6 +64,16 @@ double timeOf(const Solver& solver, const Problem& problem, double goal) {
   return least;
 }
 
+/// What the cheapest run by a method costs [s] that is right to so much; ∞ without one.
+double costTo(const Study& study, const std::string& method, double error) {
+  double least = kInfinity;
+  for (std::size_t i = 0; i < study.series.size(); ++i)
+    if (study.methods[i] == method)
+      for (const ChartPoint& point : study.series[i].points)
+        if (point.error <= error) least = std::min(least, point.cpuShare);
+  return least;
+}
+
 }  // namespace
 
 std::vector<Problem> contactProblems(const Scene& scene, int instants, double h) {
@@ -88,6 +99,31 @@ Profile solverProfile(std::span<const Problem> problems, double goal) {
     curve.label = solver.name;
     for (const Problem& problem : problems) curve.seconds.push_back(timeOf(solver, problem, goal));
   }
+  return profile;
+}
+
+Profile methodProfile(std::span<const Study> studies) {
+  Profile profile{"methods", "Methods, to an accuracy", "", {}};
+  for (const MethodName& method : methodNames())
+    profile.curves.push_back({std::string(method.name), {}});
+  int pairs = 0;
+  for (const Study& study : studies) {
+    if (std::set(study.methods.begin(), study.methods.end()).size() < 2) continue;
+    for (int digits = 1; digits <= 12; ++digits) {
+      std::vector<double> costs;
+      for (const ProfileCurve& curve : profile.curves)
+        costs.push_back(costTo(study, curve.label, std::pow(10.0, -digits)));
+      if (*std::min_element(costs.begin(), costs.end()) == kInfinity) continue;
+      for (std::size_t k = 0; k < costs.size(); ++k) profile.curves[k].seconds.push_back(costs[k]);
+      ++pairs;
+    }
+  }
+  profile.subtitle =
+      fmt::format("{} pairs of a chart and an error of 1e-1 to 1e-12; the cheapest run", pairs);
+  std::erase_if(profile.curves, [](const ProfileCurve& curve) {
+    return std::all_of(curve.seconds.begin(), curve.seconds.end(),
+                       [](double seconds) { return seconds == kInfinity; });
+  });
   return profile;
 }
 

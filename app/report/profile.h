@@ -1,4 +1,4 @@
-// The solvers of the contact problem side by side, on the problems that scenes pose.
+// Who is fastest how often: solvers on the problems that scenes pose, methods on charts.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/scene/scene.h"
+#include "app/report/study.h"
 #include "sim/problem/problem.h"
 
 namespace tumble {
@@ -15,15 +15,15 @@ namespace tumble {
 /// instants of a run: one problem for each instant at which something touches.
 std::vector<Problem> contactProblems(const Scene& scene, int instants, double h);
 
-/// What every problem costs one solver.
+/// What every problem costs one solver or method.
 struct ProfileCurve {
   std::string label;
-  std::vector<double> seconds;  ///< [s] CPU, per problem; ∞ where the residual is above the goal
+  std::vector<double> seconds;  ///< [s] CPU, per problem; ∞ where the goal is not reached
 };
 
 /// A performance profile: Dolan & Moré, Benchmarking Optimization Software with Performance
-/// Profiles, 2002. A solver's curve says for what share of the problems it takes at most τ times
-/// the time of the fastest; where it ends is the share that it solves at all.
+/// Profiles, 2002. A curve says for what share of the problems its owner
+/// takes at most τ times the time of the fastest; where it ends is the share that it solves at all.
 struct Profile {
   std::string name;  ///< of its files
   std::string title, subtitle;
@@ -33,6 +33,10 @@ struct Profile {
 /// Every solver of the table, asked for a natural-map residual of `goal`; the residual counts, not
 /// what the solver says of it.
 Profile solverProfile(std::span<const Problem> problems, double goal);
+
+/// The methods over all pairs of a study in which several compete and an accuracy from 1e-1 to
+/// 1e-12 that some run of it is right to: the cost of the cheapest such run by each.
+Profile methodProfile(std::span<const Study> studies);
 
 /// The steps of one curve: (τ, share of the problems within it), both ascending, to the largest τ
 /// of all curves.

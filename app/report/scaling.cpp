@@ -4,7 +4,9 @@
 
 #include <limits>
 
+#include "app/file/data.h"
 #include "app/record/output.h"
+#include "app/report/cost.h"
 #include "app/report/swarm.h"
 #include "sim/collide/collide.h"
 #include "sim/collide/witness.h"
@@ -82,7 +84,7 @@ double timeOfCall(const std::vector<Pair>& pairs, Ask ask) {
 
 }  // namespace
 
-Scaling broadPhaseScaling() {
+Scaling broadPhaseScaling(int most) {
   Scaling scaling{"broad-phase",
                   "A step of the broad phase against the number of bodies",
                   "boxes at constant density that move by 1 % of their edges a step",
@@ -95,7 +97,8 @@ Scaling broadPhaseScaling() {
     ScalingCurve& curve = scaling.curves.emplace_back();
     curve.label = rows[i].name;
     for (const int n : {100, 300, 1000, 3000, 10000, 30000, 100000})
-      if (n <= kMostBoxes.at(i)) curve.points.emplace_back(n, timeOfUpdate(BroadPhase(rows[i]), n));
+      if (n <= std::min(most, kMostBoxes.at(i)))
+        curve.points.emplace_back(n, timeOfUpdate(BroadPhase(rows[i]), n));
     fitSlope(curve);
   }
   return scaling;
@@ -120,6 +123,36 @@ Scaling searchScaling() {
         }));
   }
   for (ScalingCurve& curve : scaling.curves) fitSlope(curve);
+  return scaling;
+}
+
+Scaling crowdScaling(int most) {
+  constexpr double kRoom = 0.12;  // m² of the tray for each box
+  Scaling scaling{"crowd-growth",
+                  "Boxes that fall into a tray against how many they are",
+                  "boxes of 0.3 × 0.2 × 0.2 m, e = 0.2, 0.12 m² of tray for each, the first 2 s",
+                  "boxes",
+                  "CPU seconds per simulated second",
+                  {}};
+  for (const char* preset : {"auto", "fast", "draft"}) {
+    ScalingCurve& curve = scaling.curves.emplace_back();
+    curve.label = preset;
+    for (int count = 25; count <= most; count *= 2) {
+      const double half = 0.5 * std::sqrt(kRoom * count), inside = half - 0.2;
+      std::vector<std::string> set = {fmt::format("stepping.preset={}", preset),
+                                      fmt::format("array.box.count={}", count),
+                                      fmt::format("array.box.lo=[{0}, 0.3, {0}]", -inside),
+                                      fmt::format("array.box.hi=[{0}, 3.0, {0}]", inside)};
+      for (const auto& [wall, n] : {std::pair("west", "1.0, 0.0, 0.0"),
+                                    {"east", "-1.0, 0.0, 0.0"},
+                                    {"north", "0.0, 0.0, 1.0"},
+                                    {"south", "0.0, 0.0, -1.0"}})
+        set.push_back(fmt::format("body.{}.shape={{ plane = [{}, {}] }}", wall, n, -half));
+      const Scene scene = readScene(dataFolder("report") + "/parts/tray.toml", set);
+      curve.points.emplace_back(count, cpuShares({scene}, 0.0).front());
+    }
+    fitSlope(curve);
+  }
   return scaling;
 }
 

@@ -1,4 +1,4 @@
-// What finding contacts costs, against how much there is to look at.
+// What costs how much more when there is more of it: finding contacts, and crowds.
 #pragma once
 
 #include <span>
@@ -22,12 +22,15 @@ struct Scaling {
   std::vector<ScalingCurve> curves;
 };
 
-/// A step of every broad phase with 100 to 100,000 boxes; the slow ones stop earlier.
-Scaling broadPhaseScaling();
+/// A step of every broad phase with 100 boxes to so many; the slow ones stop earlier.
+Scaling broadPhaseScaling(int most = 100000);
 
 /// Two convex hulls near each other, by their corners: a full search for a plane that parts them,
 /// and the question whether a remembered one does.
 Scaling searchScaling();
+
+/// Boxes that fall into a tray with room for each, 25 to so many, by some presets of `stepping`.
+Scaling crowdScaling(int most = 400);
 
 /// curve, size, cpu_seconds: a row for each point.
 std::string scalingCsv(const Scaling& scaling);

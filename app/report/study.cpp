@@ -113,6 +113,7 @@ std::string freeName(const std::string& scene, std::span<const Study> earlier) {
 Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDone& done) {
   Study study;
   study.scene = scene.title;
+  study.chapter = scene.chapter;
   study.chart = scene.charts[index];
   study.series = runChart(scene, study.chart, done);
   requireError(
@@ -127,9 +128,10 @@ Study runStudy(const Scene& scene, std::size_t index, double budget, const RunDo
   }
   for (std::size_t i = 0; i < study.series.size(); ++i) {
     study.orders.push_back(stepOrder(chart, study.series[i]));
+    study.methods.push_back(sceneOf(scene, pointVariant(chart, i, 0)).world.method);
     // What a closed form is held to begins anew at each sample; the whole run is no better than
     // its start is known.
-    if (sceneOf(scene, pointVariant(chart, i, 0)).world.method == "exact")
+    if (study.methods.back() == "exact")
       for (ChartPoint& point : study.series[i].points)
         point.error = std::max(point.error, *chart.floor);
   }

@@ -9,10 +9,12 @@ namespace tumble {
 
 /// A chart with everything that is measured of it. Errors and costs come from separate runs.
 struct Study {
-  std::string name;   ///< of its files
-  std::string scene;  ///< title
-  ChartDef chart;     ///< with `floor` set, cost "cpu"
+  std::string name;     ///< of its files
+  std::string scene;    ///< title
+  std::string chapter;  ///< of the scene
+  ChartDef chart;       ///< with `floor` set, cost "cpu"
   std::vector<ChartSeries> series;
+  std::vector<std::string> methods;           ///< of each curve: a row of the table of methods
   std::vector<std::optional<double>> orders;  ///< of each curve: error over the chart's number
   std::vector<std::string> notes = {};        ///< of each curve, in place of an order
 };

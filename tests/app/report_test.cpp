@@ -8,6 +8,8 @@
 #include "app/claim/claim.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
+#include "app/panel/variant_run.h"
+#include "app/report/headline.h"
 #include "app/report/page.h"
 #include "app/report/plot.h"
 #include "tests/catch.h"
@@ -173,13 +175,63 @@ TEST_CASE("every study writes files of its own, none over the headline table") {
   CHECK(names == std::vector<std::string>{"st", "st-2", "st-2-2", "other", "st-3", "table-2"});
 }
 
-TEST_CASE("the page shows figures only where they were drawn, and escapes what it quotes") {
+TEST_CASE(
+    "the page holds its figures, leaves them out if they are not drawn, and escapes what it "
+    "quotes") {
   Study study = knownStudy();
   study.chart.variant.title = "A < B";
-  CHECK(reportPage({study}, "this machine", true).find("src=\"known.svg\"") != std::string::npos);
-  const std::string page = reportPage({study}, "this machine", false);
-  CHECK(page.find("<img") == std::string::npos);
-  CHECK(page.find("A &lt; B") != std::string::npos);
+  study.chapter = "methods";
+  const std::vector<Chapter> chapters = chaptersOf({study}, {});
+  REQUIRE(chapters.size() == 2);
+  CHECK(chapters[0].title == "Methods");
+  const std::string bare = reportPage("Title", "this machine", chapters, "");
+  CHECK(bare.find("<img") == std::string::npos);
+  CHECK(bare.find("A &lt; B") != std::string::npos);
+
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("tumble-page-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  writeFile((folder / "known.svg").string(), "<svg/>");
+  const std::string page = reportPage("Title", "this machine", chapters, folder.string());
+  CHECK(page.find("src=\"data:image/svg+xml;base64,PHN2Zy8+\"") != std::string::npos);
+  std::filesystem::remove_all(folder);
+  CHECK_THROWS_AS(reportPage("Title", "this machine", chapters, folder.string()), FileError);
+}
+
+TEST_CASE("charts of scenes that name one chapter stand together") {
+  std::vector<Study> studies(4, knownStudy());
+  studies[0].chapter = studies[2].chapter = "methods";
+  studies[1].chapter = "crowds";
+  const std::vector<Chapter> chapters = chaptersOf(studies, {});
+  REQUIRE(chapters.size() == 4);
+  CHECK(chapters[0].title == "Methods");
+  CHECK(chapters[0].figures.size() == 2);
+  CHECK(chapters[1].title == "Crowds");
+  CHECK(chapters[2].title == "Charts");
+  CHECK(chapters[3].title == "Time to an accuracy");
+}
+
+// Oracle: the table of methods. `exact` takes no springs; what flies alone is taken by all.
+TEST_CASE("prices are asked of every method, and left out where it refuses the scene") {
+  const Scene ladder = readScene(dataFolder("report") + "/parts/rungs.toml");
+  std::vector<Scene> rungs;
+  for (const PanelDef& panel : ladder.panels) {
+    if (panel.variant.title != "a particle flies" && panel.variant.title != "a ball on a spring")
+      continue;
+    rungs.push_back(sceneOf(ladder, panel.variant));
+    rungs.back().title = panel.variant.title;
+    rungs.back().world.duration = 0.1;
+  }
+  const std::vector<Price> prices = pricesOf(rungs, 0.0);
+  REQUIRE(prices.size() == 2);
+  const std::vector<MethodName> methods = methodNames();
+  for (std::size_t k = 0; k < methods.size(); ++k) {
+    CAPTURE(methods[k].name);
+    CHECK(prices[0].seconds[k].value_or(0.0) > 0.0);
+    CHECK(prices[1].seconds[k].has_value() == (methods[k].name != "exact"));
+  }
+  CHECK(prices[0].uses == std::vector<std::string>{"gravity"});
+  CHECK(prices[1].uses == std::vector<std::string>{"gravity", "springs"});
 }
 
 TEST_CASE(

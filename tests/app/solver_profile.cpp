@@ -70,3 +70,24 @@ TEST_CASE("every demo can be asked for its contact problems, particles and all")
     CHECK_NOTHROW(contactProblems(scene, 2, 1.0 / 240.0));
   }
 }
+
+// Oracle: worked out by hand. By "exact" 1e-3 at 1 µs; by "stepping" 1e-1 at 1 µs and 1e-2 at 4 µs.
+// So 1e-1 is stepping's and exact's at 1 µs both, 1e-2 is exact's by a factor of 4, 1e-3 is exact's
+// alone, and no run comes further. The second study has one method alone.
+TEST_CASE(
+    "the profile of methods asks for accuracies that some run comes to, where methods compete") {
+  Study study;
+  study.series.resize(2);
+  study.methods = {"exact", "stepping"};
+  study.series[0].points = {{"x", 1e-3, 0, 1e-6}};
+  study.series[1].points = {{"x", 1e-1, 0, 1e-6}, {"x", 1e-2, 0, 4e-6}};
+  Study alone = study;
+  alone.methods = {"course", "course"};
+  const Profile profile = methodProfile(std::vector{study, alone});
+  REQUIRE(profile.curves.size() == 2);
+  CHECK(profile.curves[0].label == "exact");
+  CHECK(profile.curves[1].label == "stepping");
+  CHECK(profile.curves[0].seconds == std::vector{1e-6, 1e-6, 1e-6});
+  CHECK(profile.curves[1].seconds == std::vector{1e-6, 4e-6, kNever});
+  CHECK(profileSteps(profile, 1) == Steps{{1.0, 1.0 / 3.0}, {4.0, 2.0 / 3.0}});
+}

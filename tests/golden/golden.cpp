@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/file/html.h"
 #include "app/golden/formats.h"
 #include "app/golden/report.h"
 #include "tests/catch.h"
@@ -130,7 +131,9 @@ TEST_CASE("what programs read counts what passes and quotes what people wrote") 
 }
 
 TEST_CASE("base64 agrees with the examples of RFC 4648, section 10") {
-  const auto encode = [](const std::string& text) { return base64({text.begin(), text.end()}); };
+  const auto encode = [](const std::string& text) {
+    return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
+  };
   CHECK(encode("") == "");
   CHECK(encode("f") == "Zg==");
   CHECK(encode("fo") == "Zm8=");

@@ -91,9 +91,9 @@ void show(const std::string& folder, const std::vector<Trial>& trials,
     writeFile(folder + "/" + study.name + ".gp", plotScript(study, labelsOf(studies), machine));
   }
   // Without gnuplot the page stays, with the numbers alone.
-  writeFile(folder + "/peers.html", peersPage(all, studies, setups, machine, false));
+  writeFile(folder + "/peers.html", peersPage(all, studies, setups, machine, ""));
   for (const Study& study : studies) runGnuplot(folder, study.name);
-  writeFile(folder + "/peers.html", peersPage(all, studies, setups, machine, true));
+  writeFile(folder + "/peers.html", peersPage(all, studies, setups, machine, folder));
   fmt::print("{}/peers.html\n", folder);
 }
 

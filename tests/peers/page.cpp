@@ -107,7 +107,7 @@ std::vector<Study> figures(std::span<const Trial> trials, std::span<const Point>
     std::copy_if(points.begin(), points.end(), std::back_inserter(own),
                  [&](const Point& point) { return point.scene == trial.name; });
     own = settled(own);
-    Study study{"peers-" + trial.name, trial.title, {}, {}, {}};
+    Study study{"peers-" + trial.name, trial.title, "", {}, {}, {}, {}};
     study.chart.variant.title = trial.title;
     study.chart.subtitle = "Error: " + trial.error + ".";
     study.chart.floor = 0.99 * kRounding;  // so that the figure has room to its left
@@ -128,12 +128,13 @@ std::vector<Study> figures(std::span<const Trial> trials, std::span<const Point>
 }
 
 std::string peersPage(std::span<const Outcome> outcomes, std::span<const Study> studies,
-                      std::span<const EngineSetup> setups, const std::string& machine, bool drawn) {
+                      std::span<const EngineSetup> setups, const std::string& machine,
+                      const std::string& folder) {
   std::string out = pageHead("Beside other engines") + kIntroduction;
   out += fmt::format("<p>Measured on {}.</p>\n", htmlText(machine)) + tableHtml(outcomes);
   for (const Outcome& outcome : outcomes)
     for (const Study& study : studies)
-      if (study.name == "peers-" + outcome.scene) out += figureSection(study, drawn);
+      if (study.name == "peers-" + outcome.scene) out += figureSection(figureOf(study), folder);
   return out + setupsHtml(setups) + "</body></html>\n";
 }
 

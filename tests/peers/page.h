@@ -20,8 +20,9 @@ std::vector<Point> recordedPoints(const std::string& path);
 std::vector<Study> figures(std::span<const Trial> trials, std::span<const Point> points);
 
 /// peers.html: the table, scenes that are lost first, then the figures in the same order.
-/// @param drawn  whether gnuplot has drawn them
+/// @param folder  whose figures are put into the page; "" leaves them out
 std::string peersPage(std::span<const Outcome> outcomes, std::span<const Study> studies,
-                      std::span<const EngineSetup> setups, const std::string& machine, bool drawn);
+                      std::span<const EngineSetup> setups, const std::string& machine,
+                      const std::string& folder);
 
 }  // namespace tumble::peers
