@@ -4,6 +4,7 @@
 
 #include "sim/problem/cone.h"
 #include "sim/problem/delassus.h"
+#include "sim/problem/direct.h"
 #include "sim/problem/lcp.h"
 #include "sim/problem/solvers.h"
 
@@ -35,6 +36,11 @@ bool setBounds(const Problem& problem, const VecX& lambda, VecX& lo, VecX& hi) {
   return friction;
 }
 
+bool allEqualities(const Problem& problem) {
+  return std::all_of(problem.cones.begin(), problem.cones.end(),
+                     [](const Cone& cone) { return cone.kind == ConeKind::Equality; });
+}
+
 /// λ and v of the whole problem from the λ of an LCP, and how good they are.
 SolveReport look(const Problem& problem, const VecX& lambda, const LcpReport& lcp, double tolerance,
                  Solution& solution) {
@@ -50,6 +56,9 @@ SolveReport look(const Problem& problem, const VecX& lambda, const LcpReport& lc
 
 SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
                           Solution& solution) {
+  // Rows without bounds need no pivots.
+  if (allEqualities(problem))
+    if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
   const Delassus system = delassus(problem);
   VecX lambda = VecX::Zero(system.b.size()), lo = lambda, hi = lambda;
   Solution best;

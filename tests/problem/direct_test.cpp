@@ -75,6 +75,9 @@ TEST_CASE("equalities alone are solved as they are beside a contact") {
     }
     Solution direct, beside;
     REQUIRE(solveDirect(problem, 1e-12, direct));
+    Solution pivoted;
+    findSolver("pivoting")->solve(problem, {.tolerance = 1e-12}, pivoted);
+    CHECK(pivoted.v == direct.v);
     const int away = test::addCube(problem, 1.0, 1.0, Vec3::UnitY());
     test::addContact(problem, away, 0, Vec3::Zero(), Vec3::Zero(), 0.0);
     newton.solve(problem, {.tolerance = 1e-12}, beside);
