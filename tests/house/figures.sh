@@ -83,7 +83,7 @@ cmake -S . -B "$build" -DTUMBLE_PEERS=ON >/dev/null
 cmake --build "$build" --target peers >/dev/null 2>&1
 run "$build/tests/peers/peers" --quick -o "$scratch/report"
 
-section "The same bits from gcc and clang at -O1 and -O3"
+section "The same bits from gcc and clang at -O0 to -O3, and with sanitizers"
 run tests/house/determinism.sh
 
 section "The same pixels as approved, by both contexts"
