@@ -94,10 +94,28 @@ TEST_CASE("stepping: what joints alone hold is followed to second order") {
   CHECK(errors[1] < errors[0] / 12.0);
 }
 
-// Oracle: a joint that can not hold ends the run early and is named.
+// Oracle: conservation. A rod of 1 m turns by 20 rad in a step from the start; the first step is
+// divided, as those after it; undivided, it comes apart. Measured: 7.3 % of the energy lost in 80
+// turns of 63 parts each, the joint whole.
+TEST_CASE("stepping: what turns fast in a joint is followed from the first step on") {
+  WorldDef def = pendulum(1.0, 0.1, 90.0 * kDegree, 0.0);
+  def.bodies[0].angularVelocity = {0.0, 0.0, 5e3};
+  def.bodies[0].velocity = def.bodies[0].angularVelocity.cross(def.bodies[0].position);
+  World world(def);
+  world.advance(0.1);
+  const Certificate& books = world.report().certificate;
+  const double energy = std::abs(books.energy_end / books.energy_start - 1.0);
+  CAPTURE(world.report().reason, energy, books.max_joint_gap);
+  CHECK_FALSE(world.report().stopped);
+  CHECK(energy < 0.1);
+  CHECK(books.max_joint_gap < 1e-9);
+}
+
+// Oracle: a joint that can not hold ends the run early and is named. By 40 rad in each of a
+// thousand parts of a step.
 TEST_CASE("stepping: a joint that comes apart ends the run with its name") {
   WorldDef def = pendulum(1.0, 0.1, 90.0 * kDegree, 0.0);
-  def.bodies[0].angularVelocity = {0.0, 0.0, 3e4};
+  def.bodies[0].angularVelocity = {0.0, 0.0, 1e7};
   def.bodies[0].velocity = def.bodies[0].angularVelocity.cross(def.bodies[0].position);
   World world(def);
   world.advance(1.0);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact/rest.h"
 #include "sim/joint/swing.h"
 #include "sim/method/stepping/stepping.h"
 
@@ -53,13 +54,29 @@ void Stepping::meetJoints(double h) {
   }
 }
 
+void Stepping::divideFirst(double h) {
+  memory_.division = 1;
+  if (model_.joints.empty()) return;
+  std::vector<RigidBody> bodies = state_.bodies;
+  sumForces(model_.def.gravity, model_.def.forces, bodies);
+  Bonds bonds;
+  restBonds(bodies, model_.joints, {}, h, bonds);
+  RestForces().apply(bodies, {}, &bonds);
+  std::vector<JointForce> forces;
+  jointForces(state_.bodies, model_.joints, bonds, 1.0, forces);
+  divide(h, forces);
+}
+
 void Stepping::divideNext(double h) {
+  if (!model_.joints.empty()) divide(h, state_.trail.back().joints);
+}
+
+void Stepping::divide(double h, std::span<const JointForce> forces) {
   constexpr double kSwing = 1.0;  // [rad] of the fastest swing in a part; at 2 it would grow
   constexpr double kTurn = 0.1;   // [rad] by which a body in a joint may turn in a part
   constexpr int kMostParts = 1000;
-  if (model_.joints.empty()) return;
-  double rate = fastestSwing(state_.bodies, model_.joints, state_.trail.back().joints, solver_,
-                             kSwing / h, memory_.swing, work_.swing) /
+  double rate = fastestSwing(state_.bodies, model_.joints, forces, solver_, kSwing / h,
+                             memory_.swing, work_.swing) /
                 kSwing;
   for (const Joint& joint : model_.joints) {
     for (const int i : {joint.a, joint.b}) {

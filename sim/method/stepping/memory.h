@@ -175,7 +175,7 @@ struct SteppingMemory {
   std::vector<IslandMemory> islands;   ///< by the first of their bodies
   std::vector<LastingPair> lasting;    ///< of the step before, in order of pairs
   std::vector<double> left;            ///< [m/s] per body: what the last solve left of its contacts
-  int division = 1;                    ///< equal parts that the next step is made in
+  int division = 0;                    ///< equal parts of the next step; 0: not known yet
   Swing swing;                         ///< the fastest in joints
   std::optional<Drives> drives;        ///< once dealt out
   std::shared_ptr<Bendings> bendings;  ///< once dealt out

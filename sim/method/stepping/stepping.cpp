@@ -112,7 +112,9 @@ void Stepping::stop(const std::string& what) {
 
 void Stepping::step() {
   const double t0 = state_.t, t1 = gridTime(model_, state_.gridIndex, model_.def.stepping.step);
-  const double whole = lengthTo(t1), h = whole / memory_.division;
+  const double whole = lengthTo(t1);
+  if (memory_.division == 0) divideFirst(whole);
+  const double h = whole / memory_.division;
   for (int k = 1; k <= memory_.division && !report_.stopped; ++k)
     stepTo(k == memory_.division ? t1 : t0 + k * h, h);
   if (report_.stopped) return;

@@ -235,8 +235,11 @@ class Stepping {
   void meetJoints(double h);
   /// A joint whose parts lie so far apart that no projection brings them together, or null.
   const Joint* brokenJoint() const;
-  /// How many parts the next step needs for what swings fast in joints.
+  /// How many parts the next step needs for what swings fast in joints: under what they carried in
+  /// the last one; or, before there is one, by themselves, without what touches.
   void divideNext(double h);
+  void divideFirst(double h);
+  void divide(double h, std::span<const JointForce> forces);
 
   // stepping.cpp: the bodies.
   void applyTwists(double h);
