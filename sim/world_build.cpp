@@ -261,7 +261,7 @@ void World::Parts::build(const WorldDef& def) {
   }
   if (model.runs == "exact" && !model.joints.empty()) {
     // Where the closed forms end, the most accurate steps that there are.
-    model.def.course = {.integrator = "dopri5", .tolerance = kJointTolerance};
+    model.def.course = {.integrator = "extrapolation", .tolerance = kJointTolerance};
   }
   method->check(model, state.bodies);
 }

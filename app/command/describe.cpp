@@ -44,7 +44,7 @@ std::string methodLine(const WorldDef& world, const World& running) {
     steps = fmt::format(", {} at {:g} s{}", world.course.integrator, world.course.step,
                         strategyOf(world.course));
   if (running.runs() == "exact" && !world.joints.empty())
-    steps = ", all bodies in steps of dopri5: those with joints fly in no closed form";
+    steps = ", all bodies in steps of extrapolation: those with joints fly in no closed form";
   if (running.runs() == "stepping")
     steps = fmt::format(", {} at {:g} s", world.stepping.solver, world.stepping.step);
   return fmt::format("{}{}, {:g} s", running.method(), steps, world.duration);

@@ -11,7 +11,7 @@ void checkExactOrJoined(const Model& model, std::span<const RigidBody> bodies) {
 
 void advanceExactOrJoined(const Model& model, State& state, double t_end, Report& report) {
   if (model.joints.empty()) return advanceExact(model, state, t_end, report);
-  report.note("bodies with joints fly in no closed form: all go on in steps of dopri5");
+  report.note("bodies with joints fly in no closed form: all go on in steps of extrapolation");
   advanceCourse(model, state, t_end, report);
 }
 

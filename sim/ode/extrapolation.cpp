@@ -10,6 +10,9 @@ namespace {
 /// Part of the tolerance that is rounding alone: more substeps would bring nothing.
 constexpr double kEnough = 1e-2;
 
+/// Of t: shorter steps are rounding.
+constexpr double kLeast = 16.0 * std::numeric_limits<double>::epsilon();
+
 /// Factor for the next attempt: about the ninth root of 1/error, from square roots alone, so that
 /// every machine gives the same bits.
 double factor(double error) {
@@ -29,7 +32,7 @@ Extrapolation::Extrapolation(int size, double tolerance)
 
 double Extrapolation::step(const System& system, double t, double h, std::span<double> y) {
   double done = 0.0, size = h;
-  for (int attempts = kMostAttempts; done < h;) {
+  for (int attempts = kMostAttempts; done != h;) {
     const double way = stride(system, t + done, h - done, size, attempts, y);
     if (way == 0.0) break;
     done = way == h - done ? h : done + way;
@@ -42,15 +45,17 @@ double Extrapolation::stride(const System& system, double t, double most, double
                              int& attempts, std::span<double> y) {
   std::copy(y.begin(), y.end(), now_.begin());
   system.derivative(t, now_, rate_);
+  const double least = kLeast * std::max(std::abs(t), std::abs(t + most));
   while (attempts-- > 0) {
-    const double way = 1.01 * size >= most ? most : size;
+    const double way = 1.01 * std::abs(size) >= std::abs(most) ? most : size;
+    if (!(std::abs(way) > least)) break;
     const double error = attempt(system, t, way);
     if (!(error <= 1.0)) {
       size = way * std::min(0.7, factor(error));
       continue;
     }
     for (std::size_t i = 0; i < size_; ++i) y[i] = now_[i] + table_[column_][i];
-    size = std::max(size, way) * factor(error);
+    size = (std::abs(way) > std::abs(size) ? way : size) * factor(error);
     return way;
   }
   return 0.0;
@@ -75,7 +80,7 @@ double Extrapolation::attempt(const System& system, double t, double h) {
     midpoint(system, t, h, 2 * (column_ + 1), stage_);
     error = extend();
     const bool last = column_ + 1 == kColumns;
-    if (last || (column_ > 0 && error <= kEnough)) return error;
+    if (last || !std::isfinite(error) || (column_ > 0 && error <= kEnough)) return error;
   }
 }
 

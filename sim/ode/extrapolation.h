@@ -20,17 +20,17 @@ class Extrapolation {
   /// @param tolerance  error per step in each number y of Y, relative to 1 + |y|
   Extrapolation(int size, double tolerance);
 
-  /// Replaces y = Y(t) by Y(t + h), h > 0 [s], in as many steps as the tolerance asks for, and
-  /// normalises it. The result depends on t, h and y alone.
+  /// Replaces y = Y(t) by Y(t + h), h [s] of either sign, in as many steps as the tolerance asks
+  /// for, and normalises it. The result depends on t, h and y alone.
   /// @return h [s], or how far a limited number of attempts led, which is where y then is
   double step(const System& system, double t, double h, std::span<double> y);
 
   /// One step alone: replaces y = Y(t) by what it is as far on as the tolerance lets go at once,
   /// and normalises nothing.
-  /// @param most      [s] > 0, no further than this
-  /// @param size      [s] the step to try; afterwards that of the next
+  /// @param most      [s] of either sign, no further than this
+  /// @param size      [s] of the same sign: the step to try; afterwards that of the next
   /// @param attempts  that may still be made; counts down
-  /// @return how far it led [s]; 0 where no attempts were left
+  /// @return how far it led [s]; 0 where no attempts were left, or only rounding of t
   double stride(const System& system, double t, double most, double& size, int& attempts,
                 std::span<double> y);
 

@@ -65,6 +65,11 @@ constexpr Integrator kIntegrators[] = {
      .adaptive = true,
      .hasDense = true,
      .create = makeDopri5},
+    {.name = "extrapolation",
+     .summary = "Gragg's midpoint rule, extrapolated to no substeps; divides a step like dopri5",
+     .order = 10,
+     .adaptive = true,
+     .create = makeExtrapolation},
 };
 
 }  // namespace

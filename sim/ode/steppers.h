@@ -13,6 +13,7 @@ std::unique_ptr<Stepper> makeSymplecticEuler(int size, const Choices&);
 std::unique_ptr<Stepper> makeMidpoint(int size, const Choices&);
 std::unique_ptr<Stepper> makeRk4(int size, const Choices&);
 std::unique_ptr<Stepper> makeDopri5(int size, const Choices&);
+std::unique_ptr<Stepper> makeExtrapolation(int size, const Choices&);
 std::unique_ptr<Stepper> makeImplicitMidpoint(int size, const Choices&);
 std::unique_ptr<Stepper> makeSplitting2(int size, const Choices&);
 std::unique_ptr<Stepper> makeSplitting4(int size, const Choices&);

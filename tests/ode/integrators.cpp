@@ -31,7 +31,7 @@ double observedOrder(Error error, int steps) {
 TEST_CASE("the table has a row for each name and none for a stranger") {
   for (const char* name :
        {"euler", "symplectic-euler", "midpoint", "implicit-midpoint", "splitting2", "rk4", "rkmk4",
-        "splitting4", "nystrom4", "taylor", "dopri5"}) {
+        "splitting4", "nystrom4", "taylor", "dopri5", "extrapolation"}) {
     REQUIRE(findIntegrator(name) != nullptr);
     CHECK(findIntegrator(name)->name == name);
   }
@@ -97,6 +97,19 @@ TEST_CASE("the adaptive integrator holds its tolerance at the cost of its order"
   CAPTURE(system.evaluations, distance(y, Kepler::start()));
   CHECK(distance(y, Kepler::start()) < 5e-8);
   CHECK(system.evaluations < 1500);
+}
+
+// Oracle: closed form, as above. Measured 4e-10 after one turn in 833 evaluations, either way in
+// time.
+TEST_CASE("extrapolation comes as near in fewer looks") {
+  const Integrator& row = *findIntegrator("extrapolation");
+  const double turn = 2.0 * 3.14159265358979323846 * GENERATE(1.0, -1.0);
+  const Kepler system;
+  std::vector<double> y = Kepler::start();
+  run(row, system, turn, 1, y);
+  CAPTURE(system.evaluations, distance(y, Kepler::start()));
+  CHECK(distance(y, Kepler::start()) < 3e-8);
+  CHECK(system.evaluations < 1050);
 }
 
 // Oracle: closed form. Powers up to t⁴ are integrated to rounding, the estimate being zero too only

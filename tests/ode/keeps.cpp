@@ -29,7 +29,7 @@ TEST_CASE("the rows that keep quadratic invariants keep energy and momentum of a
   for (const Integrator& row : integrators()) {
     if (!suits(row, top)) continue;
     std::vector<double> y = {0.0, 1.0, 1.0};
-    run(row, top, 100.0, 1000, y, 4);
+    run(row, top, 100.0, row.adaptive ? 10 : 1000, y, 4);
     const double momentum = std::abs(y[0] * y[0] + y[1] * y[1] - 1.0);
     const double energy = std::abs(0.51 * y[0] * y[0] + y[2] * y[2] - 1.0);
     CAPTURE(row.name, momentum, energy);
