@@ -46,7 +46,7 @@ double Stepping::roughTolerance(double scale) const {
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
   const SteppingSettings& stepping = model_.def.stepping;
   const Problem& problem = work_.problem;
-  if (!work_.bonds.empty() || problem.cones.size() <= kFew ||
+  if (problem.cones.size() <= kFew ||
       (stepping.crowdSolver == stepping.solver && stepping.crowdTolerance == stepping.tolerance))
     return 0.0;
   double fastest = 0.0;
@@ -70,10 +70,20 @@ void Stepping::setAside(std::span<const Link> links, double scale, double h) {
   Problem& problem = work_.problem;
   std::size_t cone = 0, kept = 0;
   int rows = 0;
+  const auto keep = [&](Cone of) {
+    for (int r = 0; r < coneRows(of.kind); ++r) problem.rows[rows + r] = problem.rows[of.row + r];
+    of.row = rows;
+    rows += coneRows(of.kind);
+    problem.cones[kept++] = of;
+  };
   for (const Link link : links) {
+    if (!isPair(link)) {
+      keep(problem.cones[cone++]);
+      continue;
+    }
     for (Touch& touch : memory_.pairs[link].touches) {
       if (flies(touch, h)) continue;
-      Cone of = problem.cones[cone++];
+      const Cone of = problem.cones[cone++];
       const Row& normal = problem.rows[of.row];
       const double parts =
           rowSpeed(normal, problem.vStar[normal.a], problem.vStar[normal.b]) + normal.bias;
@@ -84,10 +94,7 @@ void Stepping::setAside(std::span<const Link> links, double scale, double h) {
         touch.contact.sliding = touch.contact.lasting = false;
         continue;
       }
-      for (int r = 0; r < coneRows(of.kind); ++r) problem.rows[rows + r] = problem.rows[of.row + r];
-      of.row = rows;
-      rows += coneRows(of.kind);
-      problem.cones[kept++] = of;
+      keep(of);
     }
   }
   problem.rows.resize(rows);

@@ -212,7 +212,7 @@ void Stepping::swing(std::span<const Link> links, double h) {
     rough_ = rough_ || memory.rough;
     if (memory.rough) leaveOpen(memory.scale, h);
     share(links, memory, h);
-    if (!bent && work_.bonds.empty()) stand(memory, crowd, h);
+    if (!bent && !isBonded(links)) stand(memory, crowd, h);
   }
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {

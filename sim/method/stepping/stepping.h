@@ -201,6 +201,9 @@ class Stepping {
   /// The forest in which bodies that are near each other are as one.
   void joinNear();
   std::pair<int, int> ends(Link link) const;
+  bool isBonded(std::span<const Link> links) const {
+    return std::any_of(links.begin(), links.end(), [&](Link link) { return !isPair(link); });
+  }
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
   Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }
   void solveIsland(std::span<const Link> links, double h);
