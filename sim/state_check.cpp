@@ -111,7 +111,8 @@ std::vector<StateFault> sinking(const Model& model, std::span<const RigidBody> b
   constexpr double kRounding = 1e-9;  // of the largest acceleration
   double scale = model.def.gravity.norm();
   for (const RigidBody& body : bodies) scale = std::max(scale, body.invM * body.force.norm());
-  return worstOfPairs(StateLayer::Accelerations, kRounding * std::max(scale, 1e-3), contacts,
+  constexpr double kCalm = 1e-3;  // [m/s²]
+  return worstOfPairs(StateLayer::Accelerations, kRounding * std::max(scale, kCalm), contacts,
                       [&](const Contact& c) {
                         if (!rests(model, bodies, c)) return 0.0;
                         return normalAcceleration(bodies[c.a], bodies[c.b], c.point);

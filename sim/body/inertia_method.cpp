@@ -44,7 +44,8 @@ MassProperties byPoints(const Shape& shape, double mass, const Samples& samples)
   const Vec3 mean = first / count;
   const Mat3 spread = second / count - mean * mean.transpose();
   const Mat3 inertia = spread.trace() * Mat3::Identity() - spread;
-  if (!(inertia.determinant() > 1e-14 * cube(inertia.trace())))
+  constexpr double kLine = 1e-14;  // of the cube of the trace
+  if (!(inertia.determinant() > kLine * cube(inertia.trace())))
     throw std::invalid_argument("samples: the points inside lie on a line; take more");
   return {mass, mass * inertia, middle + mean};
 }

@@ -46,7 +46,8 @@ Approach::Approach(const Flyer& a, const Flyer& b, double touch) : touch_(touch)
       side.turning = top->accelBound(1.0) - side.slack;
       continue;
     }
-    side.turning = side.flyer.flight->turning() * (1.0 + 1e-12);
+    constexpr double kWider = 1e-12;
+    side.turning = side.flyer.flight->turning() * (1.0 + kWider);
     const Vec3& fall = side.flyer.flight->path().g;
     acceleration_ += &side == &side_[0] ? fall : Vec3(-fall);
   }

@@ -25,7 +25,8 @@ class Least {
       out_.count = 0;
       out_.n = n;
     }
-    if (out_.count == kMaxPoints || (n - out_.n).norm() > 1e-9) return;
+    constexpr double kOther = 1e-9;  // of unit normals
+    if (out_.count == kMaxPoints || (n - out_.n).norm() > kOther) return;
     out_.points[out_.count++] = point;
   }
 
@@ -66,7 +67,8 @@ Vec3 edgeMiddle(const Vec3& half, int axis, unsigned which) {
 void offerEdges(const BoxPair& p, int i, int j, Least& least) {
   const Vec3 ea = p.C.col(i), eb = Vec3::Unit(j);
   const double cosine = ea.dot(eb), sine2 = ea.cross(eb).squaredNorm();
-  if (sine2 < 1e-18) return;
+  constexpr double kParallel = 1e-18;  // squared sine
+  if (sine2 < kParallel) return;
   for (unsigned k = 0; k < 16; ++k) {
     const Vec3 ma = p.d + p.C * edgeMiddle(p.halfA, i, k & 3), mb = edgeMiddle(p.halfB, j, k >> 2);
     const Vec3 between = ma - mb;

@@ -79,7 +79,8 @@ bool overlap(const Part& a, const Part& b) {
   const auto outermost = [&](const Vec3& n) {
     return gjk::Outermost{farthest(a, -n), farthest(b, n)};
   };
-  return gjk::nearest(outermost, v, 1e-3 * kRounding * size, 0.0).inside;
+  constexpr double kFiner = 1e-3;
+  return gjk::nearest(outermost, v, kFiner * kRounding * size, 0.0).inside;
 }
 
 std::pair<int, int> overlappingParts(const Compound& compound) {

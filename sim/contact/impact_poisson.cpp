@@ -55,7 +55,9 @@ ImpactReport impactPoisson(const Impact& impact) {
   double share = 1.0, low = 0.0;
   for (int halving = 0;; ++halving) {
     const ImpactReport trial = restore(impact, compression, share);
-    const bool gains = kineticEnergy(impact.bodies) - work - trial.work > before * (1.0 + 1e-14);
+    constexpr double kRounding = 1e-14;
+    const bool gains =
+        kineticEnergy(impact.bodies) - work - trial.work > before * (1.0 + kRounding);
     if (!gains && (share == 1.0 || halving >= kHalvings)) {
       add(trial, report);
       return report;

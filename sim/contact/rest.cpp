@@ -128,7 +128,8 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contac
     if (!c.creeping) continue;
     const Vec3 f = force(i), tangential = f - f.dot(c.point.n) * c.point.n;
     const Vec3 slip = slipVelocity(bodies[c.a], bodies[c.b], c.point);
-    const bool saturated = tangential.norm() >= c.friction * f.dot(c.point.n) * (1.0 - 1e-9);
+    constexpr double kEdge = 1e-9;  // of the cone: nearer is on its edge
+    const bool saturated = tangential.norm() >= c.friction * f.dot(c.point.n) * (1.0 - kEdge);
     // A slip that will end within the step keeps its line, so that the instant of its end is found.
     const bool turnsRound = saturated && tangential.dot(slip) < 0.0;
     if (turnsRound) c.slipDirection = -tangential.normalized();

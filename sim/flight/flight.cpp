@@ -46,7 +46,8 @@ Quat Flight::attitude(double t) const {
 }
 
 double Flight::accelBound(double r) const {
-  return (parabola_.g.norm() + r * rotor_.turning()) * (1.0 + 1e-12);
+  constexpr double kWider = 1e-12;
+  return (parabola_.g.norm() + r * rotor_.turning()) * (1.0 + kWider);
 }
 
 }  // namespace tumble

@@ -155,8 +155,9 @@ double Polhode::turning() const {
   const double top = c2 < 0.0 ? -0.5 * c1 / c2 : 0.0;
   if (top > 0.0 && top < 1.0) most = std::max(most, c0 + top * (c1 + top * c2));
 
+  constexpr double kWider = 1e-12;
   // The last factor covers rounding.
-  return (0.5 * omega2 + std::sqrt(0.25 * omega2 * omega2 + most)) * (1.0 + 1e-12);
+  return (0.5 * omega2 + std::sqrt(0.25 * omega2 * omega2 + most)) * (1.0 + kWider);
 }
 
 }  // namespace tumble

@@ -41,8 +41,9 @@ double exponential(double x) {
 double agm(double a, double b) {
   if (!std::isfinite(a + b)) return std::numeric_limits<double>::quiet_NaN();
   if (!(a > 0.0 && b > 0.0)) return 0.0;
+  constexpr double kNear = 1e-8;  // the square of it is rounding
   // The mean of two numbers that differ by δ is off by δ²/16.
-  while (std::abs(a - b) > 1e-8 * a) {
+  while (std::abs(a - b) > kNear * a) {
     const double mean = 0.5 * (a + b);
     b = std::sqrt(a * b);
     a = mean;

@@ -126,8 +126,9 @@ Quat turnBetween(const Vec3& from, const Vec3& to) {
 
 [[gnu::flatten]] Quat rotated(const Quat& q, const Vec3& w) {
   const double angle2 = w.squaredNorm();
-  double scale, c;  // sin(|w|/2)/|w| and cos(|w|/2)
-  if (angle2 < 1e-8) {
+  constexpr double kSmall = 1e-8;  // [rad²]
+  double scale, c;                 // sin(|w|/2)/|w| and cos(|w|/2)
+  if (angle2 < kSmall) {
     // The next terms of the series, |w|⁴/3840 and −|w|⁶/46080, are below rounding.
     scale = 0.5 - angle2 / 48.0;
     c = 1.0 - angle2 / 8.0 + angle2 * angle2 / 384.0;
@@ -158,7 +159,8 @@ Quat nearestRotation(const Mat3& R) {
     const Mat3 next = 0.5 * (Q + Q.inverse().transpose());
     const double change = (next - Q).norm();
     Q = next;
-    if (!(change > 1e-15)) break;
+    constexpr double kChange = 1e-15;  // rounding of a matrix
+    if (!(change > kChange)) break;
   }
   return Quat(Q).normalized();
 }

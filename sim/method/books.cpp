@@ -60,7 +60,8 @@ void Report::note(const char* text) {
 
 double gridTime(const Model& model, long k, double h) {
   const double next = static_cast<double>(k + 1) * h, end = model.def.duration;
-  return next > end - 1e-9 * h ? end : next;  // no sliver of a step is left before the end
+  constexpr double kSliver = 1e-9;               // of a step
+  return next > end - kSliver * h ? end : next;  // no sliver of a step is left before the end
 }
 
 std::string spentBy(const Model& model, const State& state) {

@@ -33,7 +33,8 @@ void turn(Lanes& x, Lanes& y, Lanes tangent) {
 
 /// λ = W⁻¹ r by Cholesky; false if W is singular.
 bool solveThree(const Mat3& W, const Vec3& r, Vec3& lambda) {
-  const double floor = 1e-14 * (W(0, 0) + W(1, 1) + W(2, 2));
+  constexpr double kFlat = 1e-14;  // of the trace
+  const double floor = kFlat * (W(0, 0) + W(1, 1) + W(2, 2));
   if (!(W(0, 0) > floor)) return false;
   const double l10 = W(1, 0) / W(0, 0), l20 = W(2, 0) / W(0, 0);
   const double d1 = W(1, 1) - l10 * W(1, 0);
@@ -65,7 +66,8 @@ bool slide(const Mat3& W, const Vec3& c, double mu, Vec2 d, double enough, Vec3&
     if (!(slope < 0.0 && std::abs(h) < -slope)) {
       const Vec2 halfway = d + slip / slip.norm();
       const double size = halfway.norm();
-      if (!(size > 1e-3)) return false;
+      constexpr double kAgainst = 1e-3;  // of two unit directions
+      if (!(size > kAgainst)) return false;
       d = halfway / size;
       continue;
     }

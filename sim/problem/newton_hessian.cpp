@@ -99,7 +99,8 @@ void NewtonSystem<N>::beginMasses(Factor& factor) {
 /// there rounding alone would choose a piece.
 template <int N>
 void NewtonSystem<N>::guessPieces() {
-  const double nearly = 1e-6 * scale;
+  constexpr double kNearly = 1e-6;  // of the scale
+  const double nearly = kNearly * scale;
   forRows(&Mover::star, [&](Point& point, const Vec3& star) {
     const bool holds = std::min(star[0] + point.bias[0], point.u[0]) < nearly;
     const bool slips = point.piece == Piece::Edge && std::hypot(point.u[1], point.u[2]) >= nearly;

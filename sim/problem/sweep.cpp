@@ -12,7 +12,8 @@ namespace {
 
 /// L with A = L Lᵀ for a positive semidefinite A; a direction that A does not know gets 0.
 Mat3 rootOf(const Mat3& A) {
-  const double floor = 1e-15 * A.trace();
+  constexpr double kFlat = 1e-15;  // of the trace
+  const double floor = kFlat * A.trace();
   Mat3 L = Mat3::Zero();
   for (int j = 0; j < 3; ++j) {
     double pivot = A(j, j);

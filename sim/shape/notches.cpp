@@ -62,8 +62,9 @@ std::vector<CutPlane> Notches::planesAt(const Notch& notch,
   const CutPlane left = planeOf(notch.left), right = planeOf(notch.right);
   std::vector<CutPlane> planes = {left, right};
   const double length = (at(b) - at(a)).norm();
+  constexpr double kFolded = 1e-6;  // of two unit normals: less is back to back
   // Between the faces: into the solid, away from both.
-  if (const Vec3 in = left.n + right.n; in.norm() > 1e-6)
+  if (const Vec3 in = left.n + right.n; in.norm() > kFolded)
     planes.push_back(planeThrough(at(a), at(b), at(a) - length * in.normalized()));
   for (const Notch& other : others) {
     const auto [c, d] = reflex_.at(std::minmax(other.left, other.right));

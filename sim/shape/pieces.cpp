@@ -66,8 +66,9 @@ class Decomposer {
       if (done.size() + open.size() > kMostPieces || spent()) refuse(notches);
     }
     std::reverse(done.begin(), done.end());
+    constexpr double kGrain = 1e-15;  // of the size: rounding of a corner
     constexpr double kConvex = 0.02;  // of what a cut takes for on it
-    joinConvex(done, std::max(kConvex * snap_, 1e-15 * size_), slack());
+    joinConvex(done, std::max(kConvex * snap_, kGrain * size_), slack());
     checkVolume(done);
     return collected(std::move(done));
   }

@@ -51,8 +51,9 @@ double turningSpeed(const RigidBody& body, const Shape& shape) {
 }  // namespace
 
 double Course::foresee(double span) const {
+  constexpr double kShortest = 1e-3;  // no pair may slow the others down for ever
   constexpr double kTurn = 0.1;  // [rad] of a body in one stretch: integrators lose a larger one
-  const double shortest = 1e-3 * span;  // no pair may slow the others down for ever
+  const double shortest = kShortest * span;
   double safe = span;
   if (state_.near.empty()) return safe;  // nothing can be met: the step is the author's
   for (const RigidBody& body : state_.bodies)

@@ -148,8 +148,9 @@ double Course::allowance(double h) {
 }
 
 double Course::backUp(double span, double tooFar) {
+  constexpr double kInstant = 1e-15;  // [s]
   // The width of the bracket that is left: what a clock at t can still tell apart.
-  const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
+  const double instant = std::max(kInstant, std::numeric_limits<double>::epsilon() * state_.t);
   const auto allowed = [&](double h) { return allowance(h); };
   const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
   ++state_.recentBackUps;

@@ -44,7 +44,8 @@ double Course::gapAfter(double h, int a, int b) {
 }
 
 double Course::firstTouch(double h) {
-  const double instant = std::max(1e-15, std::numeric_limits<double>::epsilon() * state_.t);
+  constexpr double kInstant = 1e-15;  // [s]
+  const double instant = std::max(kInstant, std::numeric_limits<double>::epsilon() * state_.t);
   double first = h;
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto [b, a] = state_.near[k];

@@ -246,9 +246,10 @@ double Crossing::firstTouch() const {
       return Flight(body, body.invM * state_.outer[i], 0.0);
     };
     const Flight flightA = flightOf(pair.a), flightB = flightOf(pair.b);
+    constexpr double kShare = 1e-2;  // of the touch
     first =
         tumble::firstTouch({flightA, state_.parts[pair.a], scratch[pair.a]},
-                           {flightB, state_.parts[pair.b], scratch[pair.b]}, 1e-2 * touch, first);
+                           {flightB, state_.parts[pair.b], scratch[pair.b]}, kShare * touch, first);
   }
   return first;
 }
@@ -276,7 +277,8 @@ void Crossing::take(double most) {
     if (cut >= kCuts) break;
     if (first < h) {
       touches = true;
-      h = std::max(first, 1e-3 * h);
+      constexpr double kShortest = 1e-3;  // of a crossing
+      h = std::max(first, kShortest * h);
     } else if (const double deep = overlap();
                deep > kDeep * std::max(1.0, model_.size) && deep < kEases * before) {
       before = deep;

@@ -146,8 +146,9 @@ bool Sustained::findEvent(double& h) {
 
 std::optional<Bracket> Sustained::between(const Look& lo, const Look& hi) {
   if (hi.allowed < 0.0) {
+    constexpr double kInstant = 1e-15;  // [s]
     const double instant =
-        std::max(1e-15, std::numeric_limits<double>::epsilon() * (state_.t + hi.s));
+        std::max(kInstant, std::numeric_limits<double>::epsilon() * (state_.t + hi.s));
     return findRoot([&](double s) { return allowance(s); }, lo.s, hi.s, lo.allowed, hi.allowed,
                     instant);
   }

@@ -377,7 +377,9 @@ bool Stepping::slides(const Touch& touch, const Row& row) const {
   const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[contact.a].x) -
                     vb.head<3>() - vb.tail<3>().cross(c.p - state_.bodies[contact.b].x);
   const Vec3 slip = rate - rate.dot(c.n) * c.n;
-  return tangential.norm() >= contact.friction * j * (1.0 - 1e-9) && slip.norm() > tolerance_.stick;
+  constexpr double kEdge = 1e-9;  // of the cone: nearer is on its edge
+  return tangential.norm() >= contact.friction * j * (1.0 - kEdge) &&
+         slip.norm() > tolerance_.stick;
 }
 
 }  // namespace tumble

@@ -68,8 +68,9 @@ void Stepping::foreseeMeeting(std::size_t pair, double h) {
   };
   const Flight flightA = flightOf(ia), flightB = flightOf(ib);
   RigidBody a = state_.bodies[ia], b = state_.bodies[ib];
-  const double first =
-      firstTouch({flightA, partsOf(ia), a}, {flightB, partsOf(ib), b}, 1e-2 * tolerance_.touch, h);
+  constexpr double kShare = 1e-2;  // of the touch
+  const double first = firstTouch({flightA, partsOf(ia), a}, {flightB, partsOf(ib), b},
+                                  kShare * tolerance_.touch, h);
   if (first == h) return;
   nearest->rebounds = true;
   nearest->due = first;
