@@ -158,4 +158,11 @@ double largestJointGap(std::span<const RigidBody> bodies, std::span<const Joint>
   return largest;
 }
 
+const Joint* brokenJoint(std::span<const RigidBody> bodies, std::span<const Joint> joints) {
+  constexpr double kApart = 0.1;  // of the arm
+  for (const Joint& joint : joints)
+    if (!(largestJointGap(bodies, {&joint, 1}) < kApart * joint.arm)) return &joint;
+  return nullptr;
+}
+
 }  // namespace tumble

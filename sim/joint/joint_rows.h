@@ -31,4 +31,8 @@ void jointRows(std::span<const RigidBody> bodies, const Joint& joint, std::vecto
 /// the arm.
 double largestJointGap(std::span<const RigidBody> bodies, std::span<const Joint> joints);
 
+/// The first joint whose parts lie so far apart, by a tenth of its arm, that it holds nothing any
+/// more; null without one.
+const Joint* brokenJoint(std::span<const RigidBody> bodies, std::span<const Joint> joints);
+
 }  // namespace tumble

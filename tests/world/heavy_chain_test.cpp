@@ -73,6 +73,19 @@ TEST_CASE("exact: a chain that hangs at rest stays there under any load, for not
   CHECK(world.report().certificate.evaluations <= 2 * world.report().certificate.steps);
 }
 
+// Oracle: conservation. Fixed steps cannot follow the links; the run ends where a joint has come
+// apart, before that shows in energies: measured 5e-6 of the load times the length, allowed 1e-3.
+TEST_CASE("course: a chain that no step follows ends with the joint that came apart") {
+  World world(chainOf("course", 3, 1e6, kLevel));
+  world.advance(2.0);
+  const Certificate& books = world.report().certificate;
+  CAPTURE(world.report().reason, books.energy_end, books.max_joint_gap);
+  CHECK(world.report().stopped);
+  CHECK(world.report().reason.find("joint \"pin") == 0);
+  CHECK(std::abs(books.energy_end) < 1e-3 * 1e6 * 9.81 * 3.0 * kLink);
+  CHECK(books.max_joint_gap < 1e-4);  // measured 1e-5
+}
+
 // Oracle: the count of evaluations, and the chain as above.
 TEST_CASE("auto leaves a heavy chain to stepping after so much work, and swings it on") {
   World world(chainOf("auto", 3, 1e6, kLevel));

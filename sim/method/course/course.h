@@ -119,6 +119,8 @@ class Course {
   /// equilibrium.cpp: whether nothing moves in the joints, and all forces cancel.
   bool rests();
   void commit(double t1);
+  /// Ends the run at the start of the stretch that was tried.
+  void stop(const std::string& why);
 
   const Model& model_;
   State& state_;

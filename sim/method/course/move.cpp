@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/collide/collide.h"
+#include "sim/joint/joint_rows.h"
 #include "sim/math/root.h"
 #include "sim/method/course/course.h"
 
@@ -163,17 +164,23 @@ double Course::backUp(double span, double tooFar) {
   return std::min(span, std::max(h, kLate * model_.def.course.step));
 }
 
+void Course::stop(const std::string& why) {
+  report_.stopped = true;
+  report_.reason = why;
+  state_.trail.pop_back();
+}
+
 void Course::commit(double t1) {
   Certificate& books = report_.certificate;
   state_.effort.done = system_.effort.done;
-  if (!allFinite(y_)) {
-    report_.stopped = true;
-    report_.reason = state_.effort.spent()
-                         ? spentBy(model_, state_)
-                         : "the motion left the range of numbers; try a smaller course.step";
-    state_.trail.pop_back();
-    return;
-  }
+  if (!allFinite(y_))
+    return stop(state_.effort.spent()
+                    ? spentBy(model_, state_)
+                    : "the motion left the range of numbers; try a smaller course.step");
+  system_.unpack(y_, trial_);
+  if (const Joint* open = brokenJoint(trial_, model_.joints))
+    return stop("joint \"" + model_.def.joints[open - model_.joints.data()].name +
+                "\" came apart; try a smaller course.step");
   system_.unpack(y_, state_.bodies);
   const Ledger ledger = system_.ledger(y_);
   books.work_of_forces += ledger.work;

@@ -29,13 +29,6 @@ void Stepping::bookJoints(double h) {
   jointForces(segment.start, model_.joints, work_.bonds, h, segment.joints);
 }
 
-const Joint* Stepping::brokenJoint() const {
-  constexpr double kApart = 0.1;  // of the arm of a joint: what its rows no longer close
-  for (const Joint& joint : model_.joints)
-    if (!(largestJointGap(state_.bodies, {&joint, 1}) < kApart * joint.arm)) return &joint;
-  return nullptr;
-}
-
 void Stepping::meetJoints(double h) {
   if (model_.joints.empty()) return;
   beginAllowedVelocities(state_.bodies, model_.joints, work_.bonds, work_.problem);

@@ -236,8 +236,6 @@ class Stepping {
   void bookOuter();
   /// Takes from the velocities what the joints do not allow where they now are.
   void meetJoints(double h);
-  /// A joint whose parts lie so far apart that no projection brings them together, or null.
-  const Joint* brokenJoint() const;
   /// How many parts the next step needs for what swings fast in joints: under what they carried in
   /// the last one; or, before there is one, by themselves, without what touches.
   void divideNext(double h);
