@@ -254,7 +254,8 @@ class Decomposer {
   Pieces collected(std::vector<Polyhedron> hulls) const {
     Pieces pieces;
     pieces.excess = excess_;
-    if (tolerance_ > 0.0) pieces.slack = 2.0 * std::max(snap_, excess_);
+    // Hulls of what a plane parts stay on their sides of it, however much they stand out elsewhere.
+    pieces.slack = 2.0 * snap_;
     for (Polyhedron& hull : hulls)
       pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
     return pieces;
