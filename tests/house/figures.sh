@@ -75,6 +75,9 @@ section "CPU time of an image of 200 bodies, 1280x720, shadows, four samples a p
 cmake --build "$build" --target render_bench >/dev/null 2>&1
 run "$build/tests/render_bench" "$scratch"
 
+section "The window on a display in memory: first picture, image after image"
+run tests/house/window.sh "$build" | grep -e '^\$' -e '^time' -e skipped
+
 section "Speed against error: CPU seconds for a simulated second"
 run "$tumble" report -o "$scratch/report" | tail -n 60
 

@@ -91,4 +91,20 @@ check "a scene that is saved is shown anew" until_done 30 reloaded
 xdotool key End l
 later() { rm -f fall-*.png; xdotool key s; sleep 0.5; ls fall-*.png | awk -F'[-.]' '{ exit !($2 + 0 > 60) }'; }
 check "l lets it run on beyond its end" until_done 30 later
+
+# How fast it is, told, not judged: what else runs on the machine counts too.
+now() { date +%s%3N; }
+kill "$program"
+wait "$program" 2>/dev/null || true
+# took IMAGES: ms until `pile` has shown so many, from the command on
+took() {
+  local start
+  start=$(now)
+  "$tumble" view pile --images "$1" >log 2>&1
+  echo $(($(now) - start))
+}
+took 1 >/dev/null  # what the driver compiles is kept
+first=$(took 1)
+echo "time until the first picture of pile, from the command on: $first ms"
+echo "time of an image of pile, while it is simulated: $((($(took 201) - first) / 200)) ms"
 exit $status
