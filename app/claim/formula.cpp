@@ -30,7 +30,8 @@ Formula::Formula(const std::string& text) : parser_(new Parser) {
       parser.DefineVar(names_[i], &parser_->numbers[i]);
     parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    throw NotAFormula(error.GetMsg(), std::clamp(error.GetPos(), 0, static_cast<int>(text.size())));
+    throw NotAFormula(error.GetMsg() + "; expected for example \"ball.y\" or \"energy / 2\"",
+                      std::clamp(error.GetPos(), 0, static_cast<int>(text.size())));
   }
 }
 

@@ -129,14 +129,30 @@ std::string graphCsv(const std::vector<GraphSeries>& series, int rows) {
   return csv;
 }
 
+namespace {
+
+// Whether an energy changes by so much that the axis may leave 0 out, and by so little that it has
+// to, for the change to be seen; what is lost or gained otherwise is seen as a share of it.
+bool changesVisibly(const std::vector<GraphSeries>& series) {
+  double least = 0.0, most = 0.0;
+  for (const GraphSeries& one : series)
+    for (const Eigen::Vector2d& point : one.points) {
+      const bool first = &one == &series.front() && &point == &one.points.front();
+      least = first ? point.y() : std::min(least, point.y());
+      most = first ? point.y() : std::max(most, point.y());
+    }
+  return least > 0.5 * most && least < 0.95 * most;
+}
+
+}  // namespace
+
 Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
   Chart plot;
   plot.title = graph.variant.title;
   plot.subtitle = graph.subtitle;
   plot.x = {graph.across.empty() ? "time / s" : graph.across, false};
-  // What is lost or gained of an energy is seen as a share of it.
   plot.y = {graph.shows == "values" ? graph.axis : captionOf(graph.shows), false,
-            graph.shows == "energy"};
+            graph.shows == "energy" && !changesVisibly(series)};
   for (std::size_t i = 0; i < series.size(); ++i) {
     ChartCurve& curve = plot.curves.emplace_back();
     curve.label = series[i].label;

@@ -59,6 +59,7 @@ void addMissteps(const Scene& scene, const Recording& recording, double t, Pictu
                                      "t = " + fourDigits(misstep.t) + " s: " +
                                          fourDigits(-1e3 * misstep.separation) + " mm too deep",
                                      colour::kForce));
+    picture.labels.back().offset = {16.0, -10.0};  // above the ruler, which passes the body
     if (misstep.mendedAt > t) continue;
     picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), 0.85f));
     const Vec3 tip = beside(body, misstep.mended, -kAside);

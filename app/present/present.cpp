@@ -272,7 +272,10 @@ void Presenter::addExpectations(Picture& picture) const {
     if (!scene_.show.title) continue;
     Label label;
     label.offset = {32.0, baseline};
-    label.text = fmt::format("{}: {:.6g}, expected {}{:.6g}{}", one.row.label, one.row.measured,
+    // Beside 0, what is left is an error: its size tells, its digits do not.
+    const std::string measured =
+        fmt::format("{:.{}g}", one.row.measured, one.row.exact == 0.0 ? 2 : 6);
+    label.text = fmt::format("{}: {}, expected {}{:.6g}{}", one.row.label, measured,
                              signOf(one.row.relation), one.row.exact,
                              one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : "");
     label.size = 13.0f;

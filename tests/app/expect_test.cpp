@@ -79,7 +79,7 @@ TEST_CASE("a formula that is none is refused where it goes wrong") {
       GENERATE(Slip{"value = \"ball.3.w\"\nequals = 0", {"throw:13:10:", "ball.3.w"}},
                Slip{"value = \"2 * bal.3.x\"\nequals = 0", {"throw:13:14:", "ball.3"}},
                Slip{"value = \"enrgy\"\nequals = 0", {"throw:13:10:", "'energy'"}},
-               Slip{"value = \"1 + * 2\"\nequals = 0", {"throw:13:14:"}},
+               Slip{"value = \"1 + * 2\"\nequals = 0", {"throw:13:14:", "for example"}},
                Slip{"value = \"t = 2\"\nequals = 0", {"throw:13:12:", "equals"}},
                Slip{"value = \"t\"", {"equals", "at_most"}},
                Slip{"value = \"t\"\nequals = 0\nat_most = 1", {"equals"}},
