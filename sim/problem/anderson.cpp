@@ -116,18 +116,20 @@ void Anderson::remember(const VecX& g, double size) {
 }
 
 /// γ from the normal equations of  min |r − Σ γ dr|,  which are L D Lᵀ with the newest column
-/// first: one that newer ones make up to rounding is left out.
+/// first: one that newer ones make up to rounding is left out. Quarters without a difference are
+/// zero, and so is their γ.
 Anderson::Small Anderson::weights() const {
+  constexpr int kQuarter = kDepth / 4;
   Gram columns, transposed;
-  Small perPivot, gamma = right_;
+  Small perPivot = Small::Zero(), gamma = right_;
   factor<0>(gram_, columns, perPivot, transposed);
-  factor<1>(gram_, columns, perPivot, transposed);
-  factor<2>(gram_, columns, perPivot, transposed);
-  factor<3>(gram_, columns, perPivot, transposed);
-  for (int k = 0; k < kDepth; ++k)
+  if (used_ > kQuarter) factor<1>(gram_, columns, perPivot, transposed);
+  if (used_ > 2 * kQuarter) factor<2>(gram_, columns, perPivot, transposed);
+  if (used_ > 3 * kQuarter) factor<3>(gram_, columns, perPivot, transposed);
+  for (int k = 0; k < used_; ++k)
     for (int j = 0; j < k; ++j) gamma[k] -= transposed(j, k) * gamma[j];
   gamma.array() *= perPivot.array();
-  for (int k = kDepth - 1; k > 0; --k)
+  for (int k = used_ - 1; k > 0; --k)
     for (int j = 0; j < k; ++j) gamma[j] -= transposed(j, k) * gamma[k];
   return gamma;
 }
