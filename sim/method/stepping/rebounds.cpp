@@ -75,10 +75,10 @@ double Stepping::untilHit(double soon, double h, double least) {
     if (!hits(k)) continue;
     PairMemory& pair = memory_.pairs[k];
     pair.tumbles = tumbles(k, h);
-    for (Touch& touch : pair.touches) {
-      if (pair.bounces) {
-        foresee(touch, least);
-      } else {
+    if (pair.bounces) {
+      foresee(k, least);
+    } else {
+      for (Touch& touch : pair.touches) {
         touch.rebounds = false;
         touch.due = 0.0;
       }
@@ -147,7 +147,15 @@ double pushAlong(const RigidBody& body, const ContactPoint& c) {
 /// velocity that forces give it until its end, so that their part of s̈ counts twice; and its
 /// contact problem sees no other part, which must not stop what is still to be struck. Hits that
 /// would rebound at no more than the speed of a contact that lasts are left to the contact problem.
-void Stepping::foresee(Touch& touch, double least) const {
+void Stepping::foresee(std::size_t pair, double least) {
+  std::vector<Touch>& touches = memory_.pairs[pair].touches;
+  if (touches.empty()) return;
+  const auto [b, a] = state_.near[pair];
+  const RigidBody pushedA = underWay(a), pushedB = underWay(b);
+  for (Touch& touch : touches) foresee(touch, pushedA, pushedB, least);
+}
+
+void Stepping::foresee(Touch& touch, const RigidBody& a, const RigidBody& b, double least) const {
   const Contact& c = touch.contact;
   Closing way{.gap = closed(touch) ? 0.0 : c.point.separation,
               .rate = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point),
@@ -155,7 +163,6 @@ void Stepping::foresee(Touch& touch, double least) const {
   const bool held = work_.held[c.a] || work_.held[c.b];
   Closing row = way;
   if (way.gap > 0.0 || way.rate > 0.0) {
-    const RigidBody a = underWay(c.a), b = underWay(c.b);
     way.bend = normalAcceleration(a, b, c.point);
     if (held) {
       const double push = pushAlong(a, c.point) - pushAlong(b, c.point);

@@ -115,7 +115,10 @@ class Stepping {
   void hold(const Contact& contact);
   /// Holds the bodies of hits that the contact problem of the next h seconds stops, or of all.
   void holdStopped(double h, bool all);
-  void foresee(Touch& touch, double least) const;
+  /// Which points of a pair rebound faster than `least` [m/s], and when they are due.
+  void foresee(std::size_t pair, double least);
+  /// The same of one point; a and b are its bodies as underWay has them.
+  void foresee(Touch& touch, const RigidBody& a, const RigidBody& b, double least) const;
 
   // tumbling.cpp: the hits of bodies that turn too fast for parabolas.
   /// Tells pairs of few bodies from those in a crowd, whose hits divide no step.
