@@ -41,12 +41,12 @@ bool Stepping::strikesAsCrowd() const {
   return crowd_ && (model_.def.impact == "auto" || model_.def.impact == "crowd");
 }
 
-double Stepping::roughTolerance(double scale) const {
+double Stepping::roughTolerance(std::span<const Link> links, double scale) const {
   constexpr double kMoves = 3e-3;   // of the largest speed
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
   const SteppingSettings& stepping = model_.def.stepping;
   const Problem& problem = work_.problem;
-  if (problem.cones.size() <= kFew ||
+  if (problem.cones.size() <= kFew || isBonded(links) ||
       (stepping.crowdSolver == stepping.solver && stepping.crowdTolerance == stepping.tolerance))
     return 0.0;
   double fastest = 0.0;
@@ -70,20 +70,10 @@ void Stepping::setAside(std::span<const Link> links, double scale, double h) {
   Problem& problem = work_.problem;
   std::size_t cone = 0, kept = 0;
   int rows = 0;
-  const auto keep = [&](Cone of) {
-    for (int r = 0; r < coneRows(of.kind); ++r) problem.rows[rows + r] = problem.rows[of.row + r];
-    of.row = rows;
-    rows += coneRows(of.kind);
-    problem.cones[kept++] = of;
-  };
   for (const Link link : links) {
-    if (!isPair(link)) {
-      keep(problem.cones[cone++]);
-      continue;
-    }
     for (Touch& touch : memory_.pairs[link].touches) {
       if (flies(touch, h)) continue;
-      const Cone of = problem.cones[cone++];
+      Cone of = problem.cones[cone++];
       const Row& normal = problem.rows[of.row];
       const double parts =
           rowSpeed(normal, problem.vStar[normal.a], problem.vStar[normal.b]) + normal.bias;
@@ -94,7 +84,10 @@ void Stepping::setAside(std::span<const Link> links, double scale, double h) {
         touch.contact.sliding = touch.contact.lasting = false;
         continue;
       }
-      keep(of);
+      for (int r = 0; r < coneRows(of.kind); ++r) problem.rows[rows + r] = problem.rows[of.row + r];
+      of.row = rows;
+      rows += coneRows(of.kind);
+      problem.cones[kept++] = of;
     }
   }
   problem.rows.resize(rows);
@@ -167,7 +160,7 @@ bool Stepping::isFarOff(const SolveReport& solved, double tolerance) const {
 SolveReport Stepping::solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
                                      IslandMemory& memory, double h) {
   const double scale = !bent && crowd ? velocityScale(work_.problem) : 0.0;
-  const double part = scale > 0.0 ? roughTolerance(scale) : 0.0;
+  const double part = scale > 0.0 ? roughTolerance(links, scale) : 0.0;
   memory.rough = part > 0.0;
   if (memory.rough) {
     setAside(links, scale, h);

@@ -156,7 +156,7 @@ class Stepping {
   /// What may be left of the problem at hand, if it is that of many contacts that move: of what
   /// moves, the part that is planned for crowds. 0 for any other problem.
   /// @param scale [m/s] its velocityScale
-  double roughTolerance(double scale) const;
+  double roughTolerance(std::span<const Link> links, double scale) const;
   /// Whether all that is asked of any crowd is to leave a little open.
   bool isHasty() const {
     return model_.def.stepping.anyCrowd && model_.def.stepping.crowdOpen > 0.0;
