@@ -17,6 +17,15 @@ bool BlockStructure::isFor(int rows, std::span<const BlockEdge> edges) const {
   return rows == rows_ && std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end());
 }
 
+double BlockStructure::products() const {
+  double sum = 0.0;
+  for (int c = 0; c < rows_; ++c) {
+    const double below = begin_[c + 1] - begin_[c];
+    sum += 0.5 * below * (below + 1.0);
+  }
+  return sum;
+}
+
 void BlockStructure::order() {
   Eigen::SparseMatrix<double> graph(rows_, rows_);  // its lower triangle
   graph.reserve(static_cast<Eigen::Index>(edges_.size()) + rows_);

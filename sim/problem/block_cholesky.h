@@ -28,6 +28,9 @@ class BlockStructure {
 
   bool isFor(int rows, std::span<const BlockEdge> edges) const;
 
+  /// How many products of two blocks a factor takes, but for those of whole columns.
+  double products() const;
+
  private:
   template <int N>
   friend class BlockCholesky;

@@ -111,6 +111,7 @@ struct SolverPreset {
   bool anyCrowd = true;  ///< such islands are of crowds without restitution, too
   double open = 0.0;     ///< part of what `crowd` may leave in a step that is not lifted at once
   bool divides = true;   ///< hits divide steps; else each is struck when its step begins
+  double bent = 0.0;     ///< part of the speeds of what bends that sweeps may leave; 0: as all else
 };
 
 std::span<const SolverPreset> solverPresets();

@@ -41,7 +41,9 @@ std::span<const SolverPreset> solverPresets() {
                    "pgs",
                    {1e-2, 20},
                    true,
-                   0.1},
+                   0.1,
+                   true,
+                   1e-3},
       SolverPreset{"draft",
                    "as fast, but no step is divided, and ten times as much stays open",
                    "newton",
@@ -50,7 +52,8 @@ std::span<const SolverPreset> solverPresets() {
                    {1e-2, 20},
                    true,
                    1.0,
-                   false},
+                   false,
+                   1e-2},
   };
   return kTable;
 }

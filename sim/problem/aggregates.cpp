@@ -1,0 +1,88 @@
+#include "sim/problem/aggregates.h"
+
+#include <algorithm>
+
+namespace tumble {
+
+void Aggregates::gather(const NodeMatrix& A) {
+  of_.assign(A.own.size(), -1);
+  count_ = 0;
+  const auto around = [&](int node) {
+    return std::span(A.near).subspan(A.begin[node], A.begin[node + 1] - A.begin[node]);
+  };
+  const auto isFree = [&](const NodeMatrix::Neighbour& other) { return of_[other.node] < 0; };
+  // A node none of whose neighbours is taken begins an aggregate with all of them.
+  for (int i = 0; i < A.count(); ++i) {
+    const auto others = around(i);
+    if (of_[i] >= 0 || !std::all_of(others.begin(), others.end(), isFree)) continue;
+    for (const auto& other : others) of_[other.node] = count_;
+    of_[i] = count_++;
+  }
+  // What is left goes with the neighbour that it is tied to most.
+  const std::vector<int> first = of_;
+  for (int i = 0; i < A.count(); ++i) {
+    double most = 0.0;
+    if (first[i] >= 0) continue;
+    for (const auto& other : around(i)) {
+      const double tie = other.block.squaredNorm();
+      if (first[other.node] < 0 || !(tie > most)) continue;
+      most = tie;
+      of_[i] = first[other.node];
+    }
+    if (of_[i] < 0) of_[i] = count_++;
+  }
+  findEdges(A);
+}
+
+void Aggregates::findEdges(const NodeMatrix& A) {
+  edges_.clear();
+  edgeOf_.assign(A.near.size(), -1);
+  const auto forPairs = [&](const auto& act) {
+    for (int i = 0; i < A.count(); ++i)
+      for (int k = A.begin[i]; k < A.begin[i + 1]; ++k)
+        if (const int p = of_[i], q = of_[A.near[k].node]; p != q)
+          act(k, BlockEdge(std::minmax(p, q)));
+  };
+  forPairs([&](int, const BlockEdge& edge) { edges_.push_back(edge); });
+  std::sort(edges_.begin(), edges_.end());
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  forPairs([&](int k, const BlockEdge& edge) {
+    edgeOf_[k] =
+        static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+  });
+  if (!structure_ || !structure_->isFor(count_, edges_))
+    structure_ = std::make_unique<BlockStructure>(count_, edges_);
+}
+
+[[gnu::flatten]] void Aggregates::factor(const NodeMatrix& A, std::span<const char> held) {
+  held_.assign(held.begin(), held.end());
+  factor_.begin(*structure_);
+  std::vector<char> moves(count_, 0);
+  for (int i = 0; i < A.count(); ++i) {
+    if (held_[i]) continue;
+    const int p = of_[i];
+    moves[p] = 1;
+    factor_.diagonal(p) += A.own[i];
+    for (int k = A.begin[i]; k < A.begin[i + 1]; ++k) {
+      if (held_[A.near[k].node]) continue;
+      if (edgeOf_[k] < 0)
+        factor_.diagonal(p) += A.near[k].block;
+      else if (factor_.edgeRow(edgeOf_[k]) == p)
+        factor_.lower(edgeOf_[k]) += A.near[k].block;
+    }
+  }
+  for (int p = 0; p < count_; ++p)
+    if (!moves[p]) factor_.diagonal(p).setIdentity();
+  factor_.factor();
+}
+
+void Aggregates::correct(std::span<const Vec3> r, std::span<Vec3> v) {
+  sums_.assign(count_, Vec3::Zero());
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (!held_[i]) sums_[of_[i]] += r[i];
+  factor_.solve(sums_);
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (!held_[i]) v[i] += sums_[of_[i]];
+}
+
+}  // namespace tumble

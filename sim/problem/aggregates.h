@@ -1,0 +1,51 @@
+// Chapter 6, problem: a coarse grid for points that bend together.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/problem/block_cholesky.h"
+
+namespace tumble {
+
+/// A symmetric positive definite matrix of 3 × 3 blocks, row by row.
+struct NodeMatrix {
+  /// A block off the diagonal.
+  struct Neighbour {
+    int node = 0;
+    Mat3 block = Mat3::Zero();
+  };
+  std::vector<Mat3> own;   ///< blocks of the diagonal
+  std::vector<int> begin;  ///< per node: its first neighbour
+  std::vector<Neighbour> near;
+
+  int count() const { return static_cast<int>(own.size()); }
+};
+
+/// What neighbours have in common of an error, which sweeps from point to point take long to find:
+/// a point and those around it move as one (aggregation; Vaněk, Mandel & Brezina, Algebraic
+/// Multigrid by Smoothed Aggregation, 1996, §5.1, without its smoothing).
+class Aggregates {
+ public:
+  /// Deals the nodes out.
+  void gather(const NodeMatrix& A);
+  /// The matrix Pᵀ A P of aggregates, where nodes that are held do not move with theirs.
+  void factor(const NodeMatrix& A, std::span<const char> held);
+  /// Moves the nodes so that nothing is left of r in any sum over an aggregate.
+  void correct(std::span<const Vec3> r, std::span<Vec3> v);
+
+ private:
+  void findEdges(const NodeMatrix& A);
+
+  int count_ = 0;
+  std::vector<int> of_;  ///< per node: its aggregate
+  std::vector<char> held_;
+  std::vector<BlockEdge> edges_;
+  std::vector<int> edgeOf_;  ///< per neighbour in A; −1 in one aggregate
+  std::unique_ptr<BlockStructure> structure_;
+  BlockCholesky<3> factor_;
+  std::vector<Vec3> sums_;
+};
+
+}  // namespace tumble

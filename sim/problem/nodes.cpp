@@ -1,0 +1,246 @@
+#include "sim/problem/nodes.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/problem/aggregates.h"
+#include "sim/problem/cone.h"
+#include "sim/problem/friction_block.h"
+
+namespace tumble {
+namespace {
+
+/// A cone, and what its point gives way to it.
+struct Touching {
+  ConeKind kind = ConeKind::Push;
+  int node = 0;
+  double mu = 0.0;
+  Mat3 J = Mat3::Zero();         ///< rows n, t1, t2, for the point
+  Mat3 mobility = Mat3::Zero();  ///< D⁻¹ Jᵀ, with D the block of the point in A
+  Mat3 W = Mat3::Zero();         ///< J D⁻¹ Jᵀ
+  Vec3 bias = Vec3::Zero();      ///< with what the other body moves
+  Vec3 lambda = Vec3::Zero();
+};
+
+class Nodes {
+ public:
+  void read(const Problem& problem, std::span<const Vec3> side, const Solution& start);
+  /// One sweep there and back. @return the largest change of a velocity, in any direction
+  double sweep();
+  /// Goes on along the way that the sweeps before went.
+  void accelerate();
+  void write(const Problem& problem, Solution& solution) const;
+
+ private:
+  void readCouplings(const Problem& problem);
+  void readCones(const Problem& problem, const Solution& start);
+  /// b + Jᵀ λ less what the neighbours take: what is left for the point itself.
+  Vec3 restOf(int node) const;
+  void visit(int node);
+  void correct();
+
+  std::vector<int> nodeOf_, bodyOf_;
+  NodeMatrix A_;
+  std::vector<Mat3> inverse_;      ///< of the blocks of its diagonal
+  std::vector<Touching> touches_;  ///< by node
+  std::vector<int> touchBegin_;    ///< per node
+  std::vector<int> coneOf_;        ///< per touch
+  std::vector<Vec3> side_, v_, before_, way_, open_;
+  Aggregates aggregates_;
+  std::vector<char> held_;
+  int sweeps_ = 0;
+  double gradient_ = 0.0;
+};
+
+/// The blocks of A, row by row.
+void Nodes::readCouplings(const Problem& problem) {
+  const std::size_t count = bodyOf_.size();
+  std::vector<int>& begin = A_.begin;
+  begin.assign(count + 1, 0);
+  for (const Coupling& c : problem.couplings) {
+    if (c.a == c.b) {
+      A_.own[nodeOf_[c.a]] += c.block;
+      continue;
+    }
+    ++begin[nodeOf_[c.a] + 1];
+    ++begin[nodeOf_[c.b] + 1];
+  }
+  for (std::size_t i = 0; i < count; ++i) begin[i + 1] += begin[i];
+  A_.near.resize(begin.back());
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  for (const Coupling& c : problem.couplings) {
+    if (c.a == c.b) continue;
+    const int a = nodeOf_[c.a], b = nodeOf_[c.b];
+    A_.near[next[a]++] = {.node = b, .block = c.block};
+    A_.near[next[b]++] = {.node = a, .block = c.block.transpose()};
+  }
+  inverse_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Mat3 factor = A_.own[i];
+    invertFactor(factor);
+    inverse_[i].noalias() = factor.transpose().lazyProduct(factor);
+  }
+}
+
+void Nodes::readCones(const Problem& problem, const Solution& start) {
+  touches_.clear();
+  for (const Cone& cone : problem.cones) {
+    const Row& first = problem.rows[cone.row];
+    const bool aMoves = nodeOf_[first.a] >= 0;
+    Touching touch{.kind = cone.kind, .mu = cone.mu};
+    touch.node = nodeOf_[aMoves ? first.a : first.b];
+    for (int k = 0; k < coneRows(cone.kind); ++k) {
+      const Row& row = problem.rows[cone.row + k];
+      const Vec6 still = Vec6::Zero();
+      touch.J.row(k) = (aMoves ? 1.0 : -1.0) * row.linear.transpose();
+      touch.bias[k] = row.bias + (aMoves ? rowSpeed(row, still, problem.vStar[row.b])
+                                         : rowSpeed(row, problem.vStar[row.a], still));
+      touch.lambda[k] = start.lambda[cone.row + k];
+    }
+    touch.mobility = inverse_[touch.node].lazyProduct(touch.J.transpose());
+    touch.W = touch.J.lazyProduct(touch.mobility);
+    touches_.push_back(touch);
+  }
+  coneOf_.resize(touches_.size());
+  for (std::size_t c = 0; c < coneOf_.size(); ++c) coneOf_[c] = static_cast<int>(c);
+  std::stable_sort(coneOf_.begin(), coneOf_.end(),
+                   [&](int p, int q) { return touches_[p].node < touches_[q].node; });
+  std::stable_sort(touches_.begin(), touches_.end(),
+                   [](const Touching& p, const Touching& q) { return p.node < q.node; });
+  touchBegin_.assign(bodyOf_.size() + 1, 0);
+  for (const Touching& touch : touches_) ++touchBegin_[touch.node + 1];
+  for (std::size_t i = 0; i < bodyOf_.size(); ++i) touchBegin_[i + 1] += touchBegin_[i];
+}
+
+void Nodes::read(const Problem& problem, std::span<const Vec3> side, const Solution& start) {
+  nodeOf_.assign(problem.invM.size(), -1);
+  bodyOf_.clear();
+  A_.own.clear();
+  side_.clear();
+  v_.clear();
+  for (std::size_t i = 0; i < problem.invM.size(); ++i) {
+    if (!(problem.invM[i] > 0.0)) continue;
+    nodeOf_[i] = static_cast<int>(bodyOf_.size());
+    bodyOf_.push_back(static_cast<int>(i));
+    A_.own.push_back(Mat3(Vec3::Constant(1.0 / problem.invM[i]).asDiagonal()));
+    side_.push_back(side[i]);
+    v_.push_back(start.v[i].head<3>());
+  }
+  way_.assign(bodyOf_.size(), Vec3::Zero());
+  gradient_ = 0.0;
+  sweeps_ = 0;
+  readCouplings(problem);
+  readCones(problem, start);
+}
+
+Vec3 Nodes::restOf(int node) const {
+  Vec3 rest = side_[node];
+  for (int k = A_.begin[node]; k < A_.begin[node + 1]; ++k)
+    rest.noalias() -= A_.near[k].block.lazyProduct(v_[A_.near[k].node]);
+  for (int c = touchBegin_[node]; c < touchBegin_[node + 1]; ++c)
+    rest.noalias() += touches_[c].J.transpose().lazyProduct(touches_[c].lambda);
+  return rest;
+}
+
+/// Moves one point to where its row and its cones hold while all others stay.
+[[gnu::flatten]] void Nodes::visit(int node) {
+  const int first = touchBegin_[node], end = touchBegin_[node + 1];
+  Vec3& v = v_[node];
+  v = inverse_[node].lazyProduct(restOf(node));
+  // Of two cones that share a point, each is solved again after the other.
+  constexpr int kAgain = 8;
+  const int rounds = end - first > 1 ? kAgain : 1;
+  for (int round = 0; round < rounds; ++round) {
+    for (int c = first; c < end; ++c) {
+      Touching& touch = touches_[c];
+      v.noalias() -= touch.mobility.lazyProduct(touch.lambda);
+      const Vec3 u = touch.J.lazyProduct(v) + touch.bias;
+      if (!(u[0] < 0.0))
+        touch.lambda.setZero();
+      else if (touch.kind == ConeKind::Friction)
+        touch.lambda = solveFrictionBlock(touch.W, u, touch.mu, touch.lambda);
+      else
+        touch.lambda = {-u[0] / touch.W(0, 0), 0.0, 0.0};
+      v.noalias() += touch.mobility.lazyProduct(touch.lambda);
+    }
+  }
+}
+
+/// Moves neighbours together, but for what is pushed.
+[[gnu::flatten]] void Nodes::correct() {
+  constexpr int kRenewed = 10;  // sweeps in which other points come to be pushed
+  if (sweeps_ == 1) aggregates_.gather(A_);
+  if (sweeps_ % kRenewed == 1) {
+    held_.assign(v_.size(), 0);
+    for (const Touching& touch : touches_)
+      if (touch.lambda[0] > 0.0) held_[touch.node] = 1;
+    aggregates_.factor(A_, held_);
+  }
+  open_.resize(v_.size());
+  for (int i = 0; i < A_.count(); ++i) open_[i] = restOf(i) - A_.own[i].lazyProduct(v_[i]);
+  aggregates_.correct(open_, v_);
+}
+
+double Nodes::sweep() {
+  before_ = v_;
+  const int count = A_.count();
+  for (int i = 0; i < count; ++i) visit(i);
+  if (sweeps_ > 0) correct();
+  ++sweeps_;
+  for (int i = count - 1; i >= 0; --i) visit(i);
+  double largest = 0.0;
+  for (int i = 0; i < count; ++i)
+    largest = std::max(largest, (v_[i] - before_[i]).lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+void Nodes::accelerate() {
+  double gradient = 0.0;
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    const Vec3 change = v_[i] - before_[i];
+    gradient += change.dot(A_.own[i].lazyProduct(change));
+  }
+  // Where sweeps change more than before, the way that they went is no guide.
+  const bool shrinks = gradient_ > 0.0 && gradient <= gradient_;
+  const double beta = shrinks ? gradient / gradient_ : 0.0;
+  gradient_ = gradient;
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    const Vec3 change = v_[i] - before_[i], further = beta * way_[i];
+    v_[i] += further;
+    way_[i] = further + change;
+  }
+}
+
+void Nodes::write(const Problem& problem, Solution& solution) const {
+  solution.v = problem.vStar;
+  solution.pull.clear();
+  for (std::size_t i = 0; i < v_.size(); ++i) solution.v[bodyOf_[i]].head<3>() = v_[i];
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const Cone& cone = problem.cones[coneOf_[k]];
+    for (int r = 0; r < coneRows(cone.kind); ++r)
+      solution.lambda[cone.row + r] = touches_[k].lambda[r];
+  }
+}
+
+}  // namespace
+
+SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
+                       const SweepSettings& settings, Solution& solution) {
+  thread_local Nodes nodes;  // keeps its storage from call to call
+  solution.lambda.resize(problem.rows.size(), 0.0);
+  nodes.read(problem, side, solution);
+  SolveReport report{.status = SolveStatus::NotConverged, .scale = velocityScale(problem)};
+  while (report.iterations < settings.most) {
+    if (report.iterations > 0) nodes.accelerate();
+    const double change = nodes.sweep();
+    ++report.iterations;
+    report.residual = change / report.scale;
+    if (!(change <= settings.enough)) continue;
+    report.status = SolveStatus::Solved;
+    break;
+  }
+  nodes.write(problem, solution);
+  return report;
+}
+
+}  // namespace tumble
