@@ -18,6 +18,7 @@ void SteppingSettings::take(const SolverPreset& preset) {
   anyCrowd = preset.anyCrowd;
   crowdOpen = preset.open;
   divides = preset.divides;
+  bent = preset.bent;
 }
 
 void SteppingSettings::treatCrowdsAlike() {

@@ -87,6 +87,7 @@ struct SteppingSettings {
   bool anyCrowd = false;   ///< as SolverPreset
   double crowdOpen = 0.0;  ///< as SolverPreset::open
   bool divides = true;     ///< as SolverPreset
+  double bent = 0.0;       ///< as SolverPreset
   int linearisations = 1;  ///< at most, in one step, of the forces of what bends
 
   /// All but the length of a step as in a row of solverPresets.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/problem/problem.h"
+
 namespace tumble {
 namespace {
 
@@ -20,15 +22,16 @@ void findEdges(const std::vector<int>& pointOf, BendingPart& part) {
   const auto edgeOf = [&](const Element& element, int i, int j) {
     return BlockEdge(std::minmax(pointOf[element.points[i]], pointOf[element.points[j]]));
   };
-  for (const Element& element : part.body->elements)
-    forPairs(element,
-             [&](std::size_t, int i, int j) { part.edges.push_back(edgeOf(element, i, j)); });
+  for (const Element* element : part.elements)
+    forPairs(*element,
+             [&](std::size_t, int i, int j) { part.edges.push_back(edgeOf(*element, i, j)); });
   std::sort(part.edges.begin(), part.edges.end());
   part.edges.erase(std::unique(part.edges.begin(), part.edges.end()), part.edges.end());
-  for (const Element& element : part.body->elements) {
+  for (const Element* element : part.elements) {
     std::array<int, 6>& slots = part.edgesOf.emplace_back();
-    forPairs(element, [&](std::size_t k, int i, int j) {
-      const auto at = std::lower_bound(part.edges.begin(), part.edges.end(), edgeOf(element, i, j));
+    forPairs(*element, [&](std::size_t k, int i, int j) {
+      const auto at =
+          std::lower_bound(part.edges.begin(), part.edges.end(), edgeOf(*element, i, j));
       slots[k] = static_cast<int>(at - part.edges.begin());
     });
   }
@@ -44,13 +47,15 @@ void findStructure(BendingPart& part) {
     moving.emplace_back(i, j);
   }
   part.structure = std::make_unique<BlockStructure>(static_cast<int>(part.moving.size()), moving);
+  // There and back, a sweep multiplies every block off the diagonal four times by a vector.
+  constexpr double kSweeps = 10.0, kBlockByVector = 1.0 / 3.0;
+  part.costly = part.structure->products() >
+                kSweeps * 4.0 * kBlockByVector * static_cast<double>(moving.size());
 }
 
-BendingPart partOf(const Model& model, const ElasticBody& body, std::vector<int>& pointOf) {
-  BendingPart part;
-  part.body = &body;
-  part.bodies = body.bodies;
-  for (const int i : body.bodies) {
+/// Reads the points of a part, whose bodies and elements are known.
+void readPart(const Model& model, std::vector<int>& pointOf, BendingPart& part) {
+  for (const int i : part.bodies) {
     const int point = static_cast<int>(part.mover.size());
     pointOf[i] = point;
     part.mover.push_back(model.fixed(i) ? -1 : static_cast<int>(part.moving.size()));
@@ -63,7 +68,32 @@ BendingPart partOf(const Model& model, const ElasticBody& body, std::vector<int>
   part.constant.resize(part.bodies.size());
   part.about.assign(part.bodies.size(), Vec3::Zero());
   part.star.resize(part.bodies.size());
-  return part;
+  part.swept.resize(part.bodies.size());
+}
+
+/// Deals the points of an elastic body out to parts, in the order of their first points.
+void addParts(const Model& model, const ElasticBody& body, Bendings& bendings) {
+  std::vector<int> root(model.count());
+  for (const int i : body.bodies) root[i] = i;
+  for (const Element& element : body.elements)
+    for (int k = 1; k < element.count; ++k) {
+      const int p = islandRoot(root, element.points[0]), q = islandRoot(root, element.points[k]);
+      root[std::max(p, q)] = std::min(p, q);
+    }
+  const std::size_t first = bendings.parts.size();
+  for (const int i : body.bodies) {
+    const int head = islandRoot(root, i);
+    if (head == i) {
+      bendings.partOf[i] = static_cast<int>(bendings.parts.size());
+      bendings.parts.emplace_back().body = &body;
+    }
+    bendings.partOf[i] = bendings.partOf[head];
+    bendings.parts[bendings.partOf[i]].bodies.push_back(i);
+  }
+  for (const Element& element : body.elements)
+    bendings.parts[bendings.partOf[element.points[0]]].elements.push_back(&element);
+  for (std::size_t k = first; k < bendings.parts.size(); ++k)
+    readPart(model, bendings.pointOf, bendings.parts[k]);
 }
 
 }  // namespace
@@ -80,10 +110,11 @@ void BendingPart::timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) con
 
 Bendings bendingsOf(const Model& model) {
   Bendings bendings;
+  bendings.partOf.assign(model.count(), -1);
   bendings.pointOf.assign(model.count(), -1);
   for (const Force& force : model.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force))
-      bendings.parts.push_back(partOf(model, *bending->body, bendings.pointOf));
+      addParts(model, *bending->body, bendings);
   return bendings;
 }
 
@@ -98,8 +129,8 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   double energy = 0.0;
   ElementTerms terms;
   ElementPlaces x;
-  for (std::size_t n = 0; n < part.body->elements.size(); ++n) {
-    const Element& element = part.body->elements[n];
+  for (std::size_t n = 0; n < part.elements.size(); ++n) {
+    const Element& element = *part.elements[n];
     x.fill(Vec3::Zero());
     ElementVector u = ElementVector::Zero();
     std::array<int, kElementPoints> at = {};
@@ -134,31 +165,25 @@ double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
   ElementTerms terms;
   ElementPlaces x;
   x.fill(Vec3::Zero());
-  for (const Element& element : part.body->elements) {
-    for (int k = 0; k < element.count; ++k) {
-      const int i = element.points[k];
+  for (const Element* element : part.elements) {
+    for (int k = 0; k < element->count; ++k) {
+      const int i = element->points[k];
       x[k] = bodies[i].x + h * after[i].head<3>();
     }
-    differentiate(element.energy, x, ElementAsk::Energy, terms);
+    differentiate(element->energy, x, ElementAsk::Energy, terms);
     energy += terms.energy;
   }
   return energy;
 }
 
-bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h) {
-  part.factor.begin(*part.structure);
+void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h) {
   part.side.resize(part.moving.size());
-  for (std::size_t m = 0; m < part.moving.size(); ++m) {
-    const int p = part.moving[m];
+  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
     const RigidBody& body = bodies[part.bodies[p]];
-    Mat3& block = part.factor.diagonal(static_cast<int>(m));
-    block = part.own[p];
-    block.diagonal().array() += body.M;
-    part.side[m] = body.P + h * body.force + part.constant[p];
-  }
-  for (const auto& [e, number] : part.movingEdges) {
-    const bool firstIsRow = part.factor.edgeRow(number) == part.mover[part.edges[e].first];
-    part.factor.lower(number) = firstIsRow ? part.off[e] : Mat3(part.off[e].transpose());
+    part.star[p] = body.v;
+    if (part.mover[p] < 0) continue;
+    part.star[p] += h * body.invM * body.force;
+    part.side[part.mover[p]] = body.P + h * body.force + part.constant[p];
   }
   // Points that are led along have a velocity already.
   for (std::size_t e = 0; e < part.edges.size(); ++e) {
@@ -169,10 +194,24 @@ bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h) 
     else
       part.side[part.mover[q]] -= part.off[e].transpose() * bodies[part.bodies[p]].v;
   }
+}
+
+bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies) {
+  part.factor.begin(*part.structure);
+  for (std::size_t m = 0; m < part.moving.size(); ++m) {
+    const int p = part.moving[m];
+    Mat3& block = part.factor.diagonal(static_cast<int>(m));
+    block = part.own[p];
+    block.diagonal().array() += bodies[part.bodies[p]].M;
+  }
+  for (const auto& [e, number] : part.movingEdges) {
+    const bool firstIsRow = part.factor.edgeRow(number) == part.mover[part.edges[e].first];
+    part.factor.lower(number) = firstIsRow ? part.off[e] : Mat3(part.off[e].transpose());
+  }
   if (!part.factor.factor()) return false;
-  part.factor.solve(part.side);
-  for (std::size_t p = 0; p < part.bodies.size(); ++p)
-    part.star[p] = part.mover[p] < 0 ? bodies[part.bodies[p]].v : part.side[part.mover[p]];
+  std::vector<Vec3> v = part.side;
+  part.factor.solve(v);
+  for (const int p : part.moving) part.star[p] = v[part.mover[p]];
   return true;
 }
 

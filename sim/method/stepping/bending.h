@@ -10,13 +10,15 @@
 
 namespace tumble {
 
-/// One elastic body. The velocities v at the end of a step of h are those of implicit Euler with
+/// Points of an elastic body that elements join: as many parts as hang together of it, such as the
+/// strands of a fur. The velocities v at the end of a step of h are those of implicit Euler with
 /// forces linear about the motion u (Baraff and Witkin, Large Steps in Cloth Simulation, 1998, §3):
 ///   A v = M v⁻ + h F + c + Jᵀλ,   A = M + K,   K = h D + h² H,   c = −h ∂E/∂x + h² H u,
 /// with E, H and D at x + h u, and F the forces from outside. First u = 0; u = v, again and again,
 /// is Newton's method for the step.
 struct BendingPart {
   const ElasticBody* body = nullptr;
+  std::vector<const Element*> elements;
   std::vector<int> bodies;       ///< of the world, per point
   std::vector<int> mover;        ///< per point: its number among those that move, or −1
   std::vector<int> moving;       ///< those that move, by point
@@ -28,13 +30,20 @@ struct BendingPart {
       off;  ///< [kg] blocks of K: of points, and of edges with row first < second
   std::vector<Vec3> constant;  ///< [N·s] c
   std::vector<Vec3> about;     ///< [m/s] u
+  std::vector<Vec3> side;      ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
   std::vector<Vec3> star;      ///< [m/s] per point: v without λ
   double stored = 0.0;         ///< [J] at the start of the step
   double reached = 0.0;        ///< [J] where the velocities found lead
+  double turned = 0.0;         ///< [m/s] by which the last linearisation changed the motion
+  bool anew = false;           ///< linear forces are others than when islands were solved last
+  bool touched = false;        ///< an island with contacts has it
+  bool fresh = false;          ///< velocities may be others than those of its books
+  bool costly = false;         ///< a factor of A costs more than a number of sweeps
+  bool sweeps = false;         ///< solved by sweeps where it can be
+  std::vector<Vec3> swept;     ///< [m/s] per point: v as the last sweeps left it
 
   std::unique_ptr<BlockStructure> structure;  ///< of A
   BlockCholesky<3> factor;
-  std::vector<Vec3> side;
 
   /// K v of the points at these velocities, per point.
   void timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) const;
@@ -43,7 +52,10 @@ struct BendingPart {
 /// All of a model; and per body its place in them.
 struct Bendings {
   std::vector<BendingPart> parts;
+  std::vector<int> partOf;   ///< per body: its part, or −1
   std::vector<int> pointOf;  ///< per body: its number in its part
+
+  BendingPart& partWith(int body) { return parts[partOf[body]]; }
 };
 Bendings bendingsOf(const Model& model);
 
@@ -56,8 +68,11 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
 double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
                    std::span<const Vec6> after, double h);
 
-/// The velocities at the end of the step, were there no λ. @return false if A is not positive
-/// definite to rounding
-bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies, double h);
+/// The right side of the step; and for star how points would move that nothing joined.
+void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h);
+
+/// The velocities at the end of the step, were there no λ: star, by a factor of A.
+/// @return false if A is not positive definite to rounding
+bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies);
 
 }  // namespace tumble

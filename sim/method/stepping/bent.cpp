@@ -11,44 +11,65 @@ bool Stepping::bend(double h) {
   work_.crushed.clear();
   for (BendingPart& part : memory_.bendings->parts) {
     std::fill(part.about.begin(), part.about.end(), Vec3::Zero());
+    part.turned = std::numeric_limits<double>::infinity();
+    part.sweeps = model_.def.stepping.bent > 0.0 && part.costly;
     part.stored = linearise(part, memory_.bendings->pointOf, state_.bodies, h);
-    if (!freeMotion(part, state_.bodies, h)) work_.crushed = unbent(part);
+    for (std::size_t p = 0; p < part.bodies.size(); ++p)
+      part.swept[p] = state_.bodies[part.bodies[p]].v;
+    begin(part, h);
   }
-  bent_ = std::numeric_limits<double>::infinity();
   return work_.crushed.empty();
 }
 
-std::string Stepping::unbent(const BendingPart& part) const {
-  return "\"" + part.body->name + "\" left the range of numbers at t = " + shortNumber(state_.t) +
-         " s; try a smaller stepping.step, or less stiffness";
+/// The motion that linear forces give alone, where it is not for sweeps to find.
+void Stepping::begin(BendingPart& part, double h) {
+  part.anew = part.fresh = true;
+  setSide(part, state_.bodies, h);
+  if (!part.sweeps) factorBent(part);
+}
+
+void Stepping::factorBent(BendingPart& part) {
+  if (freeMotion(part, state_.bodies)) return;
+  work_.crushed = "\"" + part.body->name +
+                  "\" left the range of numbers at t = " + shortNumber(state_.t) +
+                  " s; try a smaller stepping.step, or less stiffness";
 }
 
 /// Linearises anew about the motion that was found, Newton's way. @return whether that is needed
-bool Stepping::bendFurther(double h) {
+bool Stepping::bendFurther(double h, bool all) {
+  bool any = false;
+  for (std::size_t k = 0; k < bentBooks_.size(); ++k) {
+    BendingPart& part = memory_.bendings->parts[k];
+    part.anew = (all || bentBooks_[k].gained()) && turnOn(part, h);
+    any = any || part.anew;
+  }
+  return any && work_.crushed.empty();
+}
+
+bool Stepping::turnOn(BendingPart& part, double h) {
   constexpr double kSame = 1e-10;  // of the largest velocity: a step that changes less is the last
   double change = 0.0, scale = 0.0;
-  for (BendingPart& part : memory_.bendings->parts)
-    for (std::size_t p = 0; p < part.bodies.size(); ++p) {
-      const Vec3 v = work_.after[part.bodies[p]].head<3>();
-      change = std::max(change, (v - part.about[p]).lpNorm<Eigen::Infinity>());
-      scale = std::max(scale, v.lpNorm<Eigen::Infinity>());
-    }
+  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
+    const Vec3 v = work_.after[part.bodies[p]].head<3>();
+    change = std::max(change, (v - part.about[p]).lpNorm<Eigen::Infinity>());
+    scale = std::max(scale, v.lpNorm<Eigen::Infinity>());
+  }
   if (!(change > kSame * std::max(scale, gravity_ * h))) return false;
   // Where the last one went further astray, half of the way.
-  const double share = change < bent_ ? 1.0 : 0.5;
-  bent_ = change;
-  for (BendingPart& part : memory_.bendings->parts) {
-    for (std::size_t p = 0; p < part.bodies.size(); ++p)
-      part.about[p] += share * (work_.after[part.bodies[p]].head<3>() - part.about[p]);
-    linearise(part, memory_.bendings->pointOf, state_.bodies, h);
-    if (!freeMotion(part, state_.bodies, h)) work_.crushed = unbent(part);
-  }
-  return work_.crushed.empty();
+  const double share = change < part.turned ? 1.0 : 0.5;
+  part.turned = change;
+  for (std::size_t p = 0; p < part.bodies.size(); ++p)
+    part.about[p] += share * (work_.after[part.bodies[p]].head<3>() - part.about[p]);
+  linearise(part, memory_.bendings->pointOf, state_.bodies, h);
+  begin(part, h);
+  return true;
 }
 
 void Stepping::foreseeBent() {
-  for (const BendingPart& part : memory_.bendings->parts)
+  for (BendingPart& part : memory_.bendings->parts) {
+    part.touched = false;
     for (const int p : part.moving) work_.star[part.bodies[p]].head<3>() = part.star[p];
+  }
 }
 
 void Stepping::markBent() {
@@ -61,28 +82,43 @@ bool Stepping::anyBends() const {
                      [this](int body) { return model_.bends(body); });
 }
 
-/// All points of what bends in an island belong to it.
-void Stepping::collectBent() {
-  for (std::size_t k = 0; k < work_.movers.size(); ++k) {
-    const int part = model_.bending.empty() ? -1 : model_.bending[work_.movers[k]];
-    if (part < 0) continue;
-    for (const int p : memory_.bendings->parts[part].moving) {
-      const int body = memory_.bendings->parts[part].bodies[p];
-      if (work_.local[body] >= 0) continue;
-      work_.local[body] = 0;
-      work_.movers.push_back(body);
-    }
+/// Whether an island is the one that was solved in this step already: no part of it has other
+/// forces, and nothing else is met.
+bool Stepping::keepsBent(const IslandMemory& memory, std::span<const Link> links, double h) {
+  if (memory.step != step_ || !ofSame(memory, links)) return false;
+  std::size_t cones = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
+    for (const Touch& touch : memory_.pairs[links[k]].touches) cones += flies(touch, h) ? 0 : 1;
   }
+  bool same = cones == memory.cones;
+  forBent([&](const BendingPart& part) { same = same && !part.anew; });
+  return same;
+}
+
+/// All points of what bends in an island belong to it. In order of bodies, however they touch: the
+/// structure of its matrix stays.
+void Stepping::collectBent() {
+  constexpr int kAll = 1;  // in the place of the first of a part: all are collected
+  const std::size_t touching = work_.movers.size();
+  for (std::size_t k = 0; k < touching; ++k) {
+    if (!model_.bends(work_.movers[k])) continue;
+    const BendingPart& part = memory_.bendings->partWith(work_.movers[k]);
+    int& first = work_.local[part.bodies[part.moving[0]]];
+    if (first == kAll) continue;
+    for (const int p : part.moving) {
+      int& local = work_.local[part.bodies[p]];
+      if (local < 0) work_.movers.push_back(part.bodies[p]);
+      local = 0;
+    }
+    first = kAll;
+  }
+  if (anyBends()) std::sort(work_.movers.begin(), work_.movers.end());
 }
 
 /// Adds K of what bends in an island to its problem.
 void Stepping::coupleBent() {
-  std::vector<char> seen(memory_.bendings->parts.size(), 0);
-  for (const int mover : work_.movers) {
-    const int number = model_.bending[mover];
-    if (number < 0 || seen[number]) continue;
-    seen[number] = 1;
-    const BendingPart& part = memory_.bendings->parts[number];
+  forBent([this](const BendingPart& part) {
     for (const int p : part.moving) {
       const int at = localOf(part.bodies[p]);
       work_.problem.couplings.push_back({at, at, part.own[p]});
@@ -90,7 +126,7 @@ void Stepping::coupleBent() {
     for (const auto& [e, inA] : part.movingEdges)
       work_.problem.couplings.push_back({localOf(part.bodies[part.edges[e].first]),
                                          localOf(part.bodies[part.edges[e].second]), part.off[e]});
-  }
+  });
 }
 
 /// What the implicit step takes [J], by the impulses p of what bends and its energies alone: with
@@ -121,18 +157,23 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   return books;
 }
 
-/// Finds the books of the velocities at hand. @return whether linear forces give energy, as those
-/// of what buckles or turns far in a step can: about the motion that they give they do not, but for
-/// what is left of Newton's method.
-bool Stepping::gains(double h) {
+bool Stepping::BentBooks::gained() const {
   constexpr double kGain = 1e-7;  // of the energies at both ends
-  bentBooks_.clear();
-  for (BendingPart& part : memory_.bendings->parts) {
-    part.reached = energyAfter(part, state_.bodies, work_.after, h);
-    bentBooks_.push_back(booksOf(part, h));
+  return taken < -kGain * size;
+}
+
+/// Finds the books of the velocities at hand. @return whether linear forces gain somewhere
+bool Stepping::gains(double h) {
+  std::vector<BendingPart>& parts = memory_.bendings->parts;
+  bentBooks_.resize(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (!parts[k].fresh) continue;
+    parts[k].reached = energyAfter(parts[k], state_.bodies, work_.after, h);
+    bentBooks_[k] = booksOf(parts[k], h);
+    parts[k].fresh = false;
   }
   return std::any_of(bentBooks_.begin(), bentBooks_.end(),
-                     [](const BentBooks& books) { return books.taken < -kGain * books.size; });
+                     [](const BentBooks& books) { return books.gained(); });
 }
 
 void Stepping::bookBent() {

@@ -20,6 +20,7 @@ std::pair<int, int> Stepping::ends(Link link) const {
 void Stepping::solveSteadily(double h) {
   constexpr int kRounds = 10, kAgain = 12;
   allKept_ = true;
+  ++step_;
   if (bends() && !bend(h)) return;
   const auto solve = [&] {
     again_ = false;
@@ -31,8 +32,8 @@ void Stepping::solveSteadily(double h) {
   solve();
   const int most = model_.def.stepping.linearisations;
   for (int k = 1; bends() && work_.crushed.empty(); ++k) {
-    const bool again = gains(h) && k < kAgain;
-    if (!(again || k < most) || !bendFurther(h)) break;
+    const bool again = gains(h) && k < kAgain, all = k < most;
+    if (!(again || all) || !bendFurther(h, all)) break;
     solve();
   }
   if (work_.crushed.empty() && !meeting_) bookIslands(h);
@@ -64,6 +65,7 @@ void Stepping::solveIslands(double h) {
   groupLinks(h);
   work_.heads.clear();
   for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i) solveIsland(linksOf(i), h);
+  if (bends()) moveAlone(h);
 }
 
 void Stepping::bookIslands(double h) {
@@ -200,20 +202,25 @@ void Stepping::swing(std::span<const Link> links, double h) {
   const bool stretches = !bent && rests(memory, links, h);
   memory.kept = stretches || (!bent && keeps(memory, links));
   if (stretches) stretch(memory, links, h);
-  if (!memory.kept) {
+  if (!memory.kept && !(bent && keepsBent(memory, links, h))) {
     allKept_ = false;
+    const bool sweeps = bent && canSweep(links), crowd = crowd_ && isCrowd(links);
+    if (bent && !sweeps) factorSwept();
+    if (sweeps) memory.rough = false;
     build(links, h);
     if (bent) coupleBent();
-    const bool crowd = crowd_ && isCrowd(links);
-    const SolveReport solved = solveAsPlanned(links, bent, crowd, memory, h);
+    const SolveReport solved =
+        sweeps ? sweepBent(links, h) : solveAsPlanned(links, bent, crowd, memory, h);
     if (!work_.crushed.empty()) return;
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     rough_ = rough_ || memory.rough;
     if (memory.rough) leaveOpen(memory.scale, h);
     share(links, memory, h);
+    if (bent) forBent([](BendingPart& part) { part.fresh = true; });
     if (!bent && !isBonded(links)) stand(memory, crowd, h);
   }
+  if (bent) forBent([](BendingPart& part) { part.touched = true; });
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
   for (std::size_t i = 0; i < work_.movers.size(); ++i) {
     memory_.left[work_.movers[i]] = memory.residual * memory.scale;
@@ -256,6 +263,8 @@ void Stepping::build(std::span<const Link> links, double h) {
   work_.solution.pull.clear();
   work_.pull.clear();
   work_.bodies.clear();
+  if (bends() && anyBends())
+    for (const int i : work_.movers) localOf(i);
   for (const Link link : links) {
     if (isPair(link)) {
       std::vector<Touch>& touches = memory_.pairs[link].touches;
@@ -315,6 +324,8 @@ void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h
   memory.seen.clear();
   memory.books = {};
   memory.length = memory.solved = h;
+  memory.cones = work_.problem.cones.size();
+  memory.step = step_;
   std::size_t cone = 0;
   for (const Link link : links) {
     if (!isPair(link)) {

@@ -95,8 +95,10 @@ struct IslandMemory {
   double solved = 0.0;        ///< [s] of the step that it was solved in
   double scale = 1.0;         ///< [m/s] velocityScale of the problem
   double residual = 0.0;
-  bool rough = false;  ///< solved as far as is planned for crowds
-  bool kept = false;   ///< the last step asked nothing new
+  std::size_t cones = 0;  ///< how many of its points were held apart
+  long step = 0;          ///< Stepping::solveSteadily that solved it
+  bool rough = false;     ///< solved as far as is planned for crowds
+  bool kept = false;      ///< the last step asked nothing new
   IslandBooks books;
 };
 
@@ -168,6 +170,7 @@ struct SteppingWork {
   double stored = 0.0;             ///< [J] in the springs of stiff groups, at its start
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
   std::vector<LastingPair> lasting;
+  std::vector<Vec3> side;  ///< [N s] per body of a problem of what bends
 };
 
 struct SteppingMemory {

@@ -279,16 +279,40 @@ class Stepping {
   bool bends() const { return !model_.bending.empty(); }
   /// @return false, with words in work_.crushed, if nothing can be made of it.
   bool bend(double h);
-  bool bendFurther(double h);
+  void begin(BendingPart& part, double h);
+  void factorBent(BendingPart& part);
+  /// @param all  not those that gain alone
+  bool bendFurther(double h, bool all);
+  bool turnOn(BendingPart& part, double h);
   struct BentBooks {
     double taken = 0.0;            ///< [J] by the implicit step
     double led = 0.0;              ///< [J] work of points that are led along
     double size = 0.0;             ///< [J] of the energies that make it up
     Vec3 external = Vec3::Zero();  ///< [N·s] on the points that move, by those
+
+    /// Whether linear forces gave energy, as those of what buckles or turns far in a step can:
+    /// about the motion that they give they do not, but for what is left of Newton's method.
+    bool gained() const;
   };
   BentBooks booksOf(const BendingPart& part, double h) const;
   bool gains(double h);
-  std::string unbent(const BendingPart& part) const;
+  /// Gives `act` every part that has a point in the island at hand, once.
+  template <class Act>
+  void forBent(const Act& act) {
+    for (const int mover : work_.movers) {
+      if (!model_.bends(mover)) continue;
+      BendingPart& part = memory_.bendings->partWith(mover);
+      if (part.bodies[part.moving[0]] == mover) act(part);
+    }
+  }
+  bool keepsBent(const IslandMemory& memory, std::span<const Link> links, double h);
+
+  // swept.cpp: what bends, by sweeps in place of factors.
+  bool canSweep(std::span<const Link> links);
+  SolveReport sweepBent(std::span<const Link> links, double h);
+  SolveReport sweepBodies(double h);
+  void moveAlone(double h);
+  void factorSwept();
   /// The velocities at the end of the step without contacts.
   void foreseeBent();
   /// Points of what bends go where the step takes them, not along a flight.
@@ -343,7 +367,7 @@ class Stepping {
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
   int parts_ = 0;                     ///< of the step that is most divided
   double partStart_ = 0.0;            ///< [s] of the part under way
-  double bent_ = 0.0;  ///< [m/s] by which the last linearisation of what bends changed the motion
+  long step_ = 0;                     ///< counts solveSteadily
 };
 
 }  // namespace tumble
