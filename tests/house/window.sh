@@ -31,7 +31,7 @@ TOML
 scene '[0.2, 0.4, 0.7]'
 "$tumble" view fall.toml >log 2>&1 &
 program=$!
-trap 'kill "$program" 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'kill "$program" 2>/dev/null || true; rm -rf "$scratch"' EXIT
 
 status=0
 tell() {  # what was asked, whether it came about
