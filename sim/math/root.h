@@ -4,8 +4,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
+
+/// The width [s] of a bracket around an instant near t [s] below which no clock tells its ends
+/// apart.
+inline double instantNear(double t) {
+  constexpr double kInstant = 1e-15;  // [s]
+  return std::max(kInstant, std::numeric_limits<double>::epsilon() * t);
+}
 
 /// Two ends, one on either side of a change: `lo` shows the first state, `hi` the second.
 struct Bracket {

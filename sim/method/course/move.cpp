@@ -149,9 +149,7 @@ double Course::allowance(double h) {
 }
 
 double Course::backUp(double span, double tooFar) {
-  constexpr double kInstant = 1e-15;  // [s]
-  // The width of the bracket that is left: what a clock at t can still tell apart.
-  const double instant = std::max(kInstant, std::numeric_limits<double>::epsilon() * state_.t);
+  const double instant = instantNear(state_.t);
   const auto allowed = [&](double h) { return allowance(h); };
   const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
   ++state_.recentBackUps;
@@ -177,10 +175,12 @@ void Course::commit(double t1) {
     return stop(state_.effort.spent()
                     ? spentBy(model_, state_)
                     : "the motion left the range of numbers; try a smaller course.step");
-  system_.unpack(y_, trial_);
-  if (const Joint* open = brokenJoint(trial_, model_.joints))
-    return stop("joint \"" + model_.def.joints[open - model_.joints.data()].name +
-                "\" came apart; try a smaller course.step");
+  if (!model_.joints.empty()) {
+    system_.unpack(y_, trial_);
+    if (const Joint* open = brokenJoint(trial_, model_.joints))
+      return stop("joint \"" + model_.def.joints[open - model_.joints.data()].name +
+                  "\" came apart; try a smaller course.step");
+  }
   system_.unpack(y_, state_.bodies);
   const Ledger ledger = system_.ledger(y_);
   books.work_of_forces += ledger.work;

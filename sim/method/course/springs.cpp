@@ -1,7 +1,6 @@
 // Contacts that are springs: which there are, and when they began and ended.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/collide/collide.h"
 #include "sim/math/root.h"
@@ -44,8 +43,7 @@ double Course::gapAfter(double h, int a, int b) {
 }
 
 double Course::firstTouch(double h) {
-  constexpr double kInstant = 1e-15;  // [s]
-  const double instant = std::max(kInstant, std::numeric_limits<double>::epsilon() * state_.t);
+  const double instant = instantNear(state_.t);
   double first = h;
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto [b, a] = state_.near[k];

@@ -146,11 +146,8 @@ bool Sustained::findEvent(double& h) {
 
 std::optional<Bracket> Sustained::between(const Look& lo, const Look& hi) {
   if (hi.allowed < 0.0) {
-    constexpr double kInstant = 1e-15;  // [s]
-    const double instant =
-        std::max(kInstant, std::numeric_limits<double>::epsilon() * (state_.t + hi.s));
     return findRoot([&](double s) { return allowance(s); }, lo.s, hi.s, lo.allowed, hi.allowed,
-                    instant);
+                    instantNear(state_.t + hi.s));
   }
   const double when = doubt(lo, hi);
   if (!(when > lo.s && when < hi.s)) return std::nullopt;
