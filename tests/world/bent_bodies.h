@@ -44,6 +44,31 @@ inline int addCloth(WorldDef& def, const ClothDef& cloth, const Vec3& middle, do
   return bend(def, "cloth", first, clothElements(cloth, first));
 }
 
+/// A cloth of n × n points, with sides of that length [m], level over a fixed ball and nearly on
+/// it. Its skin is 0.01 m; its shear is a tenth of `stretch` [N/m].
+inline WorldDef clothOnBall(int n, double side, double stretch, double radius, double friction) {
+  constexpr double kSkin = 0.01;
+  WorldDef def;
+  def.stepping.step = 1.0 / 60.0;
+  def.bodies.push_back({.name = "ball",
+                        .shape = Sphere{radius},
+                        .mass = 1.0,
+                        .friction = friction,
+                        .position = {0.0, -(radius + kSkin), 0.0},
+                        .fixed = true});
+  const ClothDef cloth{.columns = n,
+                       .rows = n,
+                       .length = side,
+                       .width = side,
+                       .density = 0.2,
+                       .stretch = stretch,
+                       .shear = 0.1 * stretch,
+                       .bend = 2e-5,
+                       .damping = 0.2};
+  addCloth(def, cloth, {0.0, kSkin, 0.0}, kSkin, friction);
+  return def;
+}
+
 /// A soft box in a world. @return the number of its first point
 inline int addSoft(WorldDef& def, const SoftDef& soft, const Vec3& middle, double skin,
                    double friction = 0.5) {
