@@ -211,7 +211,7 @@ int report(int argc, char** argv) {
   CommandLine line(
       "report", "Measures speed against error: CSV, figures, a table, a page.",
       {"             # charts of assets/report, solvers, growth, prices, convergence of all demos",
-       "--quick      # a third of the points, without convergence: a minute",
+       "--quick      # a quarter of the points, without convergence: a minute",
        "path/to/scene.toml -o out/mine   # the charts of a scene of your own"});
   line.option("SCENE", options.scenes,
               "scenes with [[chart]]s [those of assets/report, and chapters that have no scene]");
