@@ -116,6 +116,11 @@ bool overlaps(const PartView& a, int i, const PartView& b, int j, const ContactP
   return (ofA || ofB) && holds(a, i, pa) && holds(b, j, pb);
 }
 
+// How wide [m] the seams of one side are.
+double seamWidth(const PartView& side) {
+  return side.parts() ? side.parts()->flush : 0.0;
+}
+
 // Whether both points of a contact are on these parts, or hardly past their ends.
 bool isNear(const PosedPart& a, const PosedPart& b, const ContactPoint& c, double past) {
   return holds(a, c.pa - c.ra * c.n, past) && holds(b, c.pb + c.rb * c.n, past);
@@ -132,7 +137,7 @@ void findExposed(const PartView& a, int i, const PartView& b, int j, const Sough
       convex::coreOf(partA.solid, R.transpose() * partA.pose.q.toRotationMatrix(),
                      R.transpose() * (partA.pose.x - partB.pose.x));
   const convex::Core coreB = convex::coreOf(partB.solid, Mat3::Identity(), Vec3::Zero());
-  const double flush = a.parts() ? a.parts()->flush : b.parts()->flush;
+  const double flush = std::max(seamWidth(a), seamWidth(b));
   const auto isWrong = [&](const ContactPoint& c) {
     return !shows(a, i, b, j, c, sought.within) ||
            !(sought.apart ? isNear(partA, partB, c, std::max(sought.within, kReach * flush))
