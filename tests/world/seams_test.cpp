@@ -9,7 +9,7 @@
 #include "sim/shape/convex_hull.h"
 #include "sim/world.h"
 #include "tests/catch.h"
-#include "tests/collide/random_pose.h"
+#include "tests/world/falling_ells.h"
 
 using namespace tumble;
 
@@ -278,40 +278,11 @@ TEST_CASE("a seam of a body that moves is none either") {
 
 namespace {
 
-/// Ls of two boxes, 30 cm wide and high, that fall onto each other in columns.
-WorldDef fallingLs(int count, int columns, std::uint64_t seed) {
-  Random random(seed);
-  WorldDef def;
-  def.method = "stepping";
-  def.duration = 1.5;
-  BodyDef ground;
-  ground.name = "ground";
-  ground.shape = HalfSpace{};
-  ground.fixed = true;
-  ground.friction = 0.4;
-  def.bodies.push_back(ground);
-  for (int k = 0; k < count; ++k) {
-    BodyDef ell;
-    ell.name = "ell." + std::to_string(k);
-    ell.shape = Compound{{{Box{{0.15, 0.05, 0.05}}, {{0.15, 0.05, 0.0}, Quat::Identity()}},
-                          {Box{{0.05, 0.1, 0.05}}, {{0.05, 0.2, 0.0}, Quat::Identity()}}}};
-    ell.shape = centredShape(ell);
-    ell.density = 500.0;
-    ell.friction = 0.4;
-    const int column = k % (columns * columns);
-    const double x = random.uniform(-0.01, 0.01), z = random.uniform(-0.01, 0.01);
-    ell.position = {0.48 * (column % columns) + x, 0.4 + 0.5 * (k / (columns * columns)),
-                    0.48 * (column / columns) + z};
-    ell.orientation = random.rotation();
-    def.bodies.push_back(ell);
-  }
-  return def;
-}
-
 void dropLs(int count, int columns, int worlds) {
   double deepest = 0.0, unseen = 0.0;
   for (int seed = 1; seed <= worlds; ++seed) {
-    const WorldDef def = fallingLs(count, columns, static_cast<std::uint64_t>(seed));
+    const WorldDef def =
+        fallingInColumns(ellOfBoxes(), count, columns, static_cast<std::uint64_t>(seed));
     World world(def);
     world.advance(def.duration);
     const Certificate& books = world.report().certificate;
