@@ -1,4 +1,4 @@
-// Clusters: bodies that are near each other within a step. Where something hits, its cluster goes
+// Clusters: bodies that may touch each other within a step. Where something hits, its cluster goes
 // through the step by a clock of its own, divided by its own hits; all others take the step whole,
 // and nothing that happens in one cluster changes a bit of another.
 #include <algorithm>
@@ -43,6 +43,22 @@ void Stepping::activateAll() {
     if (!model_.fixed(model_.solid[k])) work_.solids.push_back(static_cast<int>(k));
 }
 
+bool Stepping::mayMeet(std::size_t pair, double h, double strays) const {
+  const PairMemory& memory = memory_.pairs[pair];
+  if (memory.seamed) return true;
+  const auto [ib, ia] = state_.near[pair];
+  const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
+  // Points bend off their tangents as they turn, and as they fall.
+  double slack = tolerance_.touch + strays + 2.0 * gravity_ * h * h;
+  for (const int i : {ia, ib})
+    if (std::isfinite(model_.radius[i]))
+      slack += 0.5 * h * h * state_.bodies[i].omega.squaredNorm() * model_.radius[i];
+  return std::any_of(memory.touches.begin(), memory.touches.end(), [&](const Touch& touch) {
+    const ContactPoint& c = touch.contact.point;
+    return c.separation + h * std::min(0.0, approachVelocity(a, b, c)) <= slack;
+  });
+}
+
 bool Stepping::findClusters(double h) {
   constexpr int kNone = -1, kCalm = -2;
   untilHit(0.0, h, tolerance_.keep);
@@ -52,7 +68,10 @@ bool Stepping::findClusters(double h) {
                        [&](const Touch& touch) { return touch.rebounds && touch.due < h; });
   };
   if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), hits)) return false;
-  joinNear();
+  joinNear(h);
+  for (const auto& [b, a] : work_.met) joinBodies(a, b);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    if (hits(memory_.pairs[k])) joinBodies(state_.near[k].second, state_.near[k].first);
   const int n = model_.count();
   std::vector<int>& number = work_.island;  // per root
   number.assign(n, kCalm);
@@ -104,8 +123,11 @@ void Stepping::dealOut() {
                 .pairs = std::move(memory_.pairs),
                 .witnesses = std::move(state_.witnesses),
                 .lasting = std::move(memory_.lasting)};
-  for (std::size_t k = 0; k < all.near.size(); ++k)
-    pass(all, k, clusters.before[clusterOf(all.near[k].second, all.near[k].first)]);
+  clear(clusters.strangers);
+  for (std::size_t k = 0; k < all.near.size(); ++k) {
+    const auto [b, a] = all.near[k];
+    pass(all, k, areStrangers(a, b) ? clusters.strangers : clusters.before[clusterOf(a, b)]);
+  }
   for (const LastingPair& pair : all.lasting)
     clusters.before[clusterOf(pair.a, pair.b)].lasting.push_back(pair);
 }
@@ -140,14 +162,18 @@ void Stepping::gather() {
   };
   std::vector<Place> places;
   NearPairs all;
-  for (std::size_t c = 0; c < work_.clusters.after.size(); ++c) {
-    NearPairs& own = work_.clusters.after[c];
+  const auto of = [&](std::size_t c) -> NearPairs& {
+    Clusters& clusters = work_.clusters;
+    return c < clusters.after.size() ? clusters.after[c] : clusters.strangers;
+  };
+  for (std::size_t c = 0; c <= work_.clusters.after.size(); ++c) {
+    NearPairs& own = of(c);
     for (std::size_t k = 0; k < own.near.size(); ++k) places.push_back({own.near[k], c, k});
     all.lasting.insert(all.lasting.end(), own.lasting.begin(), own.lasting.end());
   }
   std::sort(places.begin(), places.end(),
             [](const Place& p, const Place& q) { return p.near < q.near; });
-  for (const Place& place : places) pass(work_.clusters.after[place.cluster], place.k, all);
+  for (const Place& place : places) pass(of(place.cluster), place.k, all);
   std::sort(all.lasting.begin(), all.lasting.end(), [](const LastingPair& p, const LastingPair& q) {
     return std::pair(p.b, p.a) < std::pair(q.b, q.a);
   });
@@ -200,14 +226,48 @@ void Stepping::moveCarriers(double h) {
   }
 }
 
-/// A cluster whose bodies leave the boxes in which they were looked for may meet another one. Then
-/// the step begins again, with boxes as wide as these bodies need: the two are one cluster.
+void Stepping::stray(double t1) {
+  const Segment& segment = state_.trail.back();
+  for (const int i : work_.active) {
+    const RigidBody &body = state_.bodies[i], &first = segment.start[i];
+    if (body.fixed()) continue;
+    const double off = (body.x - first.x - (t1 - segment.t0) * first.v).norm();
+    work_.strayed[i] = std::max(work_.strayed[i], off);
+    if (std::isfinite(model_.radius[i]))
+      work_.turned[i] += (t1 - partStart_) * (body.omega - first.omega).norm() * model_.radius[i];
+  }
+}
+
+/// Pairs are looked at where the step began, as far as their bodies may have come towards each
+/// other.
+bool Stepping::haveMet(double h) {
+  const std::size_t known = work_.met.size();
+  std::vector<RigidBody>& start = state_.trail.back().start;
+  state_.bodies.swap(start);
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto [b, a] = state_.near[k];
+    if (!areStrangers(a, b)) continue;
+    if (work_.dense[a] || work_.dense[b]) {
+      work_.met.push_back(state_.near[k]);
+      continue;
+    }
+    const double strays = work_.strayed[a] + work_.strayed[b] + work_.turned[a] + work_.turned[b];
+    look(k, std::max(memory_.pairs[k].margin, marginOf(k, h) + strays));
+    if (mayMeet(k, h, strays)) work_.met.push_back(state_.near[k]);
+  }
+  state_.bodies.swap(start);
+  return work_.met.size() > known;
+}
+
+/// Where a hit leads bodies of two clusters towards each other, the step begins again: the two are
+/// one cluster.
 void Stepping::stepClusters(double t1, double h) {
   beginSegment(t1);
   save();
   for (bool apart = true; apart;) {
-    meeting_ = false;
     parts_ = 0;
+    work_.strayed.assign(state_.bodies.size(), 0.0);
+    work_.turned.assign(state_.bodies.size(), 0.0);
     dealOut();
     parted_ = true;
     for (std::size_t c = 0; c < work_.clusters.bodies.size() && !halted(); ++c) {
@@ -215,22 +275,23 @@ void Stepping::stepClusters(double t1, double h) {
       go(t1, h);
       leave();
     }
-    const bool again = meeting_, stopped = report_.stopped;
-    if (!again && !stopped) break;
+    const bool stopped = report_.stopped;
+    if (!stopped) {
+      gather();
+      activateAll();
+      takePairs();
+      if (!haveMet(h)) break;
+    }
     restore();
-    meeting_ = false;
     if (stopped) return state_.trail.pop_back();
     takePairs();
     lookAtAll(h);
     apart = findClusters(h);
-  }
-  if (!parted_) {
+    if (apart) continue;
     state_.trail.pop_back();
     known_ = true;
     return go(t1, h);
   }
-  gather();
-  activateAll();
   moveCarriers(h);
   report_.certificate.steps += parts_ - 1;
   report_.certificate.evaluations += parts_ - 1;

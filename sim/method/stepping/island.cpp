@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/contact/impact.h"
 #include "sim/contact/rows.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
@@ -36,7 +37,7 @@ void Stepping::solveSteadily(double h) {
     if (!(again || all) || !bendFurther(h, all)) break;
     solve();
   }
-  if (work_.crushed.empty() && !meeting_) bookIslands(h);
+  if (work_.crushed.empty()) bookIslands(h);
 }
 
 void Stepping::solveIslands(double h) {
@@ -116,9 +117,22 @@ void Stepping::joinBodies(int a, int b) {
   work_.root[std::max(p, q)] = std::min(p, q);
 }
 
-void Stepping::joinNear() {
+/// Bodies that may meet, and all that are near each other in a crowd.
+void Stepping::joinNear(double h) {
   partBodies();
   for (const auto& [b, a] : state_.near) joinBodies(a, b);
+  std::vector<int>& weight = work_.island;  // per root
+  weight.assign(state_.bodies.size(), 0);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    if (!memory_.pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(memory_.pairs[k]);
+  work_.dense.assign(state_.bodies.size(), 0);
+  for (const int i : work_.active)
+    work_.dense[i] = !model_.fixed(i) && weight[islandRoot(work_.root, i)] > kReflectionsReach;
+  partBodies();
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const auto [b, a] = state_.near[k];
+    if (work_.dense[a] || work_.dense[b] || mayMeet(k, h)) joinBodies(a, b);
+  }
 }
 
 /// Deals what joins bodies out to islands, in the order of their first links.

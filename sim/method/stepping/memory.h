@@ -59,6 +59,7 @@ struct PairMemory {
   double deepest = 0.0;  ///< [m] largest overlap
   bool bounces = false;  ///< it has restitution
   bool tumbles = false;  ///< it turned too far for parabolas
+  bool seamed = false;   ///< a third body keeps apart what was found
   bool crowded = false;  ///< one of more near pairs than are watched so closely
   std::vector<Touch> touches;
 };
@@ -130,6 +131,7 @@ struct StepStart {
 struct Clusters {
   std::vector<std::vector<int>> bodies, solids;  ///< as SteppingWork::active and solids
   std::vector<NearPairs> before, after;          ///< and when its step is done
+  NearPairs strangers;                           ///< pairs of two clusters
 };
 
 /// What a step works with and then forgets; kept for the sake of its storage.
@@ -139,6 +141,11 @@ struct SteppingWork {
   std::vector<int> solids;    ///< those of them that move freely and can touch, as in Model::solid
   std::vector<int> carriers;  ///< fixed bodies that move
   std::vector<int> cluster;   ///< per body: its cluster; < 0 of a fixed one
+  std::vector<char> dense;    ///< per body: it is near a crowd
+  std::vector<std::pair<int, int>> met;  ///< near pairs of clusters that were found to be one
+  /// [m] per body: how far its centre strayed from the way that it began, and its surface by
+  /// turning otherwise
+  std::vector<double> strayed, turned;
   Clusters clusters;
   StepStart start;
   std::vector<std::pair<int, int>> near;

@@ -44,8 +44,10 @@ void Stepping::leaveSeams() {
       if (!model_.fixed(i)) work_.holders[i].push_back(k);
   }
   for (const int k : work_.crossing)
-    if (keptApart(k, state_.near[k].first) || keptApart(k, state_.near[k].second))
+    if (keptApart(k, state_.near[k].first) || keptApart(k, state_.near[k].second)) {
       memory_.pairs[k].touches.clear();
+      memory_.pairs[k].seamed = true;
+    }
 }
 
 /// Whether one of the contacts that hold `body` has a plane that parts the two bodies of a pair.

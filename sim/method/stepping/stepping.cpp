@@ -126,6 +126,7 @@ void Stepping::stepTo(double t1, double h) {
   findOut(h);
   if (report_.stopped) return;
   findCrowded(h);
+  work_.met.clear();
   if (model_.def.stepping.divides && hasClusters() && findClusters(h)) return stepClusters(t1, h);
   go(t1, h);
 }
@@ -159,7 +160,6 @@ void Stepping::go(double t1, double h) {
 void Stepping::moveTo(double t1, double h) {
   beginPart(t1);
   solveSteadily(h);
-  if (meeting_) return;
   if (report_.stopped) return stop(report_.reason);
   if (!work_.crushed.empty()) return stop(work_.crushed);
   applyTwists(h);
@@ -239,6 +239,7 @@ void Stepping::endPart(double t1) {
     push.L1 = state_.bodies[i].L;
   }
   if (!parted_) return endSegment(t1);
+  stray(t1);
   state_.t = t1;
   if (!divided_) return;
   ClusterPart& piece = state_.trail.back().pieces.back();

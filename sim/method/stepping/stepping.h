@@ -41,8 +41,8 @@ class Stepping {
   void moveTo(double t1, double h);
   void beginPart(double t1);
   void endPart(double t1);
-  /// Whether the step ends here: the run stops, or clusters meet.
-  bool halted() const { return report_.stopped || meeting_; }
+  /// Whether the step ends here: the run stops.
+  bool halted() const { return report_.stopped; }
   double lengthTo(double t1) const;
   void beginSegment(double t1);
   void endSegment(double t1);
@@ -67,6 +67,15 @@ class Stepping {
   void save();
   void restore();
   void moveCarriers(double h);
+  /// Whether two bodies may touch within h seconds, if each strays so far [m] from the way on which
+  /// it is: told by distances and speeds along normals, which are the same in every frame.
+  bool mayMeet(std::size_t pair, double h, double strays = 0.0) const;
+  bool areStrangers(int a, int b) const {
+    return work_.cluster[a] != work_.cluster[b] && !model_.fixed(a) && !model_.fixed(b);
+  }
+  void stray(double t1);
+  /// Notes the pairs of two clusters that may have met in the step. @return whether there is one
+  bool haveMet(double h);
 
   // touching.cpp: which pairs are near, and where they touch.
   void findTouching(double h);
@@ -202,7 +211,7 @@ class Stepping {
   void partBodies();
   void joinBodies(int a, int b);
   /// The forest in which bodies that are near each other are as one.
-  void joinNear();
+  void joinNear(double h);
   std::pair<int, int> ends(Link link) const;
   bool isBonded(std::span<const Link> links) const {
     return std::any_of(links.begin(), links.end(), [&](Link link) { return !isPair(link); });
@@ -358,7 +367,6 @@ class Stepping {
   bool known_ = false;                ///< the touches are those of the bodies as they are
   bool parted_ = false;               ///< clusters go through the step one by one
   bool divided_ = false;              ///< the bodies whose clock runs have gone a part of the step
-  bool meeting_ = false;              ///< two clusters come near each other: they are one
   int cluster_ = 0;                   ///< whose clock runs
   bool crowd_ = false;                ///< the bodies whose clock runs are one
   bool rough_ = false;                ///< an island is solved as far as is planned for crowds

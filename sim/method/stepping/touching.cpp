@@ -25,7 +25,7 @@ bool isSame(const Lever& p, const Lever& q, double rounding) {
 }  // namespace
 
 void Stepping::findTouching(double h) {
-  if (findNear(h) && (meeting_ || stopAtUnknownPair(model_, state_.near, report_))) return;
+  if (findNear(h) && stopAtUnknownPair(model_, state_.near, report_)) return;
   lookAtAll(h);
 }
 
@@ -35,7 +35,7 @@ void Stepping::lookAtAll(double h) {
 }
 
 bool Stepping::findNear(double h) {
-  if (parted_) {  // what stays in its box meets nobody else
+  if (parted_) {  // what stays in its box meets nobody new
     for (const int k : work_.solids) {
       const int i = model_.solid[k];
       work_.after[i] << state_.bodies[i].v, state_.bodies[i].omega;
@@ -53,11 +53,9 @@ bool Stepping::takePairs() {
   for (const auto& [i, j] : state_.broadPhase.pairs()) {
     const int b = model_.solid[i], a = model_.solid[j];
     if (!model_.mayTouch(a, b)) continue;
-    if (parted_) {
-      if (!isActive(a) && !isActive(b)) continue;
-      meeting_ =
-          meeting_ || !((isActive(a) || model_.fixed(a)) && (isActive(b) || model_.fixed(b)));
-    }
+    if (parted_ && !(isActive(a) && isActive(b)) && !(isActive(a) && model_.fixed(b)) &&
+        !(isActive(b) && model_.fixed(a)))
+      continue;
     work_.near.emplace_back(b, a);
   }
   if (work_.near == state_.near && memory_.pairs.size() == work_.near.size()) return false;
@@ -154,8 +152,7 @@ bool Stepping::lookFurther(std::size_t k, double h) {
 }
 
 bool Stepping::seeFurther(double h) {
-  if (growBoxes(h, false) && takePairs() &&
-      (meeting_ || stopAtUnknownPair(model_, state_.near, report_)))
+  if (growBoxes(h, false) && takePairs() && stopAtUnknownPair(model_, state_.near, report_))
     return false;
   bool meets = false;
   for (std::size_t k = 0; k < state_.near.size(); ++k) meets = lookFurther(k, h) || meets;
@@ -176,6 +173,7 @@ bool Stepping::seeFurther(double h) {
   memory.poseB = b.pose();
   memory.margin = margin;
   memory.deepest = 0.0;
+  memory.seamed = false;
   if (!work_.found.empty() || !hadNone) renew(memory, state_.near[pair]);
 }
 

@@ -17,13 +17,9 @@ void Stepping::findCrowded(double h) {
     any = any || tumbles(k, h);
   }
   if (!any) return;
-  joinNear();
-  std::vector<int>& weight = work_.island;  // per root
-  weight.assign(state_.bodies.size(), 0);
+  joinNear(h);
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (!pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(pairs[k]);
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    pairs[k].crowded = weight[rootOf(k)] > kReflectionsReach;
+    pairs[k].crowded = work_.dense[state_.near[k].first] || work_.dense[state_.near[k].second];
 }
 
 bool Stepping::tumbles(std::size_t pair, double h) const {
