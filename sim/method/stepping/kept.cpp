@@ -1,6 +1,7 @@
 // Answers that islands keep: from the step before, or from one of another length.
 #include <algorithm>
 
+#include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -62,8 +63,9 @@ void Stepping::stand(IslandMemory& memory, bool crowd, double h) const {
   bool leaves = crowd;
   for (const IslandMemory::Mover& mover : memory.movers) {
     if (!stands(mover.body, work_.before[mover.body]) || !stands(mover.body, mover.v)) return;
-    leaves = leaves || h * mover.v.head<3>().norm() > roundingAt(state_.bodies[mover.body].x) ||
-             h * mover.v.tail<3>().norm() > kPoseRounding;
+    const RigidBody& body = state_.bodies[mover.body];
+    leaves = leaves || body.x + h * mover.v.head<3>() != body.x ||
+             rotated(body.q, h * mover.v.tail<3>()).coeffs() != body.q.coeffs();
   }
   if (!leaves) return;
   memory.books.external.setZero();
