@@ -51,19 +51,31 @@ std::string labelOf(const ExpectDef& expect) {
   return (expect.label.empty() ? expect.value : expect.label) + ", " + when;
 }
 
-// How far the measured value is from where it should be.
-double errorOf(const ExpectDef& expect, double measured) {
-  if (expect.relation == Relation::AtMost) return std::max(0.0, measured - expect.target);
-  if (expect.relation == Relation::AtLeast) return std::max(0.0, expect.target - measured);
-  return std::abs(measured - expect.target);
+// What it should come to, at the sample where it was measured.
+double targetOf(const Scene& scene, const ExpectDef& expect, const Recording& recording,
+                int sample) {
+  if (expect.aim.empty()) return expect.target;
+  if (sample < 0) return kNoNumber;
+  Meter aim(scene, expect.aim);
+  return aim(recording.samples[sample]);
 }
 
-Expectation judged(const ExpectDef& expect, const Recording& recording, Meter& meter) {
+// How far the measured value is from where it should be; NaN if either is not known.
+double errorOf(Relation relation, double measured, double target) {
+  if (std::isnan(measured) || std::isnan(target)) return kNoNumber;
+  if (relation == Relation::AtMost) return std::max(0.0, measured - target);
+  if (relation == Relation::AtLeast) return std::max(0.0, target - measured);
+  return std::abs(measured - target);
+}
+
+Expectation judged(const Scene& scene, const ExpectDef& expect, const Recording& recording,
+                   Meter& meter) {
   const Measured measured = measure(expect, recording, meter);
   Expectation one;
   one.sample = measured.sample;
-  const double error = std::isnan(measured.value) ? kNoNumber : errorOf(expect, measured.value);
-  one.row = {labelOf(expect), measured.value, expect.target, error, expect.within};
+  const double target = targetOf(scene, expect, recording, measured.sample);
+  one.row = {labelOf(expect), measured.value, target,
+             errorOf(expect.relation, measured.value, target), expect.within};
   one.row.relation = expect.relation;
   const Gauge* alone = meter.alone();
   if (!alone) return one;
@@ -72,6 +84,12 @@ Expectation judged(const ExpectDef& expect, const Recording& recording, Meter& m
   one.body = alone->body();
   one.axis = static_cast<int>(axis);
   return one;
+}
+
+const char* keyOf(Relation relation) {
+  return relation == Relation::AtMost    ? "at_most"
+         : relation == Relation::AtLeast ? "at_least"
+                                         : "equals";
 }
 
 // A place inside the text of a value, if it was written on one line.
@@ -95,7 +113,7 @@ std::vector<Expectation> expectationsOf(const Scene& scene, const Recording& rec
   std::vector<Expectation> all;
   for (const ExpectDef& expect : scene.expects) {
     Meter meter(scene, expect.value);
-    Expectation one = judged(expect, recording, meter);
+    Expectation one = judged(scene, expect, recording, meter);
     if (expect.at && !isSample(*expect.at, recording.rate)) continue;
     all.push_back(std::move(one));
   }
@@ -104,9 +122,15 @@ std::vector<Expectation> expectationsOf(const Scene& scene, const Recording& rec
 
 std::vector<Diagnostic> faultsOfFormulas(const Scene& scene) {
   std::vector<Diagnostic> faults;
-  for (std::size_t i = 0; i < scene.expects.size(); ++i)
+  for (std::size_t i = 0; i < scene.expects.size(); ++i) {
+    const ExpectDef& expect = scene.expects[i];
+    const std::string aim = keyOf(expect.relation);
     addFaults(scene, fmt::format("expect.{}.value", i), fmt::format("expect[{}].value", i),
-              scene.expects[i].value, false, faults);
+              expect.value, false, faults);
+    if (!expect.aim.empty())
+      addFaults(scene, fmt::format("expect.{}.{}", i, aim), fmt::format("expect[{}].{}", i, aim),
+                expect.aim, false, faults);
+  }
   for (std::size_t g = 0; g < scene.graphs.size(); ++g) {
     if (const std::string& text = scene.graphs[g].against; !text.empty())
       addFaults(scene, fmt::format("graph.{}.against", g), fmt::format("graph[{}].against", g),

@@ -20,6 +20,19 @@ double valueOf(const CertificateField& field, const Certificate& certificate) {
                     field.number);
 }
 
+std::optional<double> settingOf(const Scene& scene, const std::string& name) {
+  const auto known = scene.numbers.find(name);
+  return known == scene.numbers.end() ? std::nullopt : std::optional(known->second);
+}
+
+// The nearest key with a number, if it is near; else quantities.
+std::string hintOf(const Scene& scene, const std::string& name) {
+  std::vector<std::string> keys;
+  for (const auto& [key, number] : scene.numbers) keys.push_back(key);
+  const std::string near = nearestName(name, keys);
+  return near.empty() ? hintOfQuantity(scene, name) : ", did you mean '" + near + "'?";
+}
+
 }  // namespace
 
 std::vector<Meter::Fault> Meter::faults(const Scene& scene, const std::string& text, bool running) {
@@ -27,8 +40,8 @@ std::vector<Meter::Fault> Meter::faults(const Scene& scene, const std::string& t
   try {
     const Formula formula(text);
     for (const std::string& name : formula.names())
-      if (!Gauge::named(scene, name) && !(running && findField(name)))
-        found.push_back({"unknown quantity " + inQuotes(name) + hintOfQuantity(scene, name),
+      if (!Gauge::named(scene, name) && !(running && findField(name)) && !settingOf(scene, name))
+        found.push_back({"unknown quantity " + inQuotes(name) + hintOf(scene, name),
                          static_cast<int>(text.find(name))});
   } catch (const NotAFormula& error) {
     found.push_back({error.what(), error.at()});
@@ -38,7 +51,7 @@ std::vector<Meter::Fault> Meter::faults(const Scene& scene, const std::string& t
 
 Meter::Meter(const Scene& scene, const std::string& text) : text_(text), formula_(text) {
   for (const std::string& name : formula_.names())
-    sources_.push_back({Gauge::named(scene, name), findField(name)});
+    sources_.push_back({Gauge::named(scene, name), findField(name), settingOf(scene, name)});
   numbers_.resize(sources_.size());
 }
 
@@ -47,6 +60,7 @@ double Meter::operator()(const Sample& sample, const Certificate* soFar) {
     const Source& source = sources_[i];
     numbers_[i] = source.gauge            ? (*source.gauge)(sample)
                   : soFar && source.field ? valueOf(*source.field, *soFar)
+                  : source.setting        ? *source.setting
                                           : std::numeric_limits<double>::quiet_NaN();
   }
   return formula_(numbers_);

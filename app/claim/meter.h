@@ -1,6 +1,7 @@
 // A formula over quantities of a run, read off its samples.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ class Meter {
   struct Source {
     std::optional<Gauge> gauge;
     const CertificateField* field = nullptr;
+    std::optional<double> setting;  ///< a number of the scene's text
   };
   std::string text_;
   Formula formula_;

@@ -8,18 +8,25 @@ namespace {
 
 constexpr std::size_t kMostExpects = 100;
 
-// One of equals, at_most and at_least.
-void readAim(Section& section, ExpectDef& expect) {
-  std::optional<double> equals, most, least;
-  section.read("equals", equals, any({}));
-  section.read("at_most", most, any({}));
-  section.read("at_least", least, any({}));
-  int given = 0;
-  for (const char* key : {"equals", "at_most", "at_least"}) given += section.find(key) != nullptr;
+// A number or a formula of it. Whether the key is there.
+bool readAim(Section& section, std::string_view key, Relation relation, ExpectDef& expect) {
+  const Node* node = section.find(key);
+  if (!node) return false;
+  expect.relation = relation;
+  if (node->as<std::string>())
+    section.read(key, expect.aim);
+  else
+    section.read(key, expect.target, any({}));
+  return true;
+}
+
+void readAims(Section& section, ExpectDef& expect) {
+  const int given = readAim(section, "equals", Relation::Equal, expect) +
+                    readAim(section, "at_most", Relation::AtMost, expect) +
+                    readAim(section, "at_least", Relation::AtLeast, expect);
   if (given != 1)
-    section.complain("equals", "expected one of `equals`, `at_most` and `at_least`, a number");
-  expect.relation = most ? Relation::AtMost : least ? Relation::AtLeast : Relation::Equal;
-  expect.target = most ? *most : least ? *least : equals.value_or(0.0);
+    section.complain("equals",
+                     "expected one of `equals`, `at_most` and `at_least`, a number or a formula");
 }
 
 void readWhen(Section& section, const Scene& scene, ExpectDef& expect) {
@@ -47,7 +54,7 @@ void readExpects(Section& root, Scene& scene) {
     if (expect.value.empty())
       section.complain("value", "expected a formula, for example \"ball.y\" or \"energy\"");
     readWhen(section, scene, expect);
-    readAim(section, expect);
+    readAims(section, expect);
     section.read("within", expect.within, notNegative({}));
     section.finish();
   }

@@ -134,11 +134,13 @@ bool namesOneOf(const Node& force, const std::vector<std::string>& gone) {
 // A claim about a body goes with it.
 bool asksForOneOf(const Node& expect, const std::vector<std::string>& gone) {
   const Table* table = expect.as<Table>();
-  const Entry* value = table ? table->find("value") : nullptr;
-  const std::string* formula = value ? value->node.as<std::string>() : nullptr;
-  return formula && std::any_of(gone.begin(), gone.end(), [&](const std::string& part) {
-           return formula->find(part + ".") != std::string::npos;
-         });
+  if (!table) return false;
+  return std::any_of(table->entries.begin(), table->entries.end(), [&](const Entry& entry) {
+    const std::string* formula = entry.key == "label" ? nullptr : entry.node.as<std::string>();
+    return formula && std::any_of(gone.begin(), gone.end(), [&](const std::string& part) {
+             return formula->find(part + ".") != std::string::npos;
+           });
+  });
 }
 
 const std::string* nameOf(const Node& node) {

@@ -14,6 +14,7 @@
 #include "app/scene/fur.h"
 #include "app/scene/joint.h"
 #include "app/scene/node.h"
+#include "app/scene/numbers.h"
 #include "app/scene/override.h"
 #include "app/scene/panel.h"
 #include "app/scene/settings.h"
@@ -71,6 +72,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   root.finish();
   findings.raise();
   scene.places = findings.takePlaces();
+  if (!scene.expects.empty() || !scene.graphs.empty()) scene.numbers = numbersOf(tree);
   return scene;
 }
 

@@ -138,6 +138,7 @@ struct ExpectDef {
   std::string over = "end";  ///< start | end | max | min
   Relation relation = Relation::Equal;
   double target = 0.0, within = 0.0;  ///< what it comes to, and what it may be off
+  std::string aim;                    ///< a formula of what it comes to, in place of target, or ""
 };
 
 /// Points that something bends joins, and the surface that they are drawn by in place of balls.
@@ -176,6 +177,8 @@ struct Scene {
   std::vector<PanelDef> panels;
   std::vector<GraphDef> graphs;
   std::vector<ChartDef> charts;
+  std::map<std::string, double>
+      numbers;  ///< of the text, by key; kept where formulas may read them
   std::map<std::string, Place>
       places;  ///< path into the world ("bodies[3].mass") → where it was written
 };

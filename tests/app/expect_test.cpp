@@ -1,6 +1,8 @@
 // What a scene claims by formulas.
 #include "app/claim/expect.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "app/claim/formula.h"
@@ -60,6 +62,37 @@ TEST_CASE("a formula is measured at an instant, at the ends and where it is larg
   const ClaimRow off = rowOf("value = \"ball.3.y\"\nat = 0.3\nequals = 1.5\nwithin = 0.04");
   CHECK_FALSE(off.holds());
   CHECK(off.error == Approx(0.05).epsilon(1e-9));
+}
+
+// Oracle: closed form, 3²/(2 g) above the start, whatever --set or a sweep puts there.
+// Measured 2e-16, allowed 1e-12.
+TEST_CASE("a formula reads numbers of the scene by their keys, as a sweep has changed them") {
+  const std::string apex =
+      "[[expect]]\nover = \"max\"\nwithin = 1e-12\nvalue = \"ball.3.y\"\nequals = "
+      "\"body.ball.3.position.1 - body.ball.3.velocity.1^2 / (2 * world.gravity.1)\"\n";
+  for (const double g : {10.0, 20.0}) {
+    Variant variant;
+    variant.set.push_back({fmt::format("world.gravity=[0, {}, 0]", -g), {}});
+    const Scene swept = parseScene(kThrow + apex, "throw", {}, &variant);
+    requireKnownChecks(swept);
+    const ClaimRow row = judge(swept, record(swept, swept.image.rate)).rows.front();
+    CHECK(row.exact == Approx(1.0 + 4.5 / g).epsilon(1e-14));
+    CHECK(row.holds());
+  }
+  CHECK(refusalOf("value = \"world.gravty.1\"\nequals = 0").find("world.gravity.1") !=
+        std::string::npos);
+  CHECK(refusalOf("value = \"t\"\nequals = \"bal.3.x\"").find("throw:14:11:") != std::string::npos);
+}
+
+// Oracle: what is read. A name with a hyphen is asked for with '_'.
+TEST_CASE("a pair of materials is read by its key") {
+  const Scene scene = parseScene(
+      kThrow +
+          "[materials]\nice = { friction = 0.1 }\n[pairs]\nice-ice = { friction = 0.3 }\n"
+          "[[expect]]\nvalue = \"pairs.ice_ice.friction / materials.ice.friction\"\n"
+          "at_least = 3\nwithin = 1e-15\n",
+      "throw");
+  CHECK(judge(scene, record(scene, scene.image.rate)).rows.front().holds());
 }
 
 TEST_CASE("at most and at least forgive what is on their side") {

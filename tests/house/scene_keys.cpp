@@ -28,7 +28,7 @@ std::set<std::string> found(const std::string& text, const Pattern& pattern, std
 // "key", …), and the rows of its tables, {"kind", readKind}.
 std::set<std::string> knownKeys() {
   const Pattern asked(
-      R"re((read|readLine|find|tables|readColour|readParameter|readVariant|bodyOf)\(\s*([a-z]+,\s*)?"([a-z_]+)")re");
+      R"re((read|readLine|find|tables|readAim|readColour|readParameter|readVariant|bodyOf)\(\s*([a-z]+,\s*)?"([a-z_]+)")re");
   const Pattern row(R"re(\{"([a-z_]+)",\s*(read|make)[A-Z])re");
   std::set<std::string> keys;
   for (const auto& entry : fs::directory_iterator(TUMBLE_SOURCE_DIR "/app/scene")) {
