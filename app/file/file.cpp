@@ -1,5 +1,6 @@
 #include "app/file/file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,11 +15,30 @@ namespace {
   throw FileError(std::string("cannot ") + verb + " '" + path + "': " + std::strerror(error));
 }
 
+// A file in the folder of the path that has no name yet, and so goes with the process; null where
+// the file system has none of these.
+std::FILE* nameless(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const int file =
+      ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  return file < 0 ? nullptr : ::fdopen(file, "wb");
+}
+
+// Gives it a name that nothing has. Returns 0 or what went wrong.
+int giveName(std::FILE* file, const std::string& path) {
+  const std::string open = "/proc/self/fd/" + std::to_string(::fileno(file));
+  return ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0 ? 0
+                                                                                          : errno;
+}
+
 }  // namespace
 
 FileWriter::FileWriter(std::string path)
-    : path_(std::move(path)), temporary_(path_ + ".part" + std::to_string(::getpid())) {
-  file_.reset(std::fopen(temporary_.c_str(), "wb"));
+    : path_(std::move(path)),
+      temporary_(path_ + ".part" + std::to_string(::getpid())),
+      file_(nameless(path_)),
+      named_(!file_) {
+  if (named_) file_.reset(std::fopen(temporary_.c_str(), "wb"));
   if (!file_) fail(errno);
 }
 
@@ -34,6 +54,12 @@ void FileWriter::write(std::string_view text) {
 
 void FileWriter::finish() {
   if (std::fflush(file_.get()) != 0) fail(errno);
+  if (!named_) {
+    const int error = giveName(file_.get(), path_);
+    if (error == 0) return file_.reset();
+    if (const int other = error == EEXIST ? giveName(file_.get(), temporary_) : error; other != 0)
+      fail(other);
+  }
   if (std::fclose(file_.release()) != 0) fail(errno);
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
 }

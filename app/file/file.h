@@ -19,8 +19,10 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A file that is written piece by piece into a temporary one beside it, which gets the name when
-/// it is complete. One that is not finished leaves nothing behind.
+/// A file that is written piece by piece and gets its name when it is complete, in place of an
+/// older one if there is one. One that is not finished leaves nothing behind; nor does one whose
+/// process is killed, unless the file system has no files without a name: then the temporary one
+/// beside it.
 class FileWriter {
  public:
   /// @throws FileError
@@ -39,6 +41,7 @@ class FileWriter {
 
   std::string path_, temporary_;
   File file_;
+  bool named_;  ///< the temporary one has a name
 };
 
 /// Writes the whole file by way of a temporary one beside it that is renamed when complete.

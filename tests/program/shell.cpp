@@ -46,6 +46,15 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+// A process that waits, then ends this shell, or what it has become, without a warning.
+std::string killedAfter(const std::string& wait) {
+  return "self=$(exec sh -c 'echo $PPID'); (" + wait + "; kill -9 $self) & :";
+}
+
+std::string untilThereIs(const std::string& file) {
+  return "n=0; until [ -e " + file + " ] || [ $((n += 1)) -gt 6000 ]; do sleep 0.005; done";
+}
+
 }  // namespace
 
 TEST_CASE("completions and the manual know every command and every option of its help") {
@@ -119,6 +128,47 @@ TEST_CASE("two shards, three jobs and one run draw the same bytes, and quiet say
     for (const auto& image : std::filesystem::directory_iterator(scratch.path / "one"))
       CHECK(textOf(image.path()) == textOf(scratch.path / folder / image.path().filename()));
   }
+}
+
+TEST_CASE(
+    "what is killed, again and again, leaves whole images alone and goes on to the same bytes") {
+  const Scratch scratch;
+  scratch.file("ball.toml", kBall);
+  const std::string render = "render ball.toml -q --set image.rate=1000 -o ";
+  CHECK(tumbleRun(scratch, render + "whole").code == 0);
+  const long all = filesBelow(scratch.path / "whole");
+  const auto allAreWhole = [&] {
+    for (const auto& image : std::filesystem::directory_iterator(scratch.path / "killed"))
+      if (textOf(image.path()) != textOf(scratch.path / "whole" / image.path().filename()))
+        return false;
+    return true;
+  };
+  long before = 0;
+  for (const char* image : {"killed/image-000020.png", "killed/image-000110.png"}) {
+    CHECK(tumbleRun(scratch, render + "killed", killedAfter(untilThereIs(image))).code == 128 + 9);
+    const long done = filesBelow(scratch.path / "killed");
+    CHECK((before < done && done < all));
+    CHECK(allAreWhole());
+    before = done;
+  }
+  CHECK(tumbleRun(scratch, render + "killed").code == 0);
+  CHECK(filesBelow(scratch.path / "killed") == all);
+  CHECK(allAreWhole());
+}
+
+TEST_CASE("numbers of a run that is killed leave no file behind, new or in place of old ones") {
+  const Scratch scratch;
+  scratch.file("ball.toml", kBall);
+  const std::string simulate = "simulate ball.toml -q -o out";
+  const std::string asLong = " --set world.duration=999 --set image.rate=1000";
+  CHECK(tumbleRun(scratch, simulate + asLong, killedAfter("sleep 0.3")).code == 128 + 9);
+  CHECK(filesBelow(scratch.path / "out") == 0);
+  CHECK(tumbleRun(scratch, simulate).code == 0);
+  const long all = filesBelow(scratch.path / "out");
+  const std::string whole = textOf(scratch.path / "out/trajectory.csv");
+  CHECK(tumbleRun(scratch, simulate + asLong, killedAfter("sleep 0.3")).code == 128 + 9);
+  CHECK(filesBelow(scratch.path / "out") == all);
+  CHECK(textOf(scratch.path / "out/trajectory.csv") == whole);
 }
 
 TEST_CASE("images of another run are named, and so is a range that reaches beyond the end") {
