@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "app/claim/free_body.h"
@@ -37,7 +38,8 @@ std::vector<Level> levelsOf(const Sample& sample) {
   return list;
 }
 
-// Keeps the levels of the group of touching moving bodies that has most of them.
+// Keeps the levels of the group of touching moving bodies that has most of them, if they are levels
+// of a tower: in a wall or heap pairs that touch outnumber the bodies.
 std::vector<Level> tallestGroup(const Scene& scene, std::vector<Level> levels) {
   const std::vector<BodyDef>& bodies = scene.world.bodies;
   std::vector<int> group(bodies.size());
@@ -52,6 +54,11 @@ std::vector<Level> tallestGroup(const Scene& scene, std::vector<Level> levels) {
   for (const Level& level : levels) ++sizes[groupOf(level)];
   const auto tallest = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
   std::erase_if(levels, [&](const Level& level) { return groupOf(level) != tallest; });
+  std::set<int> stacked;
+  for (const Level& level : levels)
+    for (const int body : {level.a, level.b})
+      if (moves(bodies[body])) stacked.insert(body);
+  if (levels.size() > stacked.size() + 1) levels.clear();
   return levels;
 }
 
@@ -127,7 +134,7 @@ void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vecto
   const Projection projection(picture.camera, page.x(), page.y());
   std::vector<Rung> rungs = rungsOf(tallestGroup(scene, levelsOf(sample)), projection);
   std::erase_if(rungs, [&](const Rung& rung) {
-    return rung.place.x() < 0.0 || rung.place.x() > page.x() || rung.place.y() < 0.0 ||
+    return rung.place.x() < 0.0 || rung.place.x() > page.x() || rung.place.y() < kTop / 2 ||
            rung.place.y() > page.y();
   });
   if (rungs.size() < 2) return;

@@ -166,7 +166,7 @@ void keepBodies(const std::vector<std::string>& kept, Node& tree) {
         gone.push_back(*name);
         return true;
       });
-  for (const char* kind : {"force", "joint"})
+  for (const char* kind : {"force", "joint", "text"})
     if (Array* forces = elements(tree, kind))
       std::erase_if(*forces, [&](const Node& force) { return namesOneOf(force, gone); });
   if (Array* expects = elements(tree, "expect"))

@@ -202,12 +202,15 @@ TEST_CASE("values that are no formula, or without one, are refused at their plac
   CHECK(complaint("shows = \"values\"\ncurves = [{ label = \"a\", value = \"steps\" }]\n").empty());
 }
 
-// A claim about a body goes with it, so that a panel of the others can be drawn.
-TEST_CASE("a panel without a body is free of what is expected of it") {
+// A claim about a body and words beside it go with it, so that a panel of the others can be drawn.
+TEST_CASE("a panel without a body is free of what is expected and said of it") {
   const std::string text = kBall + R"(floor = true
 [[expect]]
 value = "ball.y"
 equals = 1.0
+[[text]]
+text = "a ball"
+body = "ball"
 [[body]]
 name = "other"
 shape = { sphere = 0.1 }
@@ -217,8 +220,9 @@ position = [3, 1, 0]
 bodies = ["floor", "other"]
 )";
   const Scene scene = parseScene(text, "scene");
-  CHECK(scene.expects.size() == 1);
-  CHECK(parseScene(text, "scene", {}, &scene.panels.front().variant).expects.empty());
+  CHECK((scene.expects.size() == 1 && scene.texts.size() == 1));
+  const Scene other = parseScene(text, "scene", {}, &scene.panels.front().variant);
+  CHECK((other.expects.empty() && other.texts.empty()));
 }
 
 TEST_CASE("numbers have four digits, zeros too") {
@@ -226,6 +230,7 @@ TEST_CASE("numbers have four digits, zeros too") {
   CHECK(fourDigits(98.1) == "98.10");
   CHECK(fourDigits(-245.25) == "−245.2");
   CHECK(fourDigits(1177.2) == "1177");
+  CHECK(fourDigits(25184.0) == "25180");
 }
 
 // The slides of the lectures that show something: all but titles, derivations in the notes and
