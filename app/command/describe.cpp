@@ -38,6 +38,10 @@ std::string strategyOf(const CourseSettings& course) {
   return course.plan == "backstep" ? "" : ", plan " + course.plan;
 }
 
+std::string strategyOf(const SteppingSettings& stepping) {
+  return stepping.points == SteppingSettings().points ? "" : ", points by " + stepping.points;
+}
+
 std::string methodLine(const WorldDef& world, const World& running) {
   std::string steps;
   if (running.runs() == "course")
@@ -46,7 +50,8 @@ std::string methodLine(const WorldDef& world, const World& running) {
   if (running.runs() == "exact" && !world.joints.empty())
     steps = ", all bodies in steps of extrapolation: those with joints fly in no closed form";
   if (running.runs() == "stepping")
-    steps = fmt::format(", {} at {:g} s", world.stepping.solver, world.stepping.step);
+    steps = fmt::format(", {} at {:g} s{}", world.stepping.solver, world.stepping.step,
+                        strategyOf(world.stepping));
   return fmt::format("{}{}, {:g} s", running.method(), steps, world.duration);
 }
 

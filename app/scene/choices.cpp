@@ -4,6 +4,7 @@
 #include "sim/contact/impact.h"
 #include "sim/method/course/contact_model.h"
 #include "sim/method/course/plan.h"
+#include "sim/method/stepping/point_plan.h"
 #include "sim/ode/integrator.h"
 #include "sim/problem/problem.h"
 #include "sim/world.h"
@@ -35,6 +36,9 @@ std::vector<std::string> solverChoices() {
 }
 std::vector<std::string> presetChoices() {
   return namesOf(solverPresets());
+}
+std::vector<std::string> pointPlanChoices() {
+  return namesOf(pointPlans());
 }
 std::vector<std::string> attitudeChoices() {
   return {"quaternion", "matrix"};

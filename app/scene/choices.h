@@ -10,7 +10,8 @@ std::vector<std::string> methodChoices();
 std::vector<std::string> impactChoices();
 std::vector<std::string> integratorChoices();
 std::vector<std::string> solverChoices();
-std::vector<std::string> presetChoices();  ///< of stepping
+std::vector<std::string> presetChoices();     ///< of stepping
+std::vector<std::string> pointPlanChoices();  ///< of stepping
 std::vector<std::string> inertiaChoices();
 std::vector<std::string> attitudeChoices();  ///< of the course
 std::vector<std::string> planChoices();      ///< of the course

@@ -37,6 +37,7 @@ void readKeys(Section& section, SteppingSettings& stepping) {
   section.read("tolerance", stepping.tolerance, {0.0, 1.0, true, {}});
   if (section.find("solver") || section.find("tolerance")) stepping.treatCrowdsAlike();
   section.read("linearisations", stepping.linearisations, 1, 1000);
+  section.read("points", stepping.points, pointPlanChoices());
 }
 
 /// Notes for each key of a method's table that it stands there.

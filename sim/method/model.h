@@ -84,11 +84,12 @@ struct SteppingSettings {
   std::string crowdSolver = "pgs";
   double crowdTolerance = 1e-3;
   int crowdIterations = 100;
-  bool anyCrowd = false;   ///< as SolverPreset
-  double crowdOpen = 0.0;  ///< as SolverPreset::open
-  bool divides = true;     ///< as SolverPreset
-  double bent = 0.0;       ///< as SolverPreset
-  int linearisations = 1;  ///< at most, in one step, of the forces of what bends
+  bool anyCrowd = false;              ///< as SolverPreset
+  double crowdOpen = 0.0;             ///< as SolverPreset::open
+  bool divides = true;                ///< as SolverPreset
+  double bent = 0.0;                  ///< as SolverPreset
+  int linearisations = 1;             ///< at most, in one step, of the forces of what bends
+  std::string points = "constraint";  ///< of what bends, where they meet a solid: see PointPlan
 
   /// All but the length of a step as in a row of solverPresets.
   void take(const SolverPreset& preset);

@@ -177,6 +177,10 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
        "stepping.preset: unknown value 'fats', did you mean 'fast'? Valid: auto, exact, balanced, "
        "fast, draft"},
       {"[stepping]\nsolver = \"newtn\"", "9:10", "stepping.solver: unknown value 'newtn'"},
+      {"[stepping]\npoints = \"implict\"", "9:10",
+       "stepping.points: unknown value 'implict', did you mean 'implicit'? Valid: gradual, "
+       "displace, "
+       "implicit, constraint"},
       {"[stepping]\ntolerance = -1", "9:13", "stepping.tolerance: expected a number in (0, 1]"},
       {"[pairs]\nrubber = {}", "9:1", "expected two materials, \"A-B\""},
       {"[pairs]\nrubber-wod = {}", "9:1", "unknown material 'wod'"},

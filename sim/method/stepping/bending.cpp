@@ -124,8 +124,9 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   std::fill(part.off.begin(), part.off.end(), Mat3::Zero());
   std::fill(part.constant.begin(), part.constant.end(), Vec3::Zero());
   // u is 0 the first time: then H u is.
-  const bool moves = std::any_of(part.about.begin(), part.about.end(),
-                                 [](const Vec3& u) { return !u.isZero(0.0); });
+  const auto isMotion = [](const Vec3& u) { return !u.isZero(0.0); };
+  const bool moves = std::any_of(part.about.begin(), part.about.end(), isMotion) ||
+                     std::any_of(part.wayOut.begin(), part.wayOut.end(), isMotion);
   double energy = 0.0;
   ElementTerms terms;
   ElementPlaces x;
@@ -138,6 +139,7 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
       at[k] = pointOf[element.points[k]];
       u.segment<3>(3 * k) = part.about[at[k]];
       x[k] = bodies[element.points[k]].x + h * part.about[at[k]];
+      if (part.movesOut()) u.segment<3>(3 * k) -= part.wayOut[at[k]];
     }
     differentiate(element.energy, x, ElementAsk::Projected, terms);
     energy += terms.energy;
@@ -159,8 +161,8 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   return energy;
 }
 
-double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
-                   std::span<const Vec6> after, double h) {
+double energyAfter(const BendingPart& part, const std::vector<int>& pointOf,
+                   std::span<const RigidBody> bodies, std::span<const Vec6> after, double h) {
   double energy = 0.0;
   ElementTerms terms;
   ElementPlaces x;
@@ -169,6 +171,7 @@ double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
     for (int k = 0; k < element->count; ++k) {
       const int i = element->points[k];
       x[k] = bodies[i].x + h * after[i].head<3>();
+      if (part.movesOut()) x[k] += h * part.wayOut[pointOf[i]];
     }
     differentiate(element->energy, x, ElementAsk::Energy, terms);
     energy += terms.energy;

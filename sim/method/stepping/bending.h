@@ -15,7 +15,8 @@ namespace tumble {
 /// forces linear about the motion u (Baraff and Witkin, Large Steps in Cloth Simulation, 1998, §3):
 ///   A v = M v⁻ + h F + c + Jᵀλ,   A = M + K,   K = h D + h² H,   c = −h ∂E/∂x + h² H u,
 /// with E, H and D at x + h u, and F the forces from outside. First u = 0; u = v, again and again,
-/// is Newton's method for the step.
+/// is Newton's method for the step. Points that are moved out within it go by h (v + w): E, H and D
+/// are still at x + h u, c = −h ∂E/∂x + h² H (u − w), and Newton's method takes u = v + w.
 struct BendingPart {
   const ElasticBody* body = nullptr;
   std::vector<const Element*> elements;
@@ -30,6 +31,7 @@ struct BendingPart {
       off;  ///< [kg] blocks of K: of points, and of edges with row first < second
   std::vector<Vec3> constant;  ///< [N·s] c
   std::vector<Vec3> about;     ///< [m/s] u
+  std::vector<Vec3> wayOut;    ///< [m/s] w per point, if any is moved out within the step
   std::vector<Vec3> side;      ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
   std::vector<Vec3> star;      ///< [m/s] per point: v without λ
   double stored = 0.0;         ///< [J] at the start of the step
@@ -45,6 +47,7 @@ struct BendingPart {
   std::unique_ptr<BlockStructure> structure;  ///< of A
   BlockCholesky<3> factor;
 
+  bool movesOut() const { return !wayOut.empty(); }
   /// K v of the points at these velocities, per point.
   void timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) const;
 };
@@ -64,9 +67,9 @@ Bendings bendingsOf(const Model& model);
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h);
 
-/// The energy [J] where its points are after h seconds at these velocities of bodies.
-double energyAfter(const BendingPart& part, std::span<const RigidBody> bodies,
-                   std::span<const Vec6> after, double h);
+/// The energy [J] where its points are after h seconds at these velocities of bodies, moved out.
+double energyAfter(const BendingPart& part, const std::vector<int>& pointOf,
+                   std::span<const RigidBody> bodies, std::span<const Vec6> after, double h);
 
 /// The right side of the step; and for star how points would move that nothing joined.
 void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h);

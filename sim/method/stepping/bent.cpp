@@ -9,6 +9,7 @@ namespace tumble {
 /// The forces of what bends at the start of a step, and the motion that they give alone.
 bool Stepping::bend(double h) {
   work_.crushed.clear();
+  if (points_.inStep) findWaysOut(h);
   for (BendingPart& part : memory_.bendings->parts) {
     std::fill(part.about.begin(), part.about.end(), Vec3::Zero());
     part.turned = std::numeric_limits<double>::infinity();
@@ -49,8 +50,12 @@ bool Stepping::bendFurther(double h, bool all) {
 bool Stepping::turnOn(BendingPart& part, double h) {
   constexpr double kSame = 1e-10;  // of the largest velocity: a step that changes less is the last
   double change = 0.0, scale = 0.0;
-  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
+  const auto rate = [&](std::size_t p) -> Vec3 {
     const Vec3 v = work_.after[part.bodies[p]].head<3>();
+    return part.movesOut() ? Vec3(v + part.wayOut[p]) : v;
+  };
+  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
+    const Vec3 v = rate(p);
     change = std::max(change, (v - part.about[p]).lpNorm<Eigen::Infinity>());
     scale = std::max(scale, v.lpNorm<Eigen::Infinity>());
   }
@@ -59,7 +64,7 @@ bool Stepping::turnOn(BendingPart& part, double h) {
   const double share = change < part.turned ? 1.0 : 0.5;
   part.turned = change;
   for (std::size_t p = 0; p < part.bodies.size(); ++p)
-    part.about[p] += share * (work_.after[part.bodies[p]].head<3>() - part.about[p]);
+    part.about[p] += share * (rate(p) - part.about[p]);
   linearise(part, memory_.bendings->pointOf, state_.bodies, h);
   begin(part, h);
   return true;
@@ -132,7 +137,8 @@ void Stepping::coupleBent() {
 /// What the implicit step takes [J], by the impulses p of what bends and its energies alone: with
 /// v̄ the mean of the velocities before and after, a point gains p·v̄ while the energies give
 /// −ΔE; gravity acts on the way h v⁺, which is ½ h Δv longer than that of v̄. Points that are led
-/// along take −p from who leads them.
+/// along take −p from who leads them. On their way out of a solid, points move against p and
+/// gravity.
 Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   std::vector<Vec3> v, pull;
   for (const int i : part.bodies) v.push_back(work_.after[i].head<3>());
@@ -151,6 +157,9 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
     gained += impulse.dot(0.5 * (before + v[p])) -
               0.5 * h * body.M * model_.def.gravity.dot(v[p] - before);
     books.size += 0.5 * body.M * (v[p].squaredNorm() + before.squaredNorm());
+    if (!part.movesOut()) continue;
+    gained += impulse.dot(part.wayOut[p]);
+    books.movedOut -= (impulse + h * body.M * model_.def.gravity).dot(part.wayOut[p]);
   }
   books.taken = books.led - gained;
   books.size += part.reached + part.stored;
@@ -168,7 +177,8 @@ bool Stepping::gains(double h) {
   bentBooks_.resize(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (!parts[k].fresh) continue;
-    parts[k].reached = energyAfter(parts[k], state_.bodies, work_.after, h);
+    parts[k].reached =
+        energyAfter(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, h);
     bentBooks_[k] = booksOf(parts[k], h);
     parts[k].fresh = false;
   }
@@ -181,6 +191,7 @@ void Stepping::bookBent() {
     state_.externalImpulse += books.external;
     report_.certificate.work_of_forces += books.led;
     report_.certificate.energy_lost_bending += books.taken;
+    report_.certificate.energy_added_repair += books.movedOut;
   }
 }
 

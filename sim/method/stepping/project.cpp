@@ -32,13 +32,18 @@ bool Stepping::project() {
 }
 
 double Stepping::deepestOverlap() {
-  for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, memory_.pairs[k].margin);
+  for (std::size_t k = 0; k < state_.near.size(); ++k)
+    if (const double margin = memory_.pairs[k].margin; findsInside(k))
+      look(k, std::max(margin, tolerance_.touch));
+    else
+      look(k, margin);
   return deepestKnown();
 }
 
 double Stepping::deepestKnown() const {
   double deepest = 0.0;
-  for (const PairMemory& pair : memory_.pairs) deepest = std::max(deepest, pair.deepest);
+  for (std::size_t k = 0; k < memory_.pairs.size(); ++k)
+    if (!findsInside(k)) deepest = std::max(deepest, memory_.pairs[k].deepest);
   return deepest;
 }
 
@@ -50,7 +55,7 @@ void Stepping::findOverlapping() {
   for (const Joint& joint : model_.joints) joinBodies(joint.a, joint.b);
   work_.open.assign(state_.bodies.size(), 0);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (memory_.pairs[k].deepest > tolerance_.drift) work_.open[rootOf(k)] = 1;
+    if (memory_.pairs[k].deepest > tolerance_.drift && !findsInside(k)) work_.open[rootOf(k)] = 1;
 }
 
 int Stepping::rootOf(std::size_t pair) {
@@ -71,7 +76,7 @@ int Stepping::lift(int most, bool asCrowd) {
   for (Vec6& v : work_.problem.vStar) v.setZero();
   findOverlapping();
   for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
-    if (memory_.pairs[k].touches.empty() || !work_.open[rootOf(k)]) continue;
+    if (memory_.pairs[k].touches.empty() || findsInside(k) || !work_.open[rootOf(k)]) continue;
     for (const Touch& touch : memory_.pairs[k].touches) {
       const Contact& c = touch.contact;
       if (c.point.separation > reach) continue;

@@ -54,6 +54,8 @@ void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
   requireStep("stepping.step", stepping.step, model.def.duration);
   if (!(stepping.tolerance > 0.0) || !std::isfinite(stepping.tolerance))
     throw Refusal("stepping.tolerance", "a tolerance must be a positive number");
+  if (!findPointPlan(stepping.points))
+    throw Refusal("stepping.points", "no plan for points is called \"" + stepping.points + "\"");
   checkBending(model);
   if (!model.pivots.empty())
     throw Refusal("bodies[" + std::to_string(model.pivots[0].body) + "].pivot_body",
@@ -75,7 +77,8 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       scale_(scaleOf(model)),
       tolerance_(ContactTolerance::forSize(scale_)),
       gravity_(model.def.gravity.norm()),
-      solver_(*findSolver(model.def.stepping.solver)) {
+      solver_(*findSolver(model.def.stepping.solver)),
+      points_(*findPointPlan(model.def.stepping.points)) {
   if (!memory_.drives) memory_.drives = drivesOf(model, state.bodies);
   memory_.pushes.resize(state.bodies.size());
   work_.touched.resize(state.bodies.size());
@@ -167,6 +170,7 @@ void Stepping::moveTo(double t1, double h) {
   moveBodies(h);
   bookSprings(h);
   if (bends()) bookBent();
+  if (bends() && !points_.foresees) moveOut(h);
   if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
   if (!project()) {
     if (const Joint* open = brokenJoint(state_.bodies, model_.joints)) {

@@ -14,6 +14,7 @@
 #include "sim/joint/joint_bonds.h"
 #include "sim/joint/joint_rows.h"
 #include "sim/method/method.h"
+#include "sim/method/stepping/point_plan.h"
 #include "sim/problem/problem.h"
 
 namespace tumble {
@@ -297,6 +298,7 @@ class Stepping {
     double taken = 0.0;            ///< [J] by the implicit step
     double led = 0.0;              ///< [J] work of points that are led along
     double size = 0.0;             ///< [J] of the energies that make it up
+    double movedOut = 0.0;         ///< [J] that the way out of solids gives
     Vec3 external = Vec3::Zero();  ///< [N·s] on the points that move, by those
 
     /// Whether linear forces gave energy, as those of what buckles or turns far in a step can:
@@ -315,6 +317,18 @@ class Stepping {
     }
   }
   bool keepsBent(const IslandMemory& memory, std::span<const Link> links, double h);
+
+  // found_inside.cpp: points of what bends, by plans that do not foresee contacts.
+  bool findsInside(std::size_t pair) const {
+    return !points_.foresees &&
+           (model_.bends(state_.near[pair].first) || model_.bends(state_.near[pair].second));
+  }
+  /// Leaves those found points out that do not touch, but for those that were pushed when last met.
+  void leaveUnmet(const PairMemory& memory);
+  void findWaysOut(double h);
+  void moveOut(double h);
+  void takeOut();
+  void bookInside();
 
   // swept.cpp: what bends, by sweeps in place of factors.
   bool canSweep(std::span<const Link> links);
@@ -361,6 +375,7 @@ class Stepping {
   ContactTolerance tolerance_;
   double gravity_;  ///< [m/s²] its size
   const Solver& solver_;
+  const PointPlan& points_;
 
   int stillSteps_ = 0;  ///< in a row that end here, in which nothing changes
   bool allKept_ = false;

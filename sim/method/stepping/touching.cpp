@@ -119,6 +119,7 @@ bool Stepping::growBoxes(double h, bool fall) {
 
 /// Whether a pair has points that are not in the problem, and would overlap.
 bool Stepping::lookFurther(std::size_t k, double h) {
+  if (findsInside(k)) return false;
   const auto [ib, ia] = state_.near[k];
   if (!work_.touched[ia] && !work_.touched[ib]) return false;
   const Vec6 &va = work_.after[ia], &vb = work_.after[ib];
@@ -168,6 +169,7 @@ bool Stepping::seeFurther(double h) {
       isAt(memory.poseB, b, roundingAt(b.x)))
     return;
   findNearPoints(model_, state_, pair, margin, work_.found, report_);
+  if (findsInside(pair)) leaveUnmet(memory);
   const bool hadNone = memory.touches.empty() && memory.margin >= 0.0;
   memory.poseA = a.pose();
   memory.poseB = b.pose();
