@@ -11,6 +11,7 @@
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/panel/variant_run.h"
+#include "app/report/bends.h"
 #include "app/report/headline.h"
 #include "app/report/machine.h"
 #include "app/report/page.h"
@@ -141,6 +142,22 @@ std::vector<Price> prices(const Options& options) {
   return prices;
 }
 
+// What bends, by preset and step.
+std::vector<Study> bends(const Options& options, const std::string& machine) {
+  std::vector<double> steps = {1.0 / 30.0, 1.0 / 60.0, 1.0 / 120.0};
+  if (options.quick) steps.pop_back();
+  Progress progress("What bends");
+  std::vector<Study> studies;
+  for (const char* name : kBendingScenes) {
+    const Scene scene = readScene(fmt::format("{}/parts/{}.toml", dataFolder("report"), name));
+    studies.push_back(bendingStudy(scene, steps, extentOf(options).budget));
+    progress.show(static_cast<double>(studies.size()) / std::size(kBendingScenes));
+  }
+  for (const Study& one : studies)
+    write(options, one, studyCsv(one), plotScript(one, labelsOf(studies), machine));
+  return studies;
+}
+
 // How the solvers of the contact problem do on what the demos ask of them.
 std::vector<Profile> contact(const Options& options, const std::string& machine) {
   constexpr double kStep = 1.0 / 240.0;  // s
@@ -237,6 +254,7 @@ int report(int argc, char** argv) {
   const std::vector<Study> studies = study(options, machine);
   std::vector<Chapter> chapters = chaptersOf(studies, methodProfiles(options, studies, machine));
   if (whole) {
+    chapters.push_back(bendingChapter(bends(options, machine)));
     chapters.push_back(solverChapter(contact(options, machine)));
     chapters.push_back(growthChapter(growth(options, machine)));
     chapters.push_back(priceChapter(prices(options)));

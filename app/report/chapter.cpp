@@ -83,6 +83,18 @@ std::vector<Chapter> chaptersOf(const std::vector<Study>& studies,
   return chapters;
 }
 
+Chapter bendingChapter(const std::vector<Study>& studies) {
+  Chapter chapter{"What bends",
+                  "<p>Cloth and soft solids by implicit steps: how far they are from where small "
+                  "steps lead, against CPU time, by preset. The order is the slope of error over "
+                  "step. Presets that sweep end where a sweep changes speeds by less than their "
+                  "tolerance.</p>\n",
+                  {},
+                  ""};
+  for (const Study& study : studies) chapter.figures.push_back(figureOf(study));
+  return chapter;
+}
+
 Chapter solverChapter(const std::vector<Profile>& profiles) {
   Chapter chapter{"Solvers on what the demos ask",
                   "<p>For what share of the problems a solver takes at most so many times the CPU "

@@ -31,6 +31,9 @@ struct Chapter {
 std::vector<Chapter> chaptersOf(const std::vector<Study>& studies,
                                 const std::vector<Profile>& methods);
 
+/// What bends, by preset and step.
+Chapter bendingChapter(const std::vector<Study>& studies);
+
 /// How the solvers of the contact problem do.
 Chapter solverChapter(const std::vector<Profile>& profiles);
 
