@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "app/command/command.h"
 #include "app/command/options.h"
@@ -55,7 +56,7 @@ std::string methodLine(const WorldDef& world, const World& running) {
   return fmt::format("{}{}, {:g} s", running.method(), steps, world.duration);
 }
 
-// "bends     cloth: 361 points, 1083 unknowns, 2016 energies, 0.2 kg"
+// "bends     cloth: 361 points, 1083 unknowns, 2016 energies (spring, cloth shear), 0.2 kg"
 void printBent(const Scene& scene) {
   for (const BentDef& bent : scene.bent) {
     double mass = 0.0;
@@ -65,16 +66,20 @@ void printBent(const Scene& scene) {
       moving += !scene.world.bodies[i].fixed;
     }
     std::size_t energies = 0;
+    std::set<std::size_t> kinds;
     for (const Force& force : scene.world.forces) {
       const Bending* bending = std::get_if<Bending>(&force);
       const int first = bending ? bending->body->bodies.front() : -1;
-      if (first >= bent.first && first < bent.first + bent.count)
-        energies += bending->body->elements.size();
+      if (first < bent.first || first >= bent.first + bent.count) continue;
+      energies += bending->body->elements.size();
+      for (const Element& element : bending->body->elements) kinds.insert(element.energy.index());
     }
+    std::vector<std::string> names;
+    for (const std::size_t kind : kinds) names.emplace_back(energyKinds()[kind].name);
     const std::string strands =
         bent.strand > 0 ? fmt::format("{} strands, ", bent.count / bent.strand) : "";
-    fmt::print("bends     {}: {}{} points, {} unknowns, {} energies, {:g} kg\n", bent.name, strands,
-               bent.count, 3 * moving, energies, mass);
+    fmt::print("bends     {}: {}{} points, {} unknowns, {} energies ({}), {:g} kg\n", bent.name,
+               strands, bent.count, 3 * moving, energies, join(names), mass);
   }
 }
 

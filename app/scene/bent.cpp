@@ -71,7 +71,7 @@ void readPinTo(Section& section, const BodyList& bodies, BentTable& bent) {
 
 BentDef addBent(Section& section, const BentTable& bent, const std::vector<Vec3>& places,
                 const std::vector<double>& masses, double radius,
-                const std::function<std::vector<Element>(int first)>& elements, BodyList& bodies,
+                const std::function<void(ElasticBody&, int first)>& fill, BodyList& bodies,
                 Scene& scene) {
   const int first = static_cast<int>(bodies.next());
   auto body = std::make_shared<ElasticBody>();
@@ -96,7 +96,7 @@ BentDef addBent(Section& section, const BentTable& bent, const std::vector<Vec3>
     if (pinned && !stands) pin(section, bent, entry.def, body->bodies.back(), scene);
     bodies.add(std::move(entry), section.spot(), section);
   }
-  body->elements = elements(first);
+  fill(*body, first);
   std::vector<Force>& forces = scene.world.forces;
   section.findings().note("forces[" + std::to_string(forces.size()) + "]", section.spot());
   forces.push_back(Bending{body});

@@ -33,11 +33,11 @@ void readPinTo(Section& section, const BodyList& bodies, BentTable& bent);
 /// joints where they are pinned to a body.
 /// @param places    [m] in its own frame
 /// @param masses    [kg]
-/// @param elements  by numbers of points plus that of the first
+/// @param fill      adds elements, by numbers of points plus that of the first
 /// @return what is drawn of it, without triangles
 BentDef addBent(Section& section, const BentTable& bent, const std::vector<Vec3>& places,
                 const std::vector<double>& masses, double radius,
-                const std::function<std::vector<Element>(int first)>& elements, BodyList& bodies,
+                const std::function<void(ElasticBody&, int first)>& fill, BodyList& bodies,
                 Scene& scene);
 
 }  // namespace tumble

@@ -61,20 +61,6 @@ void readPins(Section& section, const ClothDef& cloth, std::vector<int>& pins) {
       for (const int j : {0, n - 1}) pins.push_back(clothPoint(cloth, i, j));
 }
 
-// The triangles of the grid, seen from +Y counter-clockwise. Diagonals point to the middle, so that
-// the picture is as symmetric as the cloth.
-std::vector<std::array<int, 3>> trianglesOf(const ClothDef& cloth) {
-  std::vector<std::array<int, 3>> triangles;
-  for (int j = 0; j + 1 < cloth.rows; ++j)
-    for (int i = 0; i + 1 < cloth.columns; ++i) {
-      const int a = clothPoint(cloth, i, j), b = a + 1, c = clothPoint(cloth, i, j + 1), d = c + 1;
-      const bool down = (2 * i + 2 < cloth.columns) == (2 * j + 2 < cloth.rows);
-      triangles.push_back({a, c, down ? d : b});
-      triangles.push_back({down ? a : c, d, b});
-    }
-  return triangles;
-}
-
 }  // namespace
 
 void readCloths(Section& root, const Materials& materials, BodyList& bodies, Scene& scene) {
@@ -92,8 +78,12 @@ void readCloths(Section& root, const Materials& materials, BodyList& bodies, Sce
     if (!section.good()) continue;
     scene.bent.push_back(addBent(
         section, bent, clothPlaces(cloth), clothMasses(cloth), 0.5 * thickness,
-        [&](int first) { return clothElements(cloth, first); }, bodies, scene));
-    scene.bent.back().triangles = trianglesOf(cloth);
+        [&](ElasticBody& body, int first) {
+          body.elements = clothElements(cloth, first);
+          body.sheet = clothTriangles(cloth, first);
+        },
+        bodies, scene));
+    scene.bent.back().triangles = clothTriangles(cloth);
     scene.bent.back().thickness = thickness;
   }
 }

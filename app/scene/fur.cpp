@@ -84,7 +84,8 @@ void addStrand(Section& section, const FurTable& fur, const Root& root, int numb
   bent.pose.velocity = body.velocity + body.angularVelocity.cross(arm);
   const BentDef added = addBent(
       section, bent, strandPlaces(fur.strand), strandMasses(fur.strand), 0.5 * fur.thickness,
-      [&](int first) { return strandElements(fur.strand, first); }, bodies, scene);
+      [&](ElasticBody& body, int first) { body.elements = strandElements(fur.strand, first); },
+      bodies, scene);
   // The two in the root meet nothing.
   for (const int p : {0, 1})
     if (p < added.count)

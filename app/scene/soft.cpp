@@ -35,18 +35,21 @@ SoftDef readSolid(Section& section) {
   section.read("size", soft.size, positive("m"));
   section.read("density", soft.density, positive("kg/m³"));
   std::string law = "corotated";
-  section.read("law", law, {"corotated", "neo-hookean", "lattice"});
+  section.read("law", law, {"corotated", "neo-hookean", "lattice", "matching"});
   soft.law = law == "lattice"     ? SoftLaw::Lattice
+             : law == "matching"  ? SoftLaw::Matching
              : law == "corotated" ? SoftLaw::Corotated
                                   : SoftLaw::NeoHookean;
-  const bool lattice = soft.law == SoftLaw::Lattice;
-  double young = 0.0, poisson = lattice ? 0.25 : 0.3, viscosity = 0.0;
+  const bool lattice = soft.law == SoftLaw::Lattice, matching = soft.law == SoftLaw::Matching;
+  double young = 0.0, poisson = lattice ? 0.25 : matching ? 0.0 : 0.3, viscosity = 0.0;
   if (!section.find("young")) section.complain("young", "missing; Young's modulus in Pa");
   section.read("young", young, positive("Pa"));
   section.read("poisson", poisson, {0.0, 0.49, false, {}});
   section.read("viscosity", viscosity, notNegative("Pa s"));
   if (lattice && poisson != 0.25)
     section.complain("poisson", "springs that pull along themselves alone have 0.25; leave it out");
+  if (matching && poisson != 0.0)
+    section.complain("poisson", "cells that are drawn to their shape have 0; leave it out");
   if (section.good()) soft.solid = solidityOf(young, poisson, viscosity);
   if (section.good() && lattice && !hasLattice(soft))
     section.complain("cells",
@@ -84,7 +87,8 @@ void readSofts(Section& root, const Materials& materials, BodyList& bodies, Scen
     if (!section.good()) continue;
     BentDef drawn = addBent(
         section, bent, softPlaces(soft), softMasses(soft), skin,
-        [&](int first) { return softElements(soft, first); }, bodies, scene);
+        [&](ElasticBody& body, int first) { body.elements = softElements(soft, first); }, bodies,
+        scene);
     for (const SoftFace& face : softFaces(soft)) {
       drawn.triangles.push_back(face.points);
       drawn.sides.push_back(face.side);

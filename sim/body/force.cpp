@@ -95,7 +95,7 @@ ElementVector pullOf(const Element& element, ConstBodies bodies, ElementTerms& t
   if (!damped) return -terms.gradient;
   ElementVector v = ElementVector::Zero();
   for (int k = 0; k < element.count; ++k) v.segment<3>(3 * k) = bodies[element.points[k]].v;
-  return -terms.gradient - terms.damping * v;
+  return -terms.gradient - elementTimes(terms.damping, v, element.count);
 }
 
 void add(const Bending& bending, Bodies bodies) {
@@ -153,7 +153,7 @@ double power(const Bending& bending, ConstBodies bodies) {
       v.segment<3>(3 * k) = body.v;
       if (body.fixed()) sum -= pull.segment<3>(3 * k).dot(body.v);
     }
-    sum -= v.dot(terms.damping * v);
+    if (damps(element.energy)) sum -= v.dot(elementTimes(terms.damping, v, element.count));
   }
   return sum;
 }

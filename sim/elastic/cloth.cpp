@@ -27,7 +27,8 @@ class Weaver {
     const Weave weave = weaveOf(a_, b_);
     for (int j = 0; j + 1 < cloth_.rows; ++j)
       for (int i = 0; i + 1 < cloth_.columns; ++i) {
-        const std::array<int, 4> corners = {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)};
+        const std::array<int, kElementPoints> corners = {at(i, j), at(i + 1, j), at(i, j + 1),
+                                                         at(i + 1, j + 1)};
         if (cloth_.shear > 0.0) add(corners, ClothShear{weave, cloth_.shear, cloth_.damping});
         if (cloth_.bend > 0.0)
           add(corners, ClothBend{{1.0, -1.0, -1.0, 1.0}, 2.0 * cloth_.bend / (a_ * b_)});
@@ -50,7 +51,7 @@ class Weaver {
  private:
   int at(int i, int j) const { return first_ + clothPoint(cloth_, i, j); }
 
-  void add(const std::array<int, 4>& points, const Energy& energy) {
+  void add(const std::array<int, kElementPoints>& points, const Energy& energy) {
     out_.push_back({.points = points, .count = pointsOf(energy), .energy = energy});
   }
   void addThread(std::pair<int, int> p, std::pair<int, int> q, double length, double width) {
@@ -101,6 +102,18 @@ std::vector<Element> clothElements(const ClothDef& cloth, int first) {
   weaver.addCells();
   weaver.addBends();
   return elements;
+}
+
+std::vector<std::array<int, 3>> clothTriangles(const ClothDef& cloth, int first) {
+  std::vector<std::array<int, 3>> triangles;
+  for (int j = 0; j + 1 < cloth.rows; ++j)
+    for (int i = 0; i + 1 < cloth.columns; ++i) {
+      const int a = first + clothPoint(cloth, i, j), b = a + 1, c = a + cloth.columns, d = c + 1;
+      const bool down = (2 * i + 2 < cloth.columns) == (2 * j + 2 < cloth.rows);
+      triangles.push_back({a, c, down ? d : b});
+      triangles.push_back({down ? a : c, d, b});
+    }
+  return triangles;
 }
 
 }  // namespace tumble

@@ -35,4 +35,8 @@ std::vector<double> clothMasses(const ClothDef& cloth);
 /// turned by quarters it is the same cloth: no cell has a diagonal.
 std::vector<Element> clothElements(const ClothDef& cloth, int first = 0);
 
+/// Triangles of its sheet, by numbers of points plus `first`, seen from +Y counter-clockwise.
+/// Diagonals point to the middle, so that it is as symmetric as the cloth.
+std::vector<std::array<int, 3>> clothTriangles(const ClothDef& cloth, int first = 0);
+
 }  // namespace tumble

@@ -32,7 +32,7 @@ void addThreads(const ClothStretch& cloth, const Vec4& d, const ElementPlaces& x
 
 void differentiate(const ClothStretch& cloth, const ElementPlaces& x, ElementAsk ask,
                    ElementTerms& terms) {
-  terms = {};
+  terms.clear(ask);
   addThreads(cloth, cloth.weave.du, x, ask, terms);
   addThreads(cloth, cloth.weave.dv, x, ask, terms);
 }

@@ -27,6 +27,9 @@ int points(const Corotated&) {
 int points(const NeoHookean&) {
   return 4;
 }
+int points(const ShapeMatch&) {
+  return 8;
+}
 
 double dampingOf(const StretchSpring& spring) {
   return spring.damping;
@@ -48,6 +51,9 @@ double dampingOf(const Corotated& solid) {
 }
 double dampingOf(const NeoHookean& solid) {
   return solid.solid.viscosity;
+}
+double dampingOf(const ShapeMatch& match) {
+  return match.viscosity;
 }
 
 }  // namespace

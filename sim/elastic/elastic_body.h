@@ -20,8 +20,9 @@ struct Element {
 /// Something that bends: bodies of the world that are points of mass, joined by energies.
 struct ElasticBody {
   std::string name;
-  std::vector<int> bodies;        ///< of the world, in ascending order
-  std::vector<Element> elements;  ///< by numbers of bodies of the world
+  std::vector<int> bodies;                     ///< of the world, in ascending order
+  std::vector<Element> elements;               ///< by numbers of bodies of the world
+  std::vector<std::array<int, 3>> sheet = {};  ///< triangles of a cloth, by the same
 };
 
 /// How many points an energy joins.

@@ -11,12 +11,14 @@
 
 namespace tumble {
 
-/// The most points that an element joins.
-inline constexpr int kElementPoints = 4;
+/// The most points that an element joins; and the most that all but a few kinds do.
+inline constexpr int kElementPoints = 8, kFewPoints = 4;
 
 using ElementPlaces = std::array<Vec3, kElementPoints>;  ///< [m] world frame
 using ElementVector = Eigen::Matrix<double, 3 * kElementPoints, 1>;
 using ElementMatrix = Eigen::Matrix<double, 3 * kElementPoints, 3 * kElementPoints>;
+using FewVector = Eigen::Matrix<double, 3 * kFewPoints, 1>;
+using FewMatrix = Eigen::Matrix<double, 3 * kFewPoints, 3 * kFewPoints>;
 
 /// What is asked of an element.
 enum class ElementAsk {
@@ -26,13 +28,29 @@ enum class ElementAsk {
   Projected  ///< the same with a Hessian that has no negative eigenvalue
 };
 
-/// What an energy E gives at the places x of its points; of what was not asked for nothing counts.
+/// What an energy E gives at the places x of its points; of what was not asked for nothing counts,
+/// nor do entries of points past those that it joins.
 struct ElementTerms {
   double energy = 0.0;                             ///< [J]
   ElementVector gradient = ElementVector::Zero();  ///< [N] ∂E/∂x: the force is −∂E/∂x
   ElementMatrix hessian = ElementMatrix::Zero();  ///< [N/m] ∂²E/∂x², or what is left projected
   ElementMatrix damping = ElementMatrix::Zero();  ///< [N s/m] D ≥ 0: the force is −D v
+
+  /// What is asked for 0, of so many points.
+  template <int Points = kFewPoints>
+  void clear(ElementAsk ask) {
+    constexpr int n = 3 * Points;
+    energy = 0.0;
+    if (ask == ElementAsk::Energy) return;
+    gradient.head<n>().setZero();
+    if (ask == ElementAsk::Forces) return;
+    hessian.topLeftCorner<n, n>().setZero();
+    damping.topLeftCorner<n, n>().setZero();
+  }
 };
+
+/// A v, of as many points as an element joins.
+ElementVector elementTimes(const ElementMatrix& A, const ElementVector& v, int points);
 
 /// Two points on a spring of natural length l₀ [m]:
 ///   E = ½ k (l − l₀)²,   f = −c l̇ along it beside that.
@@ -130,8 +148,23 @@ struct NeoHookean {
   Solidity solid;
 };
 
+/// A cell of a box, whose corners are drawn to where its shape at rest, moved and turned, fits them
+/// best (Müller et al., Meshless Deformations Based on Shape Matching, 2005), by a potential in
+/// place of their velocities: with s the signs of the corners' places (±h₀, ±h₁, ±h₂) at rest,
+///   E = min over R of  μ V |F − R|² + ½ Σ κ_m |x_m|²,   F = Σ x_i s_iᵀ/8h,
+/// where x_m = ⅛ Σ s_m x_i are the four ways of the corners that F does not see, s_m products of
+/// two or three signs, and κ_m = 2 μ V times the mean of 1/h² of these. Of a cube that is ½ k Σ
+/// |x_i − c − R q_i|²  with k = 2 μ h and c the mean of the x_i. Departure: of cells that are no
+/// cubes each way has its own k, so that E/2 = μ holds along all; forces in place of goals. A solid
+/// whose Poisson's ratio is 0. Corners are numbered by bits: 1 along x, 2 along y, 4 along z.
+struct ShapeMatch {
+  Vec3 half = Vec3::Ones();  ///< [m] h: of the edges
+  double mu = 0.0;           ///< [Pa] half of Young's modulus
+  double viscosity = 0.0;    ///< [Pa s] of F, as of other solids; the four ways have none
+};
+
 using Energy = std::variant<StretchSpring, ClothStretch, ClothShear, ClothBend, StrandBend,
-                            Corotated, NeoHookean>;
+                            Corotated, NeoHookean, ShapeMatch>;
 
 /// A row of the table of energies, in the order of the variant.
 struct EnergyKind {
@@ -140,8 +173,7 @@ struct EnergyKind {
 };
 std::span<const EnergyKind> energyKinds();
 
-/// What the energy gives with its points at x; the terms are overwritten. Points that an energy
-/// does not join have no entries.
+/// What the energy gives with its points at x; the terms are overwritten.
 void differentiate(const StretchSpring&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const ClothStretch&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const ClothShear&, const ElementPlaces& x, ElementAsk, ElementTerms&);
@@ -149,6 +181,7 @@ void differentiate(const ClothBend&, const ElementPlaces& x, ElementAsk, Element
 void differentiate(const StrandBend&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const Corotated&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const NeoHookean&, const ElementPlaces& x, ElementAsk, ElementTerms&);
+void differentiate(const ShapeMatch&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const Energy&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 
 }  // namespace tumble

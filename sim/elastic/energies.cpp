@@ -14,10 +14,22 @@ constexpr EnergyKind kKinds[] = {
     {.name = "strand bend", .summary = "a strand that turns from piece to piece"},
     {.name = "corotated", .summary = "a solid, linear in its stretches"},
     {.name = "neo-hookean", .summary = "a solid as of rubber"},
+    {.name = "shape match", .summary = "a cell that is drawn to its shape at rest, turned along"},
 };
 static_assert(std::size(kKinds) == std::variant_size_v<Energy>, "every energy has its row");
 
+template <int Points>
+ElementVector timesOf(const ElementMatrix& A, const ElementVector& v) {
+  ElementVector out = ElementVector::Zero();
+  out.head<3 * Points>() = A.topLeftCorner<3 * Points, 3 * Points>() * v.head<3 * Points>();
+  return out;
+}
+
 }  // namespace
+
+ElementVector elementTimes(const ElementMatrix& A, const ElementVector& v, int points) {
+  return points <= kFewPoints ? timesOf<kFewPoints>(A, v) : timesOf<kElementPoints>(A, v);
+}
 
 std::span<const EnergyKind> energyKinds() {
   return kKinds;

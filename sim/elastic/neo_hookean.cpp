@@ -5,7 +5,7 @@ namespace tumble {
 
 void differentiate(const NeoHookean& solid, const ElementPlaces& x, ElementAsk ask,
                    ElementTerms& terms) {
-  terms = {};
+  terms.clear(ask);
   const Mat3 F = deformation(solid.cell, x);
   const Stretches stretches = stretchesOf(F);
   const auto [mu, lambda, viscosity] = solid.solid;

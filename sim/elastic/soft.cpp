@@ -22,6 +22,20 @@ Energy energyOf(const SoftDef& soft, const Cell& cell) {
   return NeoHookean{cell, soft.solid};
 }
 
+std::vector<Element> matchingElements(const SoftDef& soft, int first) {
+  const Vec3 cells(soft.cells[0], soft.cells[1], soft.cells[2]);
+  const ShapeMatch match{.half = 0.5 * soft.size.cwiseQuotient(cells),
+                         .mu = soft.solid.mu,
+                         .viscosity = soft.solid.viscosity};
+  std::vector<Element> elements;
+  forGrid(soft, 0, [&](int i, int j, int k) {
+    Element& cell = elements.emplace_back(Element{.points = {}, .count = 8, .energy = match});
+    for (int c = 0; c < 8; ++c)
+      cell.points[c] = first + softPoint(soft, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+  });
+  return elements;
+}
+
 }  // namespace
 
 int softPoints(const SoftDef& soft) {
@@ -38,7 +52,7 @@ std::vector<Vec3> softPlaces(const SoftDef& soft) {
 }
 
 std::vector<double> softMasses(const SoftDef& soft) {
-  const bool even = soft.law == SoftLaw::Lattice;
+  const bool even = soft.law == SoftLaw::Lattice || soft.law == SoftLaw::Matching;
   const double cell =
       soft.density * soft.size.prod() / (soft.cells[0] * soft.cells[1] * soft.cells[2]);
   std::vector<double> masses(softPoints(soft), 0.0);
@@ -55,12 +69,13 @@ std::vector<double> softMasses(const SoftDef& soft) {
 
 std::vector<Element> softElements(const SoftDef& soft, int first) {
   if (soft.law == SoftLaw::Lattice) return latticeElements(soft, first);
+  if (soft.law == SoftLaw::Matching) return matchingElements(soft, first);
   const std::vector<Vec3> places = softPlaces(soft);
   std::vector<Element> elements;
   forGrid(soft, 0, [&](int i, int j, int k) {
     const bool mirrored = (i + j + k) % 2 == 1;
     for (const auto& cut : kCut) {
-      std::array<int, 4> p;
+      std::array<int, kElementPoints> p = {};
       for (int n = 0; n < 4; ++n) {
         const int c = mirrored ? cut[n] ^ 1 : cut[n];
         p[n] = softPoint(soft, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
@@ -71,7 +86,7 @@ std::vector<Element> softElements(const SoftDef& soft, int first) {
         std::swap(p[0], p[1]);
         std::swap(x[0], x[1]);
       }
-      for (int& point : p) point += first;
+      for (int n = 0; n < 4; ++n) p[n] += first;
       elements.push_back({.points = p, .count = 4, .energy = energyOf(soft, cellOf(x))});
     }
   });

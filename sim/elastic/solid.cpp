@@ -9,13 +9,6 @@
 namespace tumble {
 namespace {
 
-/// By how much a mode of F, in the frames of U and V, moves along with each corner.
-ElementVector cornersOf(const Mat3& mode, const Mat3& U, const std::array<Vec3, 4>& turned) {
-  ElementVector q;
-  for (int i = 0; i < 4; ++i) q.segment<3>(3 * i) = U * (mode * turned[i]);
-  return q;
-}
-
 /// Adds the modes in which F turns or shears in the plane of two stretches.
 void addPlaneModes(const Mat3& U, const StretchLaw& law, bool projected, double volume,
                    const std::array<Vec3, 4>& turned, ElementMatrix& H) {
@@ -29,8 +22,8 @@ void addPlaneModes(const Mat3& U, const StretchLaw& law, bool projected, double 
       Mat3 mode = Mat3::Zero();
       mode(i, j) = half;
       mode(j, i) = sign * half;
-      const ElementVector q = cornersOf(mode, U, turned);
-      H.noalias() += volume * value * q * q.transpose();
+      const FewVector q = cornersOf(mode, U, turned);
+      H.topLeftCorner<12, 12>().noalias() += volume * value * q * q.transpose();
     }
   }
 }
@@ -42,22 +35,9 @@ void addStretchModes(const Mat3& U, const StretchLaw& law, bool projected, doubl
   for (int m = 0; m < 3; ++m) {
     const double value = projected ? std::max(own.eigenvalues()[m], 0.0) : own.eigenvalues()[m];
     const Mat3 mode = own.eigenvectors().col(m).asDiagonal();
-    const ElementVector q = cornersOf(mode, U, turned);
-    H.noalias() += volume * value * q * q.transpose();
+    const FewVector q = cornersOf(mode, U, turned);
+    H.topLeftCorner<12, 12>().noalias() += volume * value * q * q.transpose();
   }
-}
-
-/// Adds D of a stress 2 η Ė with Ė = ½ d(FᵀF)/dt, which no rigid motion changes.
-void addViscosity(const Cell& cell, double viscosity, const Mat3& F, ElementMatrix& D) {
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b) {
-      ElementVector rate;  // of Ė_ab by the corners' velocities
-      for (int i = 0; i < 4; ++i)
-        rate.segment<3>(3 * i) =
-            0.5 * (F.col(a) * cell.gradient[i][b] + F.col(b) * cell.gradient[i][a]);
-      const double weight = 2.0 * viscosity * cell.volume * (a == b ? 1.0 : 2.0);
-      D.noalias() += weight * rate * rate.transpose();
-    }
 }
 
 }  // namespace
@@ -111,12 +91,12 @@ void differentiateSolid(const Cell& cell, double viscosity, const Mat3& F,
   std::array<Vec3, 4> turned;
   for (int i = 0; i < 4; ++i) turned[i] = stretches.V.transpose() * cell.gradient[i];
   // P = U diag(ψ) Vᵀ.
-  terms.gradient = cell.volume * cornersOf(law.slope.asDiagonal(), stretches.U, turned);
+  terms.gradient.head<12>() = cell.volume * cornersOf(law.slope.asDiagonal(), stretches.U, turned);
   if (ask == ElementAsk::Forces) return;
   const bool projected = ask == ElementAsk::Projected;
   addStretchModes(stretches.U, law, projected, cell.volume, turned, terms.hessian);
   addPlaneModes(stretches.U, law, projected, cell.volume, turned, terms.hessian);
-  if (viscosity > 0.0) addViscosity(cell, viscosity, F, terms.damping);
+  if (viscosity > 0.0) addViscosity(cell.gradient, cell.volume, viscosity, F, terms.damping);
 }
 
 }  // namespace tumble

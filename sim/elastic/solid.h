@@ -26,6 +26,36 @@ struct StretchLaw {
 /// F of a cell with its corners at x.
 Mat3 deformation(const Cell& cell, const ElementPlaces& x);
 
+/// F of a cell of a box, in the mean.
+Mat3 deformation(const ShapeMatch& match, const ElementPlaces& x);
+
+/// How a mode of F, in the frames of U and V, moves along with each corner.
+/// @param turned  per corner Vᵀ ∂F/∂x_i
+template <std::size_t N>
+Eigen::Matrix<double, 3 * static_cast<int>(N), 1> cornersOf(const Mat3& mode, const Mat3& U,
+                                                            const std::array<Vec3, N>& turned) {
+  Eigen::Matrix<double, 3 * static_cast<int>(N), 1> q;
+  for (std::size_t i = 0; i < N; ++i) q.template segment<3>(3 * i) = U * (mode * turned[i]);
+  return q;
+}
+
+/// Adds D of a stress 2 η Ė with Ė = ½ d(FᵀF)/dt, which no rigid motion changes.
+/// @param gradient  [1/m] per corner
+template <std::size_t N>
+void addViscosity(const std::array<Vec3, N>& gradient, double volume, double viscosity,
+                  const Mat3& F, ElementMatrix& D) {
+  constexpr int n = 3 * static_cast<int>(N);
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b) {
+      Eigen::Matrix<double, n, 1> rate;  // of Ė_ab by the corners' velocities
+      for (std::size_t i = 0; i < N; ++i)
+        rate.template segment<3>(3 * i) =
+            0.5 * (F.col(a) * gradient[i][b] + F.col(b) * gradient[i][a]);
+      const double weight = 2.0 * viscosity * volume * (a == b ? 1.0 : 2.0);
+      D.topLeftCorner<n, n>().noalias() += weight * rate * rate.transpose();
+    }
+}
+
 /// The terms of a cell whose energy density is that law at these stretches.
 /// The Hessian has nine modes in closed form: three of stretches, three twists, three flips
 /// (Smith, de Goes & Kim, Analytic Eigensystems for Isotropic Distortion Energies, 2019).

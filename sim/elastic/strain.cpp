@@ -21,15 +21,18 @@ double strain(const ClothStretch& cloth, const ElementPlaces& x) {
   return most;
 }
 
-double solidStrain(const Cell& cell, const ElementPlaces& x) {
-  return (stretchesOf(deformation(cell, x)).sigma - Vec3::Ones()).lpNorm<Eigen::Infinity>();
+double solidStrain(const Mat3& F) {
+  return (stretchesOf(F).sigma - Vec3::Ones()).lpNorm<Eigen::Infinity>();
 }
 
 double strain(const Corotated& solid, const ElementPlaces& x) {
-  return solidStrain(solid.cell, x);
+  return solidStrain(deformation(solid.cell, x));
 }
 double strain(const NeoHookean& solid, const ElementPlaces& x) {
-  return solidStrain(solid.cell, x);
+  return solidStrain(deformation(solid.cell, x));
+}
+double strain(const ShapeMatch& match, const ElementPlaces& x) {
+  return solidStrain(deformation(match, x));
 }
 
 double strain(const ClothShear&, const ElementPlaces&) {

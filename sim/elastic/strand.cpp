@@ -20,7 +20,7 @@ std::vector<double> strandMasses(const StrandDef& strand) {
 std::vector<Element> strandElements(const StrandDef& strand, int first) {
   const double piece = strand.length / strandPieces(strand);
   std::vector<Element> elements;
-  const auto add = [&](const std::array<int, 4>& points, const Energy& energy) {
+  const auto add = [&](const std::array<int, kElementPoints>& points, const Energy& energy) {
     elements.push_back({.points = points, .count = pointsOf(energy), .energy = energy});
   };
   for (int k = 1; k + 1 < strand.points; ++k)

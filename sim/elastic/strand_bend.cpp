@@ -7,7 +7,7 @@ namespace tumble {
 
 void differentiate(const StrandBend& strand, const ElementPlaces& x, ElementAsk ask,
                    ElementTerms& terms) {
-  terms = {};
+  terms.clear(ask);
   const Vec3 e0 = x[1] - x[0], e1 = x[2] - x[1];
   const double l0 = e0.norm(), l1 = e1.norm(), k = strand.stiffness / strand.length;
   if (l0 == 0.0 || l1 == 0.0) return;  // a piece without length has no direction

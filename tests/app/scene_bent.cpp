@@ -82,6 +82,10 @@ TEST_CASE("wrong cloths and soft boxes are told where and what to do") {
   const std::string box = "cells = [1, 1, 1]\nsize = [1, 1, 1]\n";
   CHECK(complaint(kSoft + box).find("young: missing") != std::string::npos);
   CHECK(complaint(kSoft + box + "young = 1e4\npoisson = 0.5\n").find("s.toml:7:11") == 0);
+  CHECK(complaint(kSoft + box + "young = 1e4\nlaw = \"matching\"\npoisson = 0.3\n")
+            .find("s.toml:8:11: error: soft.s.poisson: cells that are drawn to their shape") == 0);
+  CHECK(complaint(kSoft + box + "young = 1e4\nlaw = \"matchin\"\n").find("matching") !=
+        std::string::npos);
   CHECK(complaint(kSoft + "cells = [0, 1, 1]\nsize = [1, 1, 1]\nyoung = 1\n")
             .find("three whole numbers") != std::string::npos);
 }

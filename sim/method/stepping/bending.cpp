@@ -8,14 +8,11 @@
 namespace tumble {
 namespace {
 
-constexpr std::array<std::pair<int, int>, 6> kPairs = {
-    {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}};
-
-/// Calls act(slot, i, j) for every pair of the points of an element.
+/// Calls act(i, j) for every pair of the points of an element.
 template <class Act>
 void forPairs(const Element& element, Act act) {
-  for (std::size_t k = 0; k < kPairs.size(); ++k)
-    if (kPairs[k].second < element.count) act(k, kPairs[k].first, kPairs[k].second);
+  for (int j = 1; j < element.count; ++j)
+    for (int i = 0; i < j; ++i) act(i, j);
 }
 
 void findEdges(const std::vector<int>& pointOf, BendingPart& part) {
@@ -23,18 +20,15 @@ void findEdges(const std::vector<int>& pointOf, BendingPart& part) {
     return BlockEdge(std::minmax(pointOf[element.points[i]], pointOf[element.points[j]]));
   };
   for (const Element* element : part.elements)
-    forPairs(*element,
-             [&](std::size_t, int i, int j) { part.edges.push_back(edgeOf(*element, i, j)); });
+    forPairs(*element, [&](int i, int j) { part.edges.push_back(edgeOf(*element, i, j)); });
   std::sort(part.edges.begin(), part.edges.end());
   part.edges.erase(std::unique(part.edges.begin(), part.edges.end()), part.edges.end());
-  for (const Element* element : part.elements) {
-    std::array<int, 6>& slots = part.edgesOf.emplace_back();
-    forPairs(*element, [&](std::size_t k, int i, int j) {
+  for (const Element* element : part.elements)
+    forPairs(*element, [&](int i, int j) {
       const auto at =
           std::lower_bound(part.edges.begin(), part.edges.end(), edgeOf(*element, i, j));
-      slots[k] = static_cast<int>(at - part.edges.begin());
+      part.edgesOf.push_back(static_cast<int>(at - part.edges.begin()));
     });
-  }
 }
 
 /// The graph of the points that move.
@@ -130,8 +124,9 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   double energy = 0.0;
   ElementTerms terms;
   ElementPlaces x;
-  for (std::size_t n = 0; n < part.elements.size(); ++n) {
-    const Element& element = *part.elements[n];
+  auto edge = part.edgesOf.begin();
+  for (const Element* joined : part.elements) {
+    const Element& element = *joined;
     x.fill(Vec3::Zero());
     ElementVector u = ElementVector::Zero();
     std::array<int, kElementPoints> at = {};
@@ -143,8 +138,8 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
     }
     differentiate(element.energy, x, ElementAsk::Projected, terms);
     energy += terms.energy;
-    const ElementVector c = moves ? ElementVector(h * (h * (terms.hessian * u) - terms.gradient))
-                                  : ElementVector(-h * terms.gradient);
+    ElementVector c = -h * terms.gradient;
+    if (moves) c = h * (h * elementTimes(terms.hessian, u, element.count) - terms.gradient);
     const auto K = [&](int i, int j) -> Mat3 {
       return h * (h * terms.hessian.block<3, 3>(3 * i, 3 * j) +
                   terms.damping.block<3, 3>(3 * i, 3 * j));
@@ -153,10 +148,8 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
       part.constant[at[k]] += c.segment<3>(3 * k);
       part.own[at[k]] += K(k, k);
     }
-    forPairs(element, [&](std::size_t k, int i, int j) {
-      const bool inOrder = at[i] < at[j];
-      part.off[part.edgesOf[n][k]] += inOrder ? K(i, j) : K(j, i);
-    });
+    forPairs(element,
+             [&](int i, int j) { part.off[*edge++] += at[i] < at[j] ? K(i, j) : K(j, i); });
   }
   return energy;
 }

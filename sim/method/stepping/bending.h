@@ -1,7 +1,6 @@
 // What bends, in a step: its part of the matrix and of the right side of the contact problem.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -24,7 +23,7 @@ struct BendingPart {
   std::vector<int> mover;        ///< per point: its number among those that move, or −1
   std::vector<int> moving;       ///< those that move, by point
   std::vector<BlockEdge> edges;  ///< points that share an element, in order
-  std::vector<std::array<int, 6>> edgesOf;  ///< per element: of its pairs (0,1), (0,2), (1,2), …
+  std::vector<int> edgesOf;      ///< of each element its pairs (0,1), (0,2), (1,2), (0,3), …
   std::vector<std::pair<int, int>> movingEdges;  ///< of two that move: edge, and its number in A
 
   std::vector<Mat3> own,
