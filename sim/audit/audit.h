@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/audit/cloth_crossings.h"
 #include "sim/audit/joint_gap.h"
 #include "sim/audit/loads.h"
 #include "sim/audit/nearness.h"
@@ -20,7 +21,8 @@ namespace tumble {
 ///               joints only take. Summed up for bodies that ever met; its largest rise is told.
 ///   momentum    ΔP − ∫F dt, and about the centre of mass ΔL − ∫τ dt, of groups that no fixed body
 ///               and no joint to the world touches
-/// and of all bodies overlap and gaps of joints at the end of every part, overlap in its midst too.
+/// and of all bodies overlap and gaps of joints at the end of every part, overlap in its midst too;
+/// of cloths, some times in a run, where they pass through each other.
 /// ∫ along the ways of `BodyPath` by three Gauss nodes: error h⁴. Work of fixed bodies, while all
 /// that touch a group move as one: what they must have pushed, times how they moved.
 class Audit {
@@ -90,6 +92,7 @@ class Audit {
     return bodies_[body].v.isZero(0.0) && bodies_[body].omega.isZero(0.0);
   }
   void addMotions();
+  void countCrossings();
   void addKinetic(std::span<const RigidBody> bodies);
   double sameWorkOf(int body) const;
   double relative(double open, double has, double wouldHave) const;
@@ -100,6 +103,9 @@ class Audit {
   std::vector<int> bears_;  ///< per body: what bends, by its number among the forces, or −1
   std::vector<int> alone_;  ///< numbers of the other forces
   std::vector<Bond> bonds_;
+  ClothCrossings cloths_;
+  long crossings_ = 0;        ///< the most at a look
+  double clothsNext_ = 0.0;   ///< [s] when they are looked at again
   double t_ = 0.0, h_ = 0.0;  ///< [s] of the last state, and since the one before it
   bool many_ = false;         ///< more than one part since then
   bool winds_ = true;         ///< no loads but winds

@@ -81,4 +81,11 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return exactOrientation(a, b, c, d);
 }
 
+bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const int above = orientation(a, b, c, p);
+  if (above == 0 || orientation(a, b, c, q) != -above) return false;
+  const int side = orientation(p, q, a, b);
+  return side != 0 && side == orientation(p, q, b, c) && side == orientation(p, q, c, a);
+}
+
 }  // namespace tumble

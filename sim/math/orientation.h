@@ -14,4 +14,8 @@ namespace tumble {
 /// For coordinates between 1e-60 and 1e90 in size, or 0: no product may leave the range of doubles.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+/// Whether the edge between p and q passes through the inside of the triangle a, b, c: decided
+/// exactly. What only touches does not.
+bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+
 }  // namespace tumble

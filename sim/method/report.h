@@ -36,6 +36,7 @@ struct Certificate {
   double max_penetration = 0.0;    ///< [m] max(0, −separation)
   double mesh_excess = 0.0;        ///< [m] how far pieces stand out of their mesh at most
   double max_joint_gap = 0.0;      ///< [m] how far a joint was from being met
+  long cloth_crossings = 0;        ///< most edges through triangles of cloth at one of its looks
   long hits_early = 0;             ///< contacts struck before they met, as of a crowd
   double max_hit_shift = 0.0;      ///< [s] the longest before
   double energy_cut_impact = 0.0;  ///< [J] that restitution would have given beyond what there was
@@ -81,6 +82,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"max_penetration", &Certificate::max_penetration},
     {"mesh_excess", &Certificate::mesh_excess},
     {"max_joint_gap", &Certificate::max_joint_gap},
+    {"cloth_crossings", &Certificate::cloth_crossings},
     {"hits_early", &Certificate::hits_early},
     {"max_hit_shift", &Certificate::max_hit_shift},
     {"energy_cut_impact", &Certificate::energy_cut_impact},

@@ -30,24 +30,17 @@ double passesBy(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, 
 }
 
 /// Whether the edge from p to q passes through the inside of a triangle.
-bool pierces(const Polyhedron& solid, int p, int q, const Corners& t, double touch) {
+bool passesThrough(const Polyhedron& solid, int p, int q, const Corners& t, double touch) {
   if (std::count(t.begin(), t.end(), p) + std::count(t.begin(), t.end(), q) > 0) return false;
   const Vec3 &a = at(solid, t[0]), &b = at(solid, t[1]), &c = at(solid, t[2]);
-  const int above = orientation(a, b, c, at(solid, p));
-  if (above == 0 || above == orientation(a, b, c, at(solid, q)) ||
-      orientation(a, b, c, at(solid, q)) == 0)
-    return false;
   const Vec3 &from = at(solid, p), &to = at(solid, q);
-  const int side = orientation(from, to, a, b);
-  if (side == 0 || side != orientation(from, to, b, c) || side != orientation(from, to, c, a))
-    return false;
-  return passesBy(from, to, a, b, c) > touch;
+  return pierces(from, to, a, b, c) && passesBy(from, to, a, b, c) > touch;
 }
 
 bool cross(const Polyhedron& solid, const Corners& s, const Corners& t, double touch) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (pierces(solid, s[k], s[(k + 1) % 3], t, touch) ||
-        pierces(solid, t[k], t[(k + 1) % 3], s, touch))
+    if (passesThrough(solid, s[k], s[(k + 1) % 3], t, touch) ||
+        passesThrough(solid, t[k], t[(k + 1) % 3], s, touch))
       return true;
   return false;
 }

@@ -1,0 +1,31 @@
+// Chapter 10, audit: where cloth passes through itself or through other cloth, which nothing keeps
+// it from.
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sim/audit/recorded.h"
+#include "sim/method/model.h"
+
+namespace tumble {
+
+/// All cloths of a model as one set of edges and triangles.
+class ClothCrossings {
+ public:
+  explicit ClothCrossings(const Model& model);
+
+  bool any() const { return !triangles_.empty(); }
+
+  /// How many pairs of an edge and a triangle there are of which the edge passes through the
+  /// inside of the triangle, decided exactly (`pierces`).
+  long count(std::span<const Recorded> states) const;
+
+ private:
+  std::vector<std::array<int, 3>> triangles_;  ///< by numbers of bodies
+  std::vector<std::pair<int, int>> edges_;
+};
+
+}  // namespace tumble
