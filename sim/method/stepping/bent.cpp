@@ -121,6 +121,11 @@ void Stepping::collectBent() {
   if (anyBends()) std::sort(work_.movers.begin(), work_.movers.end());
 }
 
+void Stepping::joinBent() {
+  for (const BendingPart& part : memory_.bendings->parts)
+    for (const int p : part.moving) joinBodies(part.bodies[p], part.bodies[part.moving[0]]);
+}
+
 /// Adds K of what bends in an island to its problem.
 void Stepping::coupleBent() {
   forBent([this](const BendingPart& part) {

@@ -27,11 +27,14 @@ void clear(NearPairs& known) {
 
 }  // namespace
 
-bool Stepping::hasClusters() const {
-  const Drives& drives = *memory_.drives;
-  return model_.joints.empty() && drives.groups.empty() && drives.drags.empty() &&
-         std::all_of(model_.def.forces.begin(), model_.def.forces.end(),
-                     [](const Force& force) { return std::holds_alternative<UniformWind>(force); });
+void Stepping::findTied() {
+  const auto tie = [&](int i) {
+    if (i < model_.count() && !model_.fixed(i)) memory_.tied.push_back(i);
+  };
+  for (int i = 0; i < model_.count(); ++i)
+    if (isDriven(i) || model_.bends(i)) tie(i);
+  for (const Joint& joint : model_.joints)
+    for (const int i : {joint.a, joint.b}) tie(i);
 }
 
 void Stepping::activateAll() {
@@ -72,11 +75,14 @@ bool Stepping::findClusters(double h) {
   for (const auto& [b, a] : work_.met) joinBodies(a, b);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     if (hits(memory_.pairs[k])) joinBodies(state_.near[k].second, state_.near[k].first);
+  const std::vector<int>& tied = memory_.tied;
+  for (const int i : tied) joinBodies(i, tied.front());
   const int n = model_.count();
   std::vector<int>& number = work_.island;  // per root
   number.assign(n, kCalm);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     if (hits(memory_.pairs[k])) number[rootOf(k)] = kNone;
+  if (!tied.empty() && number[islandRoot(work_.root, tied.front())] == kNone) return false;
   // Those that hit in the order of their first bodies, then what is left, as one.
   int count = 0;
   bool calm = false;
@@ -90,6 +96,7 @@ bool Stepping::findClusters(double h) {
   }
   if (count == 0 || (count == 1 && !calm)) return false;
   std::replace(work_.cluster.begin(), work_.cluster.end(), kCalm, count);
+  work_.tiedCluster = tied.empty() ? kNone : work_.cluster[tied.front()];
   work_.clusters.bodies.resize(count + calm);
   return true;
 }

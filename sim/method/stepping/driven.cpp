@@ -14,7 +14,9 @@ void Stepping::bindGroups(double h) {
   constexpr double kStiff =
       4.0;  // [rad] in a step; below, some hundred evaluations follow a spring
   Drives& drives = *memory_.drives;
-  if (!drives.groups.empty() || work_.flown.empty()) work_.flown.assign(state_.bodies.size(), 0);
+  if (work_.flown.empty() || (tiesRun() && !drives.groups.empty()))
+    work_.flown.assign(state_.bodies.size(), 0);
+  if (!tiesRun()) return;
   work_.drags.clear();
   for (const Drag& drag : drives.drags)
     work_.drags.push_back(dragStep(drag, state_.bodies[drag.body], h));
@@ -56,6 +58,7 @@ double Stepping::storedInStiff() const {
 
 void Stepping::addSprings(double h) {
   work_.springs.clear();
+  if (!tiesRun()) return;
   for (const DrivenGroup& group : memory_.drives->groups) {
     if (!group.bound) continue;
     for (const Spring& spring : group.springs) addSpring(spring, group.stiff, h);
@@ -144,6 +147,7 @@ void Stepping::addSpringRow(const Row& made, const SpringLaw& law, double h) {
 
 /// Of soft springs, what the damper takes and what the row damps; of stiff ones, all that goes.
 void Stepping::bookSprings(double h) {
+  if (!tiesRun()) return;
   double work = 0.0;
   for (const SpringRow& spring : work_.springs) {
     const Row& row = work_.bonds.rows[spring.bond];

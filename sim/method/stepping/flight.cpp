@@ -79,6 +79,7 @@ void Stepping::spin(int i, double h) {
 }
 
 void Stepping::flyGroups(double h) {
+  if (!tiesRun()) return;
   for (DrivenGroup& group : memory_.drives->groups) {
     if (group.bound) continue;
     const auto refresh = [&](auto give) {

@@ -47,7 +47,8 @@ void Stepping::solveIslands(double h) {
   if (bends()) foreseeBent();
   work_.bonds.clear();
   work_.crushed.clear();
-  if (!model_.joints.empty()) stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
+  if (tiesRun() && !model_.joints.empty())
+    stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
   addSprings(h);
   work_.after.resize(n + 1);
   work_.touched.resize(n);
@@ -83,7 +84,7 @@ void Stepping::bookIslands(double h) {
     certificate.work_of_forces += memory.books.work;
     state_.externalImpulse += memory.books.external;
   }
-  if (!work_.bonds.empty() || !model_.joints.empty()) bookJoints(h);
+  if (tiesRun() && (!work_.bonds.empty() || !model_.joints.empty())) bookJoints(h);
 }
 
 [[gnu::flatten]] void Stepping::foreseeTwists(double h) {
@@ -147,8 +148,7 @@ void Stepping::joinNear(double h) {
   };
   const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
   partBodies();
-  for (const BendingPart& part : memory_.bendings->parts)
-    for (const int p : part.moving) joinBodies(part.bodies[p], part.bodies[part.moving[0]]);
+  if (bends()) joinBent();
   work_.island.assign(count, -1);
   for (Link link = 0; link < count; ++link) {
     if (!joins(link)) continue;

@@ -141,6 +141,7 @@ struct SteppingWork {
   std::vector<int> solids;    ///< those of them that move freely and can touch, as in Model::solid
   std::vector<int> carriers;  ///< fixed bodies that move
   std::vector<int> cluster;   ///< per body: its cluster; < 0 of a fixed one
+  int tiedCluster = -1;       ///< that of tied bodies; −1: there are none
   std::vector<char> dense;    ///< per body: it is near a crowd
   std::vector<std::pair<int, int>> met;  ///< near pairs of clusters that were found to be one
   /// [m] per body: how far its centre strayed from the way that it began, and its surface by
@@ -188,6 +189,7 @@ struct SteppingMemory {
   int division = 0;                    ///< equal parts of the next step; 0: not known yet
   Swing swing;                         ///< the fastest in joints
   std::optional<Drives> drives;        ///< once dealt out
+  std::vector<int> tied;               ///< bodies that more acts on than contacts, gravity and wind
   std::shared_ptr<Bendings> bendings;  ///< once dealt out
   std::vector<FreeSpin> spins;         ///< per body
   std::vector<Push> pushes;            ///< per body

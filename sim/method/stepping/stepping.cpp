@@ -79,7 +79,10 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       gravity_(model.def.gravity.norm()),
       solver_(*findSolver(model.def.stepping.solver)),
       points_(*findPointPlan(model.def.stepping.points)) {
-  if (!memory_.drives) memory_.drives = drivesOf(model, state.bodies);
+  if (!memory_.drives) {
+    memory_.drives = drivesOf(model, state.bodies);
+    findTied();
+  }
   memory_.pushes.resize(state.bodies.size());
   work_.touched.resize(state.bodies.size());
   work_.local.resize(state.bodies.size() + 1, -1);
@@ -130,7 +133,7 @@ void Stepping::stepTo(double t1, double h) {
   if (report_.stopped) return;
   findCrowded(h);
   work_.met.clear();
-  if (model_.def.stepping.divides && hasClusters() && findClusters(h)) return stepClusters(t1, h);
+  if (model_.def.stepping.divides && findClusters(h)) return stepClusters(t1, h);
   go(t1, h);
 }
 
@@ -173,7 +176,7 @@ void Stepping::moveTo(double t1, double h) {
   if (bends() && !points_.foresees) moveOut(h);
   if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
   if (!project()) {
-    if (const Joint* open = brokenJoint(state_.bodies, model_.joints)) {
+    if (const Joint* open = tiesRun() ? brokenJoint(state_.bodies, model_.joints) : nullptr) {
       const std::string& name = model_.def.joints[open - model_.joints.data()].name;
       return stop("joint \"" + name + "\" came apart; try a smaller stepping.step");
     }

@@ -53,12 +53,15 @@ class Stepping {
 
   // clusters.cpp: bodies that are near each other have a clock of their own, where one of them
   // hits.
-  /// Whether clusters can be told apart: contacts alone join bodies, and forces are constant.
-  bool hasClusters() const;
+  /// Bodies that joints, springs, fields, drag or what bends act on: one cluster, with what is near
+  /// them, that takes every step whole or with all others.
+  void findTied();
+  /// Whether their clock runs.
+  bool tiesRun() const { return !parted_ || cluster_ == work_.tiedCluster; }
   bool isActive(int body) const { return !parted_ || work_.cluster[body] == cluster_; }
   void activateAll();
   /// Tells clusters apart by near pairs. @return whether something hits within h seconds, and not
-  /// all bodies are near it
+  /// all bodies, nor any that are tied, are near it
   bool findClusters(double h);
   void dealOut();
   void enter(int cluster);
@@ -286,7 +289,7 @@ class Stepping {
   double storedInStiff() const;
 
   // bent.cpp: what bends.
-  bool bends() const { return !model_.bending.empty(); }
+  bool bends() const { return !model_.bending.empty() && tiesRun(); }
   /// @return false, with words in work_.crushed, if nothing can be made of it.
   bool bend(double h);
   void begin(BendingPart& part, double h);
@@ -343,6 +346,8 @@ class Stepping {
   /// Whether a body of the island is a point of what bends.
   bool anyBends() const;
   void collectBent();
+  /// Joins the points of each part that bends.
+  void joinBent();
   void coupleBent();
   void bookBent();
 
@@ -351,7 +356,9 @@ class Stepping {
   bool project();
   double deepestOverlap();
   double deepestKnown() const;
-  double largestGap() const { return largestJointGap(state_.bodies, model_.joints); }
+  double largestGap() const {
+    return tiesRun() ? largestJointGap(state_.bodies, model_.joints) : 0.0;
+  }
   void findOverlapping();
   int rootOf(std::size_t pair);
   /// Lifts what overlaps, by at most so many iterations of the solver, or of that of crowds;
