@@ -21,6 +21,7 @@ using cut::Triangle;
 
 constexpr double kSnap = 2e-6;              // of the size: corners no further from a cut are on it
 constexpr long kMostWork = 20'000'000;      // triangles looked at, in all surfaces together
+constexpr long kHullWork = 250;             // of these cost as much as a corner of a hull
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
 constexpr std::size_t kMostSeeds = 48;      // notches of a piece from which planes are drawn
 constexpr int kSlices = 4;
@@ -57,11 +58,12 @@ class Decomposer {
       open.pop_back();
       work_ += static_cast<long>(piece.size());
       const std::vector<Notch> notches = notches_->of(piece);
-      if (std::optional<Wrapping> whole = wrapped(piece, notches)) {
+      const std::optional<Polyhedron> hull = hullToAsk(piece, notches);
+      if (std::optional<Wrapping> whole = wrapped(piece, notches, hull)) {
         excess_ = std::max(excess_, whole->excess);
         done.push_back(std::move(whole->hull));
       } else {
-        for (Surface& part : parted(piece, notches)) open.push_back(std::move(part));
+        for (Surface& part : parted(piece, notches, hull)) open.push_back(std::move(part));
       }
       if (done.size() + open.size() > kMostPieces || spent()) refuse(notches);
     }
@@ -116,29 +118,37 @@ class Decomposer {
     return corners;
   }
 
-  Polyhedron hullOf(const Surface& piece) const { return hullInFrame(cornersOf(piece)); }
-
   /// A slice flatter than numbers can tell is none.
   void addSlice(const Surface& slice, std::vector<Polyhedron>& slices) const {
     if (slice.empty()) return;
     try {
-      slices.push_back(hullOf(slice));
+      slices.push_back(hullInFrame(cornersOf(slice)));
     } catch (const NotASolid&) {
     }
   }
 
+  /// The hull of a piece; none if it is flatter than numbers can tell, or no matter.
+  std::optional<Polyhedron> hullToAsk(const Surface& piece, const std::vector<Notch>& notches) {
+    if (tolerance_ == 0.0 && !notches.empty()) return {};
+    const std::vector<Vec3> corners = cornersOf(piece);
+    work_ += kHullWork * static_cast<long>(corners.size());
+    try {
+      return hullInFrame(corners);
+    } catch (const NotASolid&) {
+      return {};
+    }
+  }
+
   /// The hull of a piece that stands out of the mesh by no more than the tolerance.
-  std::optional<Wrapping> wrapped(const Surface& piece, const std::vector<Notch>& notches) const {
+  std::optional<Wrapping> wrapped(const Surface& piece, const std::vector<Notch>& notches,
+                                  const std::optional<Polyhedron>& hull) const {
     if (tolerance_ == 0.0 && !notches.empty()) return {};
     Wrapping whole;
-    try {
-      whole.hull = hullOf(piece);
-    } catch (const NotASolid&) {  // flatter than numbers can tell
-      whole.hull.points.clear();
+    if (!hull)
       return cut::sixfoldVolume(points_, piece) <= 6.0 * slack() * size_ * size_
                  ? std::optional(whole)
                  : std::nullopt;
-    }
+    whole.hull = *hull;
     if (notches.empty()) return whole;
     for (const Triangle& t : piece) {
       if (t.face < 0) continue;
@@ -160,8 +170,9 @@ class Decomposer {
     return a.resolved != b.resolved ? a.resolved > b.resolved : a.crossed < b.crossed;
   }
 
-  std::vector<Surface> parted(const Surface& piece, const std::vector<Notch>& notches) {
-    std::vector<Cut> cuts = cutsOf(piece, notches);
+  std::vector<Surface> parted(const Surface& piece, const std::vector<Notch>& notches,
+                              const std::optional<Polyhedron>& hull) {
+    std::vector<Cut> cuts = cutsOf(piece, hull ? deepest(*hull, notches) : notches);
     std::stable_sort(cuts.begin(), cuts.end(),
                      [&](const Cut& a, const Cut& b) { return isBetter(a, b); });
     for (const Cut& best : cuts) {
@@ -175,9 +186,8 @@ class Decomposer {
     refuse(notches);
   }
 
-  std::vector<Cut> cutsOf(const Surface& piece, const std::vector<Notch>& notches) {
-    // Notches that matter, from all over the piece.
-    const std::vector<Notch> deep = deepest(piece, notches);
+  /// Cuts by notches that matter, from all over the piece.
+  std::vector<Cut> cutsOf(const Surface& piece, const std::vector<Notch>& deep) {
     std::vector<Cut> cuts;
     const std::size_t seeds = std::min(kMostSeeds, deep.size());
     for (std::size_t k = 0; k < seeds; ++k) {
@@ -203,15 +213,8 @@ class Decomposer {
     return cuts;
   }
 
-  /// Notches deeper than the tolerance under the hull, the deepest first; without a tolerance all.
-  std::vector<Notch> deepest(const Surface& piece, const std::vector<Notch>& notches) const {
-    if (tolerance_ == 0.0) return notches;
-    Polyhedron hull;
-    try {
-      hull = hullOf(piece);
-    } catch (const NotASolid&) {
-      return notches;
-    }
+  /// Notches deeper than the tolerance under the hull, the deepest first.
+  std::vector<Notch> deepest(const Polyhedron& hull, const std::vector<Notch>& notches) const {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < notches.size(); ++k) {
       const Vec3 p = 0.5 * (at(notches[k].from) + at(notches[k].to));
