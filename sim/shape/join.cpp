@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
 
 #include "sim/shape/convex_hull.h"
 #include "sim/shape/shape.h"
@@ -32,13 +35,23 @@ bool join(Polyhedron& a, const Polyhedron& b, double thin) {
   return true;
 }
 
+/// Numbers of two solids that make no convex one; what is joined has a new number.
+using Apart = std::set<std::pair<int, int>>;
+
 /// Joins the first two that make a convex one.
-bool joinOne(std::vector<Polyhedron>& solids, double thin, double slack) {
+bool joinOne(std::vector<Polyhedron>& solids, double thin, double slack, std::vector<int>& number,
+             Apart& apart) {
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (std::size_t j = i + 1; j < solids.size(); ++j) {
-      if (!boxOf(solids[i], slack).overlaps(boxOf(solids[j], slack))) continue;
-      if (!join(solids[i], solids[j], thin)) continue;
+      if (apart.count({number[i], number[j]}) > 0) continue;
+      if (!boxOf(solids[i], slack).overlaps(boxOf(solids[j], slack)) ||
+          !join(solids[i], solids[j], thin)) {
+        apart.emplace(number[i], number[j]);
+        continue;
+      }
+      number[i] = 1 + *std::max_element(number.begin(), number.end());
       solids.erase(solids.begin() + static_cast<std::ptrdiff_t>(j));
+      number.erase(number.begin() + static_cast<std::ptrdiff_t>(j));
       return true;
     }
   return false;
@@ -89,7 +102,10 @@ double depthUnder(const Polyhedron& solid, const Vec3& a, const Vec3& b, const V
 
 void joinConvex(std::vector<Polyhedron>& solids, double thin, double slack) {
   std::erase_if(solids, [](const Polyhedron& solid) { return solid.points.empty(); });
-  while (joinOne(solids, thin, slack)) {
+  std::vector<int> number(solids.size());
+  std::iota(number.begin(), number.end(), 0);
+  Apart apart;
+  while (joinOne(solids, thin, slack, number, apart)) {
   }
 }
 
