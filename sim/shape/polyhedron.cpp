@@ -75,7 +75,7 @@ void checkEdges(const Polyhedron& solid, const std::vector<Vec3>& given) {
         throw NotASolid(edgeText(given, from, to) + " is run through the same way by face " +
                             std::to_string(other->second + 1) + " and face " +
                             std::to_string(f + 1) +
-                            "; one of them is inside out, or three faces meet there",
+                            "; one of them is inside out, or more than two faces meet there",
                         f);
     }
   }

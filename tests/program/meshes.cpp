@@ -6,16 +6,32 @@
 
 namespace {
 
+/// Of a cube whose corner k has the bits of k as x, y and z.
+constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                              {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
 /// The unit cube shifted along x, its points counted from `first`; `inside` out or not.
 std::string cube(double x, int first, bool inside = false) {
   std::ostringstream text;
   for (int k = 0; k < 8; ++k)
     text << "v " << x + (k & 1) << " " << (k >> 1 & 1) << " " << (k >> 2 & 1) << "\n";
-  const int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  for (const auto& face : faces) {
+  for (const auto& face : kFaces) {
     text << "f";
     for (int k = 0; k < 4; ++k) text << " " << face[inside ? 3 - k : k] + first;
+    text << "\n";
+  }
+  return text.str();
+}
+
+/// A cube that shares the edge from point 4 to point 8 of the unit cube at 0, and no more.
+std::string touchingCube() {
+  std::ostringstream text;
+  const int number[8] = {4, 9, 10, 11, 8, 12, 13, 14};
+  for (int k = 1; k < 8; ++k)
+    if (k != 4) text << "v " << 1 + (k & 1) << " " << 1 + (k >> 1 & 1) << " " << (k >> 2) << "\n";
+  for (const auto& face : kFaces) {
+    text << "f";
+    for (const int k : face) text << " " << number[k];
     text << "\n";
   }
   return text.str();
@@ -66,7 +82,13 @@ shape = { mesh = "m.obj" }
   };
   const std::string solid = cube(0.0, 1);
   refused(solid.substr(0, solid.rfind('f')), ":9: ", "is not closed");
-  refused(solid + "f 1 2 3\n", ":", "the edge");  // an edge of three faces
+  // An edge of three faces, and one of the four of two cubes that touch along it.
+  refused(solid + "f 1 2 3\n", ":15: ", "more than two faces meet there");
+  refused(solid + touchingCube(), ":21: ", "more than two faces meet there");
+  std::string crossing = solid;  // a corner pushed out through the bottom
+  refused(crossing.replace(crossing.find("v 1 1 1"), 7, "v 0.2 -0.5 0.3"),
+          ":10: ", "face 2 and face 3 pass through each other");
+  refused(cube(0.0, 1, true), ":9: ", "inside out");
   refused(solid + cube(5.0, 9, true), ":23: ", "inside out");
   refused(solid + cube(0.5, 9), ":", "overlaps the shell");
   refused("v 0.5 0 0\n" + cube(0.0, 2) + "f 2 1 3\n", ":16: ", "has no area");
