@@ -127,8 +127,8 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
       drawn_.push_back(&surfaces_.at(body.facets));
   }
 
-  // Groups and shapes stand together; within them glass goes from far to near, all else keeps its
-  // order.
+  // Groups and shapes stand together; within them glass goes from far to near, solids go from near
+  // to far, so that what is hidden is seldom shaded, and ghosts keep their order.
   struct Key {
     int group, shape;
     double nearness;
@@ -142,7 +142,11 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
     const double distance = (instance.position - stage.projection.eye()).norm();
     const int shape = instance.form == Form::Facets ? numbers.at(instance.facets.get())
                                                     : shapeOf(instance, stage);
-    order.push_back({group, shape, group == kGlass ? -distance : 0.0, i});
+    order.push_back({group, shape,
+                     group == kGlass   ? -distance
+                     : group == kSolid ? distance
+                                       : 0.0,
+                     i});
   }
   std::stable_sort(order.begin(), order.end(), [](const Key& a, const Key& b) {
     return std::tie(a.group, a.shape, a.nearness) < std::tie(b.group, b.shape, b.nearness);
@@ -217,7 +221,9 @@ void Bodies::drawFromAbove() const {
 
 void Bodies::drawSolids() const {
   glEnable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
   draw(kSolidUse, kSolid);
+  glEnable(GL_BLEND);
   glEnable(GL_CLIP_DISTANCE0);
   draw(kSolidUse, kSunk, 1.0f, 1.0f);
   draw(kSolidUse, kSunk, kSunkOpacity, -1.0f);
