@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -117,13 +118,25 @@ struct Sight {
   std::string link, text;
 };
 
-// "SD3" of a series and a number, in the order of both.
-std::pair<std::string, int> slideOf(const std::string& name) {
-  const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
-  return {name.substr(0, digits), std::atoi(name.c_str() + digits)};
+// "SD3" of a series and a number, in the order of both; then what has words in place of a number.
+struct Slide {
+  bool words;
+  std::string series;
+  int number;
+  auto operator<=>(const Slide&) const = default;
+};
+
+Slide slideOf(const std::string& name) {
+  const std::size_t digits = name.find_first_of("0123456789");
+  if (digits == std::string::npos) return {true, name, 0};
+  return {false, name.substr(0, digits), std::atoi(name.c_str() + digits)};
 }
 
-using Sights = std::map<std::pair<std::string, int>, std::vector<Sight>>;
+std::string nameOf(const Slide& slide) {
+  return slide.words ? slide.series : slide.series + std::to_string(slide.number);
+}
+
+using Sights = std::map<Slide, std::vector<Sight>>;
 
 void addSights(const std::vector<std::string>& slides, const std::string& link,
                const std::string& text, Sights& sights) {
@@ -148,7 +161,7 @@ std::string slideTable(const std::vector<const Exhibit*>& exhibits) {
   if (sights.empty()) return "";
   std::string out = "<h2 id=\"slides\">Slides and their pictures</h2>\n<table>\n";
   for (const auto& [slide, shown] : sights) {
-    out += fmt::format("<tr><td>{}{}</td><td>", htmlText(slide.first), slide.second);
+    out += "<tr><td>" + htmlText(nameOf(slide)) + "</td><td>";
     for (std::size_t i = 0; i < shown.size(); ++i)
       out += fmt::format("{}<a href=\"{}\">{}</a>", i > 0 ? " · " : "", htmlText(shown[i].link),
                          htmlText(shown[i].text));

@@ -221,12 +221,20 @@ TEST_CASE("the gallery's page follows the lectures, links what it says and shows
   early.scene.name = "early";
   early.scene.chapter = "collision";
   early.links = {{"early/page.html", "play it"}};
+  early.scene.slides = {"Why so?", "SD10", "SD9"};
+  late.scene.panels.resize(1);
+  late.scene.panels[0].slides = {"SD9"};
+  late.scene.panels[0].variant.title = "part";
   early.verdict.rows = {{"gap", 28.0, 5.0, 0.0, 0.0, false, Relation::AtLeast}};
   const std::string page = galleryPage({late, early});
   CHECK(page.find("<h2>collision</h2>") < page.find("<h2>friction</h2>"));
   CHECK(page.find("id=\"early\"") < page.find("id=\"late\""));
   CHECK(page.find("<a href=\"early/page.html\">play it</a>") != std::string::npos);
   CHECK(page.find("<td>≥ 5</td>") != std::string::npos);
+  const std::size_t nine = page.find("<td>SD9</td>"), ten = page.find("<td>SD10</td>");
+  CHECK((nine < ten && ten < page.find("<td>Why so?</td>")));
+  CHECK(page.find("<a href=\"late/panels.png\">part</a>", nine) < ten);
+  CHECK(page.find("<a href=\"early/still.png\">", ten) != std::string::npos);
 }
 
 TEST_CASE("a scene that asks for a check that is none is refused") {
