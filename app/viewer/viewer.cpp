@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "app/claim/verdict.h"
+#include "app/file/file.h"
 #include "app/present/bodies.h"
 #include "app/scene/demos.h"
+#include "app/scene/toml.h"
 
 namespace tumble {
 
@@ -22,17 +24,26 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
   return std::filesystem::last_write_time(file, missing);
 }
 
+// What stands at a key of the root, if it is a text.
+std::string textAt(const Node& root, const char* key, const std::string& otherwise) {
+  const Table* table = root.as<Table>();
+  const Entry* entry = table ? table->find(key) : nullptr;
+  const std::string* text = entry ? entry->node.as<std::string>() : nullptr;
+  return text && !text->empty() ? *text : otherwise;
+}
+
 }  // namespace
 
+// Only the text is read: meshes and variants of all demos would keep the window waiting.
 std::vector<DemoEntry> demoEntries() {
   std::vector<DemoEntry> entries;
   for (const std::string& name : demoNames()) {
     DemoEntry entry{name, name, "", scenePath(name)};
     try {
-      const Scene scene = readScene(entry.path);
-      entry.title = scene.title.empty() ? name : scene.title;
-      entry.chapter = scene.chapter;
-    } catch (const SceneError&) {
+      const Node root = parseToml(readFile(entry.path));
+      entry.title = textAt(root, "title", name);
+      entry.chapter = textAt(root, "chapter", "");
+    } catch (const std::runtime_error&) {
       // It stays in the list under its bare name; choosing it tells what is wrong.
     }
     entries.push_back(std::move(entry));
