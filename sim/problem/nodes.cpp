@@ -1,6 +1,7 @@
 #include "sim/problem/nodes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "sim/problem/aggregates.h"
@@ -29,6 +30,8 @@ class Nodes {
   double sweep();
   /// Goes on along the way that the sweeps before went.
   void accelerate();
+  /// Whether what is left of the balance of momentum does no more than its share of work.
+  bool closes(const Problem& problem, const SweepSettings& settings) const;
   void write(const Problem& problem, Solution& solution) const;
 
  private:
@@ -211,6 +214,16 @@ void Nodes::accelerate() {
   }
 }
 
+bool Nodes::closes(const Problem& problem, const SweepSettings& settings) const {
+  double work = 0.0, energy = 0.0;
+  for (int i = 0; i < A_.count(); ++i) {
+    const double speed = std::max(v_[i].norm(), settings.still);
+    work += v_[i].dot(restOf(i) - A_.own[i].lazyProduct(v_[i]));
+    energy += 0.5 * speed * speed / problem.invM[bodyOf_[i]];
+  }
+  return std::abs(work) <= settings.open * energy;
+}
+
 void Nodes::write(const Problem& problem, Solution& solution) const {
   solution.v = problem.vStar;
   solution.pull.clear();
@@ -235,7 +248,7 @@ SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
     const double change = nodes.sweep();
     ++report.iterations;
     report.residual = change / report.scale;
-    if (!(change <= settings.enough)) continue;
+    if (!(change <= settings.enough) || !nodes.closes(problem, settings)) continue;
     report.status = SolveStatus::Solved;
     break;
   }

@@ -1,6 +1,7 @@
 // Chapter 6, problem: points of mass that bend together and touch nothing that moves.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "sim/problem/problem.h"
@@ -11,6 +12,10 @@ namespace tumble {
 struct SweepSettings {
   double enough = 0.0;  ///< [m/s] by which the last sweep may change a velocity
   int most = 200;       ///< sweeps
+  /// Of the kinetic energies, with no speed below `still` [m/s]: the power times the step that the
+  /// momentum left open may have. Stiff ones change little in a sweep and are far off yet.
+  double open = std::numeric_limits<double>::infinity();
+  double still = 0.0;
 };
 
 /// Velocities of points of mass whose cones push against what does not move:
@@ -25,7 +30,8 @@ struct SweepSettings {
 /// @param problem   Push and Friction cones, each between a body that moves and one that does not
 /// @param side      [N s] b, per body
 /// @param solution  v and λ to start from
-/// @return residual: the last change over velocityScale; iterations: sweeps
+/// @return residual: the last change over velocityScale; iterations: sweeps; NotConverged where
+///         more sweeps than the most were needed
 SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
                        const SweepSettings& settings, Solution& solution);
 

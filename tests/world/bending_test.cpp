@@ -315,6 +315,26 @@ TEST_CASE("a cloth that fast sweeps falls as one that is solved to rounding") {
   CHECK(swept.report().certificate.max_complementarity > 1e-6);  // swept, not factored
 }
 
+// Oracle: conservation. Of a cloth that hardly stretches, sweeps change little long before they are
+// near: factors take their place. What is left open, of the largest kinetic energy, without them
+// 210 by fast and 2,400 by draft; measured 0.12 and 0.67.
+TEST_CASE("a cloth that is too stiff for sweeps goes by factors") {
+  const ClothDef cloth{
+      .columns = 25, .rows = 25, .stretch = 1e7, .shear = 1e6, .bend = 1e-4, .damping = 0.0};
+  const char* preset = GENERATE("fast", "draft");
+  WorldDef def;
+  def.duration = 0.5;
+  def.stepping.step = 1.0 / 60.0;
+  def.stepping.take(*findSolverPreset(preset));
+  const int first = addCloth(def, cloth, Vec3::Zero(), 0.01);
+  for (const int p : {0, 24}) def.bodies[first + p].fixed = true;
+  World world(def);
+  world.advance(def.duration);
+  CAPTURE(preset);
+  REQUIRE_FALSE(world.report().stopped);
+  CHECK(world.report().certificate.energy_balance_error <= 1.0);
+}
+
 // Oracle: symmetry. Each part that hangs together is linearised for itself.
 TEST_CASE("a cloth moves as it does without another far away, bit for bit") {
   const ClothDef other{.columns = 9, .rows = 9, .length = 0.4, .width = 0.4, .damping = 0.0};

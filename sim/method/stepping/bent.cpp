@@ -10,10 +10,14 @@ namespace tumble {
 bool Stepping::bend(double h) {
   work_.crushed.clear();
   if (points_.inStep) findWaysOut(h);
-  for (BendingPart& part : memory_.bendings->parts) {
+  memory_.unswept.resize(memory_.bendings->parts.size());
+  for (std::size_t k = 0; k < memory_.unswept.size(); ++k) {
+    BendingPart& part = memory_.bendings->parts[k];
     std::fill(part.about.begin(), part.about.end(), Vec3::Zero());
     part.turned = std::numeric_limits<double>::infinity();
-    part.sweeps = model_.def.stepping.bent > 0.0 && part.costly;
+    int& left = memory_.unswept[k].left;
+    part.sweeps = model_.def.stepping.bent > 0.0 && part.costly && left == 0;
+    left = std::max(left - 1, 0);
     part.stored = linearise(part, memory_.bendings->pointOf, state_.bodies, h);
     for (std::size_t p = 0; p < part.bodies.size(); ++p)
       part.swept[p] = state_.bodies[part.bodies[p]].v;

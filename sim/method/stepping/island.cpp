@@ -223,8 +223,12 @@ void Stepping::swing(std::span<const Link> links, double h) {
     if (sweeps) memory.rough = false;
     build(links, h);
     if (bent) coupleBent();
-    const SolveReport solved =
+    SolveReport solved =
         sweeps ? sweepBent(links, h) : solveAsPlanned(links, bent, crowd, memory, h);
+    if (sweeps && solved.status != SolveStatus::Solved) {
+      leaveSweeps();
+      if (work_.crushed.empty()) solved = solveAsPlanned(links, bent, crowd, memory, h);
+    }
     if (!work_.crushed.empty()) return;
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);

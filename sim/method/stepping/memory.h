@@ -181,6 +181,11 @@ struct SteppingWork {
   std::vector<Vec3> side;  ///< [N s] per body of a problem of what bends
 };
 
+/// For how many steps a part of what bends goes by factors, for sweeps did not come to an end.
+struct Unswept {
+  int left = 0, next = 1;
+};
+
 struct SteppingMemory {
   std::vector<PairMemory> pairs;       ///< as State::near
   std::vector<IslandMemory> islands;   ///< by the first of their bodies
@@ -191,6 +196,7 @@ struct SteppingMemory {
   std::optional<Drives> drives;        ///< once dealt out
   std::vector<int> tied;               ///< bodies that more acts on than contacts, gravity and wind
   std::shared_ptr<Bendings> bendings;  ///< once dealt out
+  std::vector<Unswept> unswept;        ///< per part of what bends
   std::vector<FreeSpin> spins;         ///< per body
   std::vector<Push> pushes;            ///< per body
   std::vector<std::vector<Convex>> parts;  ///< per body, once asked for

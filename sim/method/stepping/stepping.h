@@ -339,6 +339,7 @@ class Stepping {
   SolveReport sweepBodies(double h);
   void moveAlone(double h);
   void factorSwept();
+  void leaveSweeps();
   /// The velocities at the end of the step without contacts.
   void foreseeBent();
   /// Points of what bends go where the step takes them, not along a flight.

@@ -30,9 +30,26 @@ void Stepping::factorSwept() {
   });
 }
 
+/// Sweeps of an island did not come to an end: factors take their place in this step, and in those
+/// that follow, each time in twice as many.
+void Stepping::leaveSweeps() {
+  constexpr int kLongest = 64;  // steps
+  forBent([&](BendingPart& part) {
+    Unswept& unswept = memory_.unswept[&part - memory_.bendings->parts.data()];
+    unswept.left = unswept.next;
+    unswept.next = std::min(2 * unswept.next, kLongest);
+  });
+  factorSwept();
+  for (std::size_t k = 0; k < work_.bodies.size(); ++k) {
+    work_.problem.vStar[k] = work_.star[work_.bodies[k]];
+    work_.solution.v[k] = work_.before[work_.bodies[k]];
+  }
+}
+
 /// Sweeps the problem at hand, from where the last sweeps ended.
 SolveReport Stepping::sweepBodies(double h) {
   constexpr int kMost = 300;
+  constexpr double kOpen = 0.05;  // of the kinetic energies, in a step
   Solution& solution = work_.solution;
   work_.side.resize(work_.bodies.size());
   double speed = gravity_ * h;
@@ -46,14 +63,13 @@ SolveReport Stepping::sweepBodies(double h) {
   }
   const double enough = model_.def.stepping.bent * speed;
   const SolveReport solved =
-      sweepNodes(work_.problem, work_.side, {.enough = enough, .most = kMost}, solution);
+      sweepNodes(work_.problem, work_.side,
+                 {.enough = enough, .most = kMost, .open = kOpen, .still = gravity_ * h}, solution);
   for (std::size_t k = 0; k < work_.bodies.size(); ++k) {
     if (model_.fixed(work_.bodies[k])) continue;
     BendingPart& part = memory_.bendings->partWith(work_.bodies[k]);
     part.swept[memory_.bendings->pointOf[work_.bodies[k]]] = solution.v[k].head<3>();
   }
-  if (solved.status != SolveStatus::Solved)
-    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
   return solved;
 }
 
@@ -70,7 +86,10 @@ void Stepping::moveAlone(double h) {
       for (const int p : part.moving) work_.movers.push_back(part.bodies[p]);
       build({}, h);
       coupleBent();
-      sweepBodies(h);
+      if (sweepBodies(h).status != SolveStatus::Solved) {
+        leaveSweeps();
+        for (const int p : part.moving) work_.after[part.bodies[p]].head<3>() = part.star[p];
+      }
       for (const int i : work_.bodies) work_.local[i] = -1;
     }
     if (part.sweeps && !part.touched)
