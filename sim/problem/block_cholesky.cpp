@@ -7,43 +7,14 @@
 
 namespace tumble {
 
-namespace {
-
-/// Per row of a graph its place in the order of approximate minimum degree.
-/// @param edges  in order, their lesser row first
-std::vector<int> minimumDegree(int rows, std::span<const BlockEdge> edges) {
-  Eigen::SparseMatrix<double> graph(rows, rows);  // its lower triangle
-  graph.reserve(static_cast<Eigen::Index>(edges.size()) + rows);
-  auto edge = edges.begin();
-  for (int i = 0; i < rows; ++i) {
-    graph.startVec(i);
-    graph.insertBack(i, i) = 1.0;
-    for (; edge != edges.end() && edge->first == i; ++edge) graph.insertBack(edge->second, i) = 1.0;
-  }
-  graph.finalize();
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
-  std::vector<int> place(rows);
-  for (int k = 0; k < rows; ++k) place[permutation.indices()[k]] = k;
-  return place;
-}
-
-}  // namespace
-
-BlockStructure::BlockStructure(int rows, std::span<const BlockEdge> edges,
-                               std::span<const char> late)
-    : rows_(rows), edges_(edges.begin(), edges.end()), late_(late.begin(), late.end()) {
-  if (late_.empty())
-    place_ = minimumDegree(rows_, edges_);
-  else
-    orderLate();
+BlockStructure::BlockStructure(int rows, std::span<const BlockEdge> edges)
+    : rows_(rows), edges_(edges.begin(), edges.end()) {
+  order();
   fill();
 }
 
-bool BlockStructure::isFor(int rows, std::span<const BlockEdge> edges,
-                           std::span<const char> late) const {
-  return rows == rows_ && std::equal(late.begin(), late.end(), late_.begin(), late_.end()) &&
-         std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end());
+bool BlockStructure::isFor(int rows, std::span<const BlockEdge> edges) const {
+  return rows == rows_ && std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end());
 }
 
 double BlockStructure::products() const {
@@ -55,29 +26,21 @@ double BlockStructure::products() const {
   return sum;
 }
 
-/// Orders the rows that are not late by their own graph; then the late ones by theirs, with the
-/// edges that the elimination of the others makes between them.
-void BlockStructure::orderLate() {
-  std::vector<int> number(rows_);  // of a row among its kind
-  for (int i = 0, late = 0; i < rows_; ++i) number[i] = late_[i] ? late++ : early_++;
-  std::vector<BlockEdge> early, late;
-  for (const auto& [i, j] : edges_)
-    if (late_[i] == late_[j]) (late_[i] ? late : early).emplace_back(number[i], number[j]);
-  const std::vector<int> first = minimumDegree(early_, early);
-  place_.resize(rows_);
-  for (int i = 0; i < rows_; ++i) place_[i] = late_[i] ? early_ + number[i] : first[number[i]];
-  fill();
-  for (int c = 0; c < early_; ++c) {
-    const int begin = begin_[c], end = begin_[c + 1];
-    if (begin == end || below_[begin] < early_) continue;  // its rows are those of a later column
-    for (int s = begin; s < end; ++s)
-      for (int r = s + 1; r < end; ++r) late.emplace_back(below_[s] - early_, below_[r] - early_);
+void BlockStructure::order() {
+  Eigen::SparseMatrix<double> graph(rows_, rows_);  // its lower triangle
+  graph.reserve(static_cast<Eigen::Index>(edges_.size()) + rows_);
+  auto edge = edges_.begin();
+  for (int i = 0; i < rows_; ++i) {
+    graph.startVec(i);
+    graph.insertBack(i, i) = 1.0;
+    for (; edge != edges_.end() && edge->first == i; ++edge)
+      graph.insertBack(edge->second, i) = 1.0;
   }
-  std::sort(late.begin(), late.end());
-  late.erase(std::unique(late.begin(), late.end()), late.end());
-  const std::vector<int> last = minimumDegree(rows_ - early_, late);
-  for (int i = 0; i < rows_; ++i)
-    if (late_[i]) place_[i] = early_ + last[number[i]];
+  graph.finalize();
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), permutation);
+  place_.resize(rows_);
+  for (int k = 0; k < rows_; ++k) place_[permutation.indices()[k]] = k;
 }
 
 /// A column of the factor has the blocks of the matrix, and those of the columns whose first block
@@ -89,8 +52,6 @@ void BlockStructure::fill() {
     columns[first].push_back(last);
   }
   begin_.assign(1, 0);
-  below_.clear();
-  slot_.clear();
   for (int c = 0; c < rows_; ++c) {
     std::vector<int>& column = columns[c];
     std::sort(column.begin(), column.end());
@@ -114,7 +75,6 @@ void BlockCholesky<N>::begin(const BlockStructure& structure) {
   diagonal_.resize(structure.rows_);
   blocks_.resize(structure.below_.size());
   moved_.resize(structure.rows_);
-  eliminated_ = 0;
   for (Block& block : diagonal_) block.setZero();
   for (Block& block : blocks_) block.setZero();
 }
@@ -206,28 +166,11 @@ template <int N>
 
 template <int N>
 bool BlockCholesky<N>::factor() {
-  for (int c = eliminated_; c < structure_->rows_; ++c) {
+  for (int c = 0; c < structure_->rows_; ++c) {
     if (!invertFactor(diagonal_[c])) return false;
     eliminate(c);
   }
   return true;
-}
-
-template <int N>
-void BlockCholesky<N>::eliminateEarly() {
-  for (; eliminated_ < structure_->early_; ++eliminated_) {
-    if (!invertFactor(diagonal_[eliminated_])) return;
-    eliminate(eliminated_);
-  }
-  lateDiagonal_.assign(diagonal_.begin() + eliminated_, diagonal_.end());
-  lateBlocks_.assign(blocks_.begin() + structure_->begin_[eliminated_], blocks_.end());
-}
-
-template <int N>
-void BlockCholesky<N>::backToLate() {
-  std::copy(lateDiagonal_.begin(), lateDiagonal_.end(), diagonal_.begin() + eliminated_);
-  std::copy(lateBlocks_.begin(), lateBlocks_.end(),
-            blocks_.begin() + structure_->begin_[eliminated_]);
 }
 
 template <int N>

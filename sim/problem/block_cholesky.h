@@ -24,10 +24,9 @@ class BlockStructure {
  public:
   /// @param rows   number of rows of blocks
   /// @param edges  those off the diagonal, each pair of rows at most once
-  /// @param late   per row, if any: whether it is eliminated after all others
-  BlockStructure(int rows, std::span<const BlockEdge> edges, std::span<const char> late = {});
+  BlockStructure(int rows, std::span<const BlockEdge> edges);
 
-  bool isFor(int rows, std::span<const BlockEdge> edges, std::span<const char> late = {}) const;
+  bool isFor(int rows, std::span<const BlockEdge> edges) const;
 
   /// How many products of two blocks a factor takes, but for those of whole columns.
   double products() const;
@@ -37,13 +36,11 @@ class BlockStructure {
   friend class BlockCholesky;
   template <int N>
   friend class BlockLU;
-  void orderLate();
+  void order();
   void fill();
 
   int rows_;
-  int early_ = 0;  ///< how many rows come before those that are late, if any is
   std::vector<BlockEdge> edges_;
-  std::vector<char> late_;
   std::vector<int> place_;  ///< per row: when it is eliminated
   std::vector<int> begin_;  ///< per column of the factor: its first block below the diagonal
   std::vector<int> below_;  ///< row of each of these blocks, ascending in a column
@@ -73,11 +70,6 @@ class BlockCholesky {
   /// False if H is not positive definite to rounding.
   bool factor();
 
-  /// Eliminates the rows that are not late, once for all matrices that differ in late ones alone.
-  void eliminateEarly();
-  /// Back to where that left the late rows, to add to them and `factor` anew.
-  void backToLate();
-
   /// x ← H⁻¹ x.
   void solve(std::span<Part> x);
 
@@ -87,8 +79,6 @@ class BlockCholesky {
   const BlockStructure* structure_ = nullptr;
   std::vector<Block> diagonal_;  ///< by place; after `factor` the inverse of the diagonal of L
   std::vector<Block> blocks_;
-  std::vector<Block> lateDiagonal_, lateBlocks_;  ///< as eliminateEarly left them
-  int eliminated_ = 0;                            ///< rows, before `factor`
   std::vector<Part> moved_;
 };
 

@@ -95,16 +95,6 @@ void NewtonSystem<N>::beginMasses(Factor& factor) {
   }
 }
 
-/// H_ begins with A. Where contacts are late, the rest of A is eliminated once for all factors.
-template <int N>
-void NewtonSystem<N>::beginFactor() {
-  if (!keepsEarly_) return beginMasses(H_);
-  if (hasEarly_) return H_.backToLate();
-  beginMasses(H_);
-  H_.eliminateEarly();
-  hasEarly_ = true;
-}
-
 /// Where the unhindered motion approaches, or stays to rounding, a contact is expected to hold;
 /// there rounding alone would choose a piece.
 template <int N>
@@ -136,7 +126,7 @@ void NewtonSystem<N>::addAlone(Factor& factor, const Patch& patch, const Point& 
 /// H = A + ρ Jᵀ ∂Π J.
 template <int N>
 [[gnu::flatten]] void NewtonSystem<N>::assemble() {
-  beginFactor();
+  beginMasses(H_);
   if (guess_) {
     guessPieces();
   } else {
@@ -209,8 +199,6 @@ void NewtonSystem<N>::assembleLive() {
 
 template void NewtonSystem<3>::beginMasses(BlockCholesky<3>&);
 template void NewtonSystem<6>::beginMasses(BlockCholesky<6>&);
-template void NewtonSystem<3>::beginFactor();
-template void NewtonSystem<6>::beginFactor();
 template void NewtonSystem<3>::assemble();
 template void NewtonSystem<6>::assemble();
 template Mat3 NewtonSystem<3>::liveSlope(const Point&) const;

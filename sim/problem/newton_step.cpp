@@ -91,7 +91,7 @@ template <int N>
 void NewtonSystem<N>::obey() {
   for (Mover& mover : movers) mover.v = mover.star;
   evaluateAsIs();
-  beginFactor();
+  beginMasses(H_);
   H_.factor();
   factoredRho_ = 0.0;
   ++factorizations;

@@ -176,19 +176,6 @@ const BlockStructure& NewtonSystem<N>::structureFor(int rows, std::span<const Bl
   return *structures_.back();
 }
 
-/// The structure in which all that touches comes last: of a cloth, a small part of its points.
-template <int N>
-const BlockStructure& NewtonSystem<N>::lateStructure() {
-  const int rows = static_cast<int>(movers.size());
-  std::vector<char> late(rows, 0);
-  for (const Patch& patch : patches_)
-    for (const int i : {patch.a, patch.b})
-      if (i >= 0) late[i] = 1;
-  if (!lateStructure_ || !lateStructure_->isFor(rows, edges_, late))
-    lateStructure_ = std::make_unique<BlockStructure>(rows, edges_, late);
-  return *lateStructure_;
-}
-
 /// Finds the pairs of moving bodies, and which of them is the row of their block.
 template <int N>
 void NewtonSystem<N>::linkBodies() {
@@ -199,11 +186,7 @@ void NewtonSystem<N>::linkBodies() {
     if (link.i != link.j) edges_.emplace_back(std::minmax(link.i, link.j));
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-  constexpr std::size_t kMany = 1000;  // movers: of fewer, a factor costs little more than an order
-  keepsEarly_ = couples() && movers.size() >= kMany;
-  hasEarly_ = false;
-  structure_ =
-      keepsEarly_ ? &lateStructure() : &structureFor(static_cast<int>(movers.size()), edges_);
+  structure_ = &structureFor(static_cast<int>(movers.size()), edges_);
   H_.begin(*structure_);
   const auto edgeOf = [this](int a, int b) {
     const BlockEdge edge = std::minmax(a, b);

@@ -146,7 +146,6 @@ class NewtonSystem {
   void place(int point, int a, int b, const Rows& ofB);
   void linkBodies();
   const BlockStructure& structureFor(int rows, std::span<const BlockEdge> edges);
-  const BlockStructure& lateStructure();
 
   /// Gives `take` the movers i and j of every block of K, with what it makes of a motion of j:
   /// both ways, and once on the diagonal.
@@ -161,7 +160,6 @@ class NewtonSystem {
   // newton_hessian.cpp
   template <class Factor>
   void beginMasses(Factor& factor);
-  void beginFactor();
   void guessPieces();
   void assemble();
   void assembleLive();
@@ -246,15 +244,12 @@ class NewtonSystem {
   std::vector<Rows> others_;
   std::vector<BlockEdge> edges_;
   std::vector<std::unique_ptr<BlockStructure>> structures_;
-  std::unique_ptr<BlockStructure> lateStructure_;
   const BlockStructure* structure_ = nullptr;
   BlockCholesky<N> H_;
   BlockLU<N> live_;
   std::vector<Twist> work_;
   double factoredRho_ = 0.0, pressedRho_ = 0.0;
-  bool keepsEarly_ = false;  ///< what touches is eliminated last
-  bool hasEarly_ = false;    ///< the rest is eliminated
-  bool guess_ = false;       ///< the first step of all goes by what contacts are expected to do
+  bool guess_ = false;  ///< the first step of all goes by what contacts are expected to do
   bool rubs_ = false;
   bool expects_ = false;  ///< pulls of some points are known
   bool pulled_ = false;   ///< pulls are those of the answer
