@@ -3,9 +3,7 @@
 // is solved from λ = 0.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "sim/contact/impact.h"
 #include "sim/contact/rows.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
@@ -47,8 +45,7 @@ void Stepping::solveIslands(double h) {
   if (bends()) foreseeBent();
   work_.bonds.clear();
   work_.crushed.clear();
-  if (tiesRun() && !model_.joints.empty())
-    stepBonds(state_.bodies, model_.joints, work_.star, h, work_.bonds);
+  if (!joints().empty()) stepBonds(state_.bodies, joints(), work_.star, h, work_.bonds);
   addSprings(h);
   work_.after.resize(n + 1);
   work_.touched.resize(n);
@@ -84,7 +81,7 @@ void Stepping::bookIslands(double h) {
     certificate.work_of_forces += memory.books.work;
     state_.externalImpulse += memory.books.external;
   }
-  if (tiesRun() && (!work_.bonds.empty() || !model_.joints.empty())) bookJoints(h);
+  if (!work_.bonds.empty() || !joints().empty()) bookJoints(h);
 }
 
 [[gnu::flatten]] void Stepping::foreseeTwists(double h) {
@@ -104,76 +101,6 @@ void Stepping::bookIslands(double h) {
     star.head<3>() = body.v + h * body.invM * body.force;
     star.tail<3>() = body.Iinv * (body.L + h * body.torque);
   }
-}
-
-void Stepping::partBodies() {
-  work_.root.resize(state_.bodies.size());
-  for (const int i : work_.active) work_.root[i] = i;
-}
-
-void Stepping::joinBodies(int a, int b) {
-  const int world = static_cast<int>(state_.bodies.size());
-  if (a == world || b == world || model_.fixed(a) || model_.fixed(b)) return;
-  const int p = islandRoot(work_.root, a), q = islandRoot(work_.root, b);
-  work_.root[std::max(p, q)] = std::min(p, q);
-}
-
-/// Bodies that may meet, and all that are near each other in a crowd.
-void Stepping::joinNear(double h) {
-  partBodies();
-  for (const auto& [b, a] : state_.near) joinBodies(a, b);
-  std::vector<int>& weight = work_.island;  // per root
-  weight.assign(state_.bodies.size(), 0);
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (!memory_.pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(memory_.pairs[k]);
-  work_.dense.assign(state_.bodies.size(), 0);
-  for (const int i : work_.active)
-    work_.dense[i] = !model_.fixed(i) && weight[islandRoot(work_.root, i)] > kReflectionsReach;
-  partBodies();
-  for (std::size_t k = 0; k < state_.near.size(); ++k) {
-    const auto [b, a] = state_.near[k];
-    if (work_.dense[a] || work_.dense[b] || mayMeet(k, h)) joinBodies(a, b);
-  }
-}
-
-/// Deals what joins bodies out to islands, in the order of their first links.
-[[gnu::flatten]] void Stepping::groupLinks(double h) {
-  const int count = static_cast<int>(state_.near.size() + work_.bonds.rows.size());
-  const int world = static_cast<int>(state_.bodies.size());
-  const auto joins = [&](Link link) {
-    if (!isPair(link)) return true;
-    const std::vector<Touch>& touches = memory_.pairs[link].touches;
-    return std::any_of(touches.begin(), touches.end(),
-                       [&](const Touch& touch) { return !flies(touch, h); });
-  };
-  const auto fixed = [&](int body) { return body == world || model_.fixed(body); };
-  partBodies();
-  if (bends()) joinBent();
-  work_.island.assign(count, -1);
-  for (Link link = 0; link < count; ++link) {
-    if (!joins(link)) continue;
-    const auto [b, a] = ends(link);
-    joinBodies(a, b);
-    work_.island[link] = fixed(a) ? b : a;
-  }
-  // Count, then place: `work_.local` numbers the islands for a moment.
-  work_.begin.assign(1, 0);
-  for (int& island : work_.island) {
-    if (island < 0) continue;
-    int& number = work_.local[islandRoot(work_.root, island)];
-    if (number < 0) {
-      number = static_cast<int>(work_.begin.size()) - 1;
-      work_.begin.push_back(0);
-    }
-    island = number;
-    ++work_.begin[island + 1];
-  }
-  std::partial_sum(work_.begin.begin(), work_.begin.end(), work_.begin.begin());
-  work_.order.resize(work_.begin.back());
-  work_.movers.assign(work_.begin.begin(), work_.begin.end());
-  for (Link link = 0; link < count; ++link)
-    if (work_.island[link] >= 0) work_.order[work_.movers[work_.island[link]]++] = link;
-  for (const int i : work_.active) work_.local[i] = -1;
 }
 
 /// The bodies of an island that move, in the order of its links.

@@ -30,7 +30,7 @@ void Stepping::bookJoints(double h) {
 }
 
 void Stepping::meetJoints(double h) {
-  if (model_.joints.empty() || !tiesRun()) return;
+  if (joints().empty()) return;
   beginAllowedVelocities(state_.bodies, model_.joints, work_.bonds, work_.problem);
   work_.solution.lambda.clear();
   work_.solution.v.clear();

@@ -52,8 +52,7 @@ void Stepping::findOverlapping() {
   partBodies();
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     if (!memory_.pairs[k].touches.empty()) joinBodies(state_.near[k].second, state_.near[k].first);
-  if (tiesRun())
-    for (const Joint& joint : model_.joints) joinBodies(joint.a, joint.b);
+  for (const Joint& joint : joints()) joinBodies(joint.a, joint.b);
   work_.open.assign(state_.bodies.size(), 0);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     if (memory_.pairs[k].deepest > tolerance_.drift && !findsInside(k)) work_.open[rootOf(k)] = 1;
@@ -87,10 +86,8 @@ int Stepping::lift(int most, bool asCrowd) {
           pointRow(state_.bodies, c.a, c.b, c.point.p, c.point.n, c.point.separation));
     }
   }
-  if (tiesRun()) {
-    liftBonds(state_.bodies, model_.joints, work_.bonds);
-    appendBonds(work_.bonds, work_.problem);
-  }
+  liftBonds(state_.bodies, joints(), work_.bonds);
+  appendBonds(work_.bonds, work_.problem);
   work_.solution.lambda.clear();
   work_.solution.v.clear();
   const SolveReport solved = solveByIslands(

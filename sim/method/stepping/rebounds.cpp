@@ -103,8 +103,7 @@ void Stepping::findHeld() {
         hold(c);
     }
   }
-  if (!tiesRun()) return;
-  for (const Joint& joint : model_.joints)
+  for (const Joint& joint : joints())
     for (const int i : {joint.a, joint.b})
       if (i < model_.count() && !model_.fixed(i)) work_.held[i] = 1;
 }
@@ -220,7 +219,7 @@ bool Stepping::strike(double within) {
   }
   std::vector<Vec3> impulse(contacts.size(), Vec3::Zero());
   Bonds bonds;
-  if (tiesRun()) impactBonds(state_.bodies, model_.joints, tolerance_.touch, bonds);
+  impactBonds(state_.bodies, joints(), tolerance_.touch, bonds);
   bookImpact(findImpactLaw(strikesAsCrowd() ? "crowd" : std::string_view(model_.def.impact))
                  ->apply({.bodies = state_.bodies,
                           .contacts = contacts,

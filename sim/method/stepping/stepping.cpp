@@ -176,7 +176,7 @@ void Stepping::moveTo(double t1, double h) {
   if (bends() && !points_.foresees) moveOut(h);
   if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
   if (!project()) {
-    if (const Joint* open = tiesRun() ? brokenJoint(state_.bodies, model_.joints) : nullptr) {
+    if (const Joint* open = brokenJoint(state_.bodies, joints())) {
       const std::string& name = model_.def.joints[open - model_.joints.data()].name;
       return stop("joint \"" + name + "\" came apart; try a smaller stepping.step");
     }

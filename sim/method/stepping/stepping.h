@@ -58,6 +58,10 @@ class Stepping {
   void findTied();
   /// Whether their clock runs.
   bool tiesRun() const { return !parted_ || cluster_ == work_.tiedCluster; }
+  /// Those whose bodies go on: all, or none.
+  std::span<const Joint> joints() const {
+    return tiesRun() ? std::span<const Joint>(model_.joints) : std::span<const Joint>();
+  }
   bool isActive(int body) const { return !parted_ || work_.cluster[body] == cluster_; }
   void activateAll();
   /// Tells clusters apart by near pairs. @return whether something hits within h seconds, and not
@@ -198,6 +202,14 @@ class Stepping {
   /// The rebound [m/s] up to which a touch is a contact that lasts: what a solver leaves is none.
   double leastRebound(const Touch& touch, double least) const;
 
+  // grouping.cpp: which bodies are as one.
+  void groupLinks(double h);
+  /// The forest of islands: each body alone, and two bodies that something joins as one.
+  void partBodies();
+  void joinBodies(int a, int b);
+  /// The forest in which bodies that are near each other are as one.
+  void joinNear(double h);
+
   // island.cpp: the contact problem of each island.
   /// Solves until nothing comes to meet what was not looked at.
   void solveSteadily(double h);
@@ -210,12 +222,6 @@ class Stepping {
   }
   /// The velocities at the end of the step, were there nothing to touch or hold.
   void foreseeTwists(double h);
-  void groupLinks(double h);
-  /// The forest of islands: each body alone, and two bodies that something joins as one.
-  void partBodies();
-  void joinBodies(int a, int b);
-  /// The forest in which bodies that are near each other are as one.
-  void joinNear(double h);
   std::pair<int, int> ends(Link link) const;
   bool isBonded(std::span<const Link> links) const {
     return std::any_of(links.begin(), links.end(), [&](Link link) { return !isPair(link); });
@@ -357,9 +363,7 @@ class Stepping {
   bool project();
   double deepestOverlap();
   double deepestKnown() const;
-  double largestGap() const {
-    return tiesRun() ? largestJointGap(state_.bodies, model_.joints) : 0.0;
-  }
+  double largestGap() const { return largestJointGap(state_.bodies, joints()); }
   void findOverlapping();
   int rootOf(std::size_t pair);
   /// Lifts what overlaps, by at most so many iterations of the solver, or of that of crowds;
