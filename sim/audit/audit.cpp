@@ -64,7 +64,8 @@ Audit::Audit(const Model& model, std::span<const RigidBody> start)
   }
 }
 
-void Audit::see(double t, std::span<const RigidBody> bodies, bool many) {
+void Audit::see(double t, std::span<const RigidBody> bodies, bool many,
+                std::span<const ClusterPart> pieces) {
   const std::size_t n = bodies_.size();
   bool same = true;
   for (std::size_t i = 0; i < n; ++i) {
@@ -85,8 +86,9 @@ void Audit::see(double t, std::span<const RigidBody> bodies, bool many) {
   t_ = t;
   many_ = many;
   ++seen_;
+  ways_.set(pieces);
   addWays();
-  group(nearness_.see({h_, many, last_, now_, net_, way_, reach_}));
+  group(nearness_.see({t_, h_, many, last_, now_, ways_, net_, way_, reach_}));
   for (std::size_t i = 0; i < n; ++i) {
     if (!moves(i)) continue;
     Group& g = groups_[rootOf(i)];
@@ -121,15 +123,19 @@ void Audit::addWays() {
   for (const int i : model_.solid) {
     const double r = nearness_.radius(i);
     if (r == 0.0 || (!moves(i) && still(i))) continue;
-    const Recorded &p = last_[i], &q = now_[i];
-    net_[i] = wayBetween(p.x, p.q, q.x, q.q, r);
-    double speed = bodies_[i].v.norm(), spin = bodies_[i].omega.norm();
-    if (moves(i)) {
-      speed = bodies_[i].invM * std::max(p.P.norm(), q.P.norm());
-      spin = std::max(spinOf(bodies_[i], p).norm(), spinOf(bodies_[i], q).norm());
-    }
-    way_[i] = std::max(net_[i], h_ * (speed + r * spin));
-    reach_[i] = soon_ * (speed + r * spin);
+    double fastest = moves(i) ? 0.0 : bodies_[i].v.norm() + r * bodies_[i].omega.norm();
+    const auto wayOf = [&](const Recorded& p, const Recorded& q, double h) {
+      if (moves(i))
+        fastest = std::max(
+            fastest, bodies_[i].invM * std::max(p.P.norm(), q.P.norm()) +
+                         r * std::max(spinOf(bodies_[i], p).norm(), spinOf(bodies_[i], q).norm()));
+      return std::max(wayBetween(p.x, p.q, q.x, q.q, r), h * fastest);
+    };
+    net_[i] = wayBetween(last_[i].x, last_[i].q, now_[i].x, now_[i].q, r);
+    const std::span<const Ways::Part> own = ways_.of(i);
+    if (own.empty()) way_[i] = wayOf(last_[i], now_[i], h_);
+    for (const Ways::Part& part : own) way_[i] += wayOf(part.start, part.end, part.t1 - part.t0);
+    reach_[i] = soon_ * fastest;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "sim/audit/joint_gap.h"
 #include "sim/audit/loads.h"
 #include "sim/audit/nearness.h"
+#include "sim/audit/ways.h"
 #include "sim/method/report.h"
 #include "sim/method/state.h"
 
@@ -37,7 +38,10 @@ class Audit {
 
   /// The next recorded state of all bodies, at t [s]. What lies between may be one part of a step,
   /// or many: then loads along the way are known only if they are the same all the way.
-  void see(double t, std::span<const RigidBody> bodies, bool many = false);
+  /// @param pieces  of that part, that only some bodies have; nothing but gravity and winds acts on
+  ///   those
+  void see(double t, std::span<const RigidBody> bodies, bool many = false,
+           std::span<const ClusterPart> pieces = {});
 
  private:
   /// Bodies that may have pushed each other in a part.
@@ -112,6 +116,7 @@ class Audit {
   bool stored_ = true;        ///< no loads but ones that give back what they take
   bool quiet_ = false;        ///< if nothing changes from here on, nothing is wrong
   std::vector<Recorded> last_, now_;
+  Ways ways_;  ///< of bodies that have parts of their own between the two
   std::vector<double> net_, way_, reach_;  ///< [m] see Nearness
   double soon_ = 0.0;                      ///< [s] until all bodies are looked at again, about
   std::vector<int> root_, family_;         ///< forests of groups, and of families

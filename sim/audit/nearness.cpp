@@ -86,22 +86,34 @@ double Nearness::least() const {
   return least;
 }
 
-void Nearness::lookInMidst(Known& pair, const Part& part) {
-  const std::optional<Pose> a = midst(pair.a, part), b = midst(pair.b, part);
-  if (a && b) between_ = std::max(between_, -gapOf(pair, *a, *b));
+/// In the midst of a part and, where bodies have parts of their own in it, at the ends of those.
+void Nearness::lookOnTheWay(Known& pair, const Part& part) {
+  between_ = std::max(between_, depthAt(part.t1 - 0.5 * part.h, pair, part));
+  const std::span<const Ways::Part> ofA = part.ways.of(pair.a);
+  for (const Ways::Part& own : ofA.empty() ? part.ways.of(pair.b) : ofA)
+    if (own.t1 < part.t1) deepest_ = std::max(deepest_, depthAt(own.t1, pair, part));
+}
+
+/// How deep [m] two bodies overlap at t; 0 if nobody can tell.
+double Nearness::depthAt(double t, Known& pair, const Part& part) {
+  const std::optional<Pose> a = poseAt(t, pair.a, part), b = poseAt(t, pair.b, part);
+  return a && b ? -gapOf(pair, *a, *b) : 0.0;
 }
 
 /// Nothing if nobody can tell how the body turned.
-std::optional<Pose> Nearness::midst(int i, const Part& part) const {
-  if (bodies_[i].fixed()) {
-    const Recorded &p = part.start[i], &q = part.end[i];
-    const double sign = p.q.dot(q.q) < 0.0 ? -1.0 : 1.0;
-    return Pose{0.5 * (p.x + q.x), Quat(p.q.coeffs() + sign * q.q.coeffs()).normalized()};
-  }
-  const BodyPath path(bodies_[i], part.start[i], part.end[i], part.h);
-  if (path.lost()) return {};
-  const PathPoint point = path.at(0.5);
-  return Pose{point.x, point.q};
+std::optional<Pose> Nearness::poseAt(double t, int i, const Part& part) const {
+  const double share = 1.0 - (part.t1 - t) / part.h;
+  const Recorded &p = part.start[i], &q = part.end[i];
+  if (bodies_[i].fixed()) return Pose{p.x + share * (q.x - p.x), p.q.slerp(share, q.q)};
+  const auto on = [&](const Recorded& from, const Recorded& to, double h, double at) {
+    const BodyPath path(bodies_[i], from, to, h);
+    const PathPoint point = path.at(at);
+    return path.lost() ? std::nullopt : std::optional(Pose{point.x, point.q});
+  };
+  for (const Ways::Part& own : part.ways.of(i))
+    if (t <= own.t1)
+      return on(own.start, own.end, own.t1 - own.t0, (t - own.t0) / (own.t1 - own.t0));
+  return on(p, q, part.h, share);
 }
 
 bool Nearness::glance(std::span<const RigidBody> end) {
@@ -151,7 +163,7 @@ void Nearness::see(Known& pair, const Part& part) {
   if (now < -known || pair.gap > near) look(pair, part);
   if (std::min(start, pair.gap) > way + near) return;
   touched_.emplace_back(pair.b, pair.a);
-  if (!part.many && way > kMidst * smaller(pair)) lookInMidst(pair, part);
+  if (!part.many && way > kMidst * smaller(pair)) lookOnTheWay(pair, part);
 }
 
 }  // namespace tumble

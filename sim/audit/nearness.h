@@ -9,6 +9,7 @@
 
 #include "sim/audit/depth.h"
 #include "sim/audit/recorded.h"
+#include "sim/audit/ways.h"
 #include "sim/collide/broad_phase.h"
 #include "sim/method/model.h"
 
@@ -21,9 +22,10 @@ class Nearness {
   using Pair = std::pair<int, int>;
   /// How bodies went through one part, per body of the model.
   struct Part {
-    double h = 0.0;     ///< [s]
-    bool many = false;  ///< it was many parts: nobody can tell its midst
+    double t1 = 0.0, h = 0.0;  ///< [s]
+    bool many = false;         ///< it was many parts: nobody can tell its midst
     std::span<const Recorded> start, end;
+    const Ways& ways;                  ///< of bodies with parts of their own in it
     std::span<const double> net, way;  ///< [m] between the ends, and on the way, of any point
     std::span<const double> reach;     ///< [m] how far they may go before all are looked at again
   };
@@ -57,10 +59,11 @@ class Nearness {
   void look(Known& pair, const Part& part);
   /// Measures the gap of a pair.
   double gapOf(Known& pair, const Pose& a, const Pose& b);
-  void lookInMidst(Known& pair, const Part& part);
+  void lookOnTheWay(Known& pair, const Part& part);
   double smaller(const Known& pair) const;
 
-  std::optional<Pose> midst(int body, const Part& part) const;
+  double depthAt(double t, Known& pair, const Part& part);
+  std::optional<Pose> poseAt(double t, int body, const Part& part) const;
 
   const Model& model_;
   std::vector<RigidBody> bodies_;  ///< what is constant of them

@@ -58,7 +58,7 @@ void Audit::followSteps(const State& state) {
       } else {
         see(t0, part.start, t0 > t_);
       }
-      see(t1, end);
+      see(t1, end, false, part.pieces);
     }
   }
   if (state.t >= model_.def.duration || state.t == t_) see(state.t, state.bodies, state.t > t_);
