@@ -1,5 +1,6 @@
 #include "sim/collide/facet.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble::convex {
@@ -7,10 +8,21 @@ namespace {
 
 // Faces within this of being equally square to n are taken in their order.
 constexpr double kSquareBias = 1e-9;
+// [part of the size] A face as far out as this has the outermost corner.
+constexpr double kOutermost = 1e-9;
+
+// Where steep faces meet in the outermost corner, one that is squarer to n may not reach it.
 Facet faceOf(const Core& core, const Vec3& n) {
-  int best = 0;
-  for (int f = 1; f < static_cast<int>(core.normals.size()); ++f)
-    if (core.normals[f].dot(n) > core.normals[best].dot(n) + kSquareBias) best = f;
+  const double far = n.dot(core.points[outermostVertex(core, n)]) - kOutermost * core.size;
+  const auto reaches = [&](int f) {
+    return std::any_of(core.faces[f].begin(), core.faces[f].end(),
+                       [&](int v) { return n.dot(core.points[v]) >= far; });
+  };
+  int best = -1;
+  for (int f = 0; f < static_cast<int>(core.normals.size()); ++f)
+    if ((best < 0 || core.normals[f].dot(n) > core.normals[best].dot(n) + kSquareBias) &&
+        reaches(f))
+      best = f;
   Facet facet;
   facet.normal = core.normals[best];
   facet.code = faceCode(best);

@@ -16,7 +16,8 @@ struct Facet {
   bool isPolygon() const { return corners.size() > 2; }
 };
 
-/// The facet of a core, not of a cylinder, whose normal is nearest to the unit vector n.
+/// The facet of a core, not of a cylinder, whose normal is nearest to the unit vector n, among
+/// those that have the outermost corner along n.
 Facet outermostFacet(const Core& core, const Vec3& n);
 
 /// Codes of features of a core.
