@@ -20,6 +20,8 @@ mutations=(
   "spin of the rotor is counted in whole angles|flight/rotor.cpp|flight|phaseRate_ = 0.5 * omega;|phaseRate_ = omega;"
   "the spin's turn is made in the body's frame|math/rotation.cpp|math|scale * w.z()) * q;|scale * w.z()).conjugate() * q;"
   "forces at rest have the other sign of ω × L|contact/rows.cpp|contact|body.torque - body.omega.cross(body.L)|body.torque + body.omega.cross(body.L)"
+  "the audit takes a spring's moment the other way round|audit/loads.cpp|audit|torque[body] += end.arm.cross(force);|torque[body] -= end.arm.cross(force);"
+  "the audit counts a spring's energy twice|audit/loads.cpp|audit|return 0.5 * spring->stiffness|return 1.0 * spring->stiffness"
 )
 
 # copyInto FOLDER: the sources as they are now; what is unchanged keeps its time, so that it is not built again.
@@ -37,7 +39,7 @@ replaced() {
 
 # green ROOM:CASES: builds the room and runs these quick cases of it, to the first that fails.
 green() {
-  local room=${1%%:*} cases=*
+  local room=${1%%:*} cases='*'
   if [[ $1 == *:* ]]; then cases=${1#*:}; fi
   cmake --build "$build" --target "test_$room" >"$copy/log" 2>&1 || { tail -n 40 "$copy/log" && exit 2; }
   (cd "$copy" && timeout 900 "build/release/tests/test_$room" -a "\"$cases\"~[long]~[.]") >"$copy/log" 2>&1 || return 1
