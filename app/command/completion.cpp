@@ -1,5 +1,5 @@
 // tumble completion: what Tab offers in a shell.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +18,15 @@ std::string words(std::span<const CommandSheet> sheets) {
   return text;
 }
 
+bool takesShell(const CommandSheet& sheet) {
+  return std::any_of(sheet.options.begin(), sheet.options.end(),
+                     [](const OptionSheet& option) { return option.names == "SHELL"; });
+}
+
+std::string shellWords() {
+  return fmt::format("{}", fmt::join(completionShells(), " "));
+}
+
 // Inside single quotes.
 std::string singleQuoted(const std::string& text) {
   std::string escaped;
@@ -26,8 +35,11 @@ std::string singleQuoted(const std::string& text) {
 }
 
 std::string bashScript(std::span<const CommandSheet> sheets) {
-  std::string cases;
+  std::string cases, places;
   for (const CommandSheet& sheet : sheets) {
+    if (takesShell(sheet))
+      places += fmt::format("      {}) mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\") ;;\n",
+                            sheet.name, shellWords());
     std::string names = "--help";
     for (const OptionSheet& option : sheet.options)
       if (!option.place()) names += " " + option.longName();
@@ -42,7 +54,9 @@ _tumble() {{
     return
   fi
   if [[ $word != -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$(tumble list -q 2>/dev/null)" -- "$word"; compgen -f -- "$word")
+    case ${{COMP_WORDS[1]}} in
+{}      *) mapfile -t COMPREPLY < <(compgen -W "$(tumble list -q 2>/dev/null)" -- "$word"; compgen -f -- "$word") ;;
+    esac
     return
   fi
   case ${{COMP_WORDS[1]}} in
@@ -51,7 +65,7 @@ _tumble() {{
 }}
 complete -o filenames -F _tumble tumble
 )sh",
-      words(sheets), cases);
+      words(sheets), places, cases);
 }
 
 // In a specification of _arguments brackets and colons have a meaning.
@@ -75,7 +89,8 @@ std::string zshScript(std::span<const CommandSheet> sheets) {
             " \\\n      '*{}[{}]{}'", option.longName(), zshText(option.help),
             option.flag ? ""
                         : ":" + zshText(option.type.empty() ? "value" : option.type) + ":_files");
-    cases += " \\\n      '*:scene:_tumble_scenes' ;;\n";
+    cases += takesShell(sheet) ? fmt::format(" \\\n      '1:shell:({})' ;;\n", shellWords())
+                               : std::string(" \\\n      '*:scene:_tumble_scenes' ;;\n");
   }
   return fmt::format(R"sh(#compdef tumble
 # Completion of tumble for zsh: tumble completion zsh >~/.zfunc/_tumble
@@ -114,7 +129,8 @@ std::string fishScript(std::span<const CommandSheet> sheets) {
       const std::string here =
           fmt::format("complete -c tumble -n '__fish_seen_subcommand_from {}'", sheet.name);
       if (option.place())
-        script += here + " -a '(tumble list -q 2>/dev/null)'\n";
+        script += takesShell(sheet) ? fmt::format("{} -f -a '{}'\n", here, shellWords())
+                                    : here + " -a '(tumble list -q 2>/dev/null)'\n";
       else
         script += fmt::format("{} -l {}{} -d '{}'\n", here, option.longName().substr(2),
                               option.flag ? "" : " -r", singleQuoted(option.help));

@@ -86,15 +86,15 @@ TEST_CASE("completions and the manual know every command and every option of its
   CHECK(tumbleRun(scratch, "completion zhs").says("'zsh'"));
 }
 
-TEST_CASE("bash completes commands, options of the command and demos") {
+TEST_CASE("bash completes commands, options of the command, demos and shells") {
   const Scratch scratch;
   const std::string ask =
       "export PATH=\"$(dirname '" + std::string(TUMBLE_PROGRAM) +
       "'):$PATH\"; bash -c 'source <(tumble completion bash); ask() { COMP_WORDS=(\"$@\"); "
       "COMP_CWORD=$(($# - 1)); _tumble; echo \"${COMPREPLY[@]}\" >>said; }; ask tumble rend; "
-      "ask tumble golden --fol; ask tumble check path-of'";
+      "ask tumble golden --fol; ask tumble check path-of; ask tumble completion z'";
   CHECK(tumbleRun(scratch, "--version", ask).code == 0);
-  CHECK(textOf(scratch.path / "said") == "render\n--folder\npath-of-brick\n");
+  CHECK(textOf(scratch.path / "said") == "render\n--folder\npath-of-brick\nzsh\n");
 }
 
 TEST_CASE("a misspelt option is answered with the nearest one, a file with the nearest file") {
