@@ -254,7 +254,8 @@ const std::set<std::string> kAsked = {"One solver for particles and bodies",
                                       "Path of a brick",
                                       "Cloth on a solid",
                                       "Fur on a solid",
-                                      "What stands for a deformable body?"};
+                                      "What stands for a deformable body?",
+                                      "Which forces resist deformation?"};
 
 // The slides of the lectures that show something: all but titles, derivations in the notes and
 // code.
