@@ -213,9 +213,9 @@ void Stepping::beginSegment(double t1) {
   const std::size_t n = state_.bodies.size();
   work_.before.resize(n + 1);  // the last is the world, for joints
   work_.star.resize(n + 1);
-  work_.before[n].setZero();
-  work_.star[n].setZero();
   work_.after.resize(n + 1);
+  for (std::vector<Vec6>* twists : {&work_.before, &work_.star, &work_.after})
+    (*twists)[n].setZero();
   for (std::size_t i = 0; i < n; ++i)
     work_.before[i] = work_.star[i] = work_.after[i] = twistOf(state_.bodies[i]);
 }
