@@ -60,7 +60,8 @@ void showCorners(const Core& core, const Vec3& n, AllShown& all) {
     all.push_back({Kind::Line, p, (q - p).normalized(), 0.0, 0.0, e});
   }
   for (int k = 0; k < static_cast<int>(core.points.size()); ++k)
-    if (n.dot(core.points[k]) >= level) all.push_back({Kind::Point, core.points[k], {}, 0, 0, k});
+    if (n.dot(core.points[k]) >= level)
+      all.push_back({.kind = Kind::Point, .p = core.points[k], .number = k});
 }
 
 // The torus that bends as the ellipsoid does where n is its normal.
