@@ -8,21 +8,25 @@ namespace {
 
 // Faces within this of being equally square to n are taken in their order.
 constexpr double kSquareBias = 1e-9;
-// [part of the size] A face as far out as this has the outermost corner.
+// [part of the size] Corners this near to the outermost one are as far out.
 constexpr double kOutermost = 1e-9;
 
-// Where steep faces meet in the outermost corner, one that is squarer to n may not reach it.
+// Where steep faces meet in what is outermost, a corner or an edge, one that is squarer to n may
+// not have it.
 Facet faceOf(const Core& core, const Vec3& n) {
   const double far = n.dot(core.points[outermostVertex(core, n)]) - kOutermost * core.size;
-  const auto reaches = [&](int f) {
-    return std::any_of(core.faces[f].begin(), core.faces[f].end(),
-                       [&](int v) { return n.dot(core.points[v]) >= far; });
+  const auto outermostIn = [&](int f) {
+    return std::count_if(core.faces[f].begin(), core.faces[f].end(),
+                         [&](int v) { return n.dot(core.points[v]) >= far; });
   };
   int best = -1;
-  for (int f = 0; f < static_cast<int>(core.normals.size()); ++f)
-    if ((best < 0 || core.normals[f].dot(n) > core.normals[best].dot(n) + kSquareBias) &&
-        reaches(f))
-      best = f;
+  std::ptrdiff_t most = 0;
+  for (int f = 0; f < static_cast<int>(core.normals.size()); ++f) {
+    const std::ptrdiff_t count = outermostIn(f);
+    const bool squarer =
+        best < 0 || core.normals[f].dot(n) > core.normals[best].dot(n) + kSquareBias;
+    if (count > most || (count == most && squarer)) best = f, most = count;
+  }
   Facet facet;
   facet.normal = core.normals[best];
   facet.code = faceCode(best);

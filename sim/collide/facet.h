@@ -17,7 +17,7 @@ struct Facet {
 };
 
 /// The facet of a core, not of a cylinder, whose normal is nearest to the unit vector n, among
-/// those that have the outermost corner along n.
+/// those with most of its outermost corners along n.
 Facet outermostFacet(const Core& core, const Vec3& n);
 
 /// Codes of features of a core.
