@@ -3,6 +3,7 @@
 // many contacts that move are solved as far as is planned for them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/contact/impact.h"
 #include "sim/method/stepping/stepping.h"
@@ -171,11 +172,28 @@ SolveReport Stepping::solveAsPlanned(std::span<const Link> links, bool bent, boo
   return solveFine(links);
 }
 
+/// What is left open is a velocity: that of a point of cloth is soon small, while the push behind
+/// it still moves the heavy body that lies on it.
+double Stepping::lightness() const {
+  double heaviest = 0.0, lightest = std::numeric_limits<double>::infinity();
+  for (const int i : work_.movers) {
+    const double mass = state_.bodies[i].M;
+    if (model_.bends(i))
+      lightest = std::min(lightest, mass);
+    else
+      heaviest = std::max(heaviest, mass);
+  }
+  return std::min(1.0, heaviest > 0.0 ? lightest / heaviest : 1.0);
+}
+
 SolveReport Stepping::solveFine(std::span<const Link> links) {
+  constexpr double kReach = 1e-12;  // what solvers reach
   const SteppingSettings& stepping = model_.def.stepping;
+  const double tolerance =
+      std::min(stepping.tolerance, std::max(kReach, stepping.tolerance * lightness()));
   const SolveReport solved = solver_.solve(
       work_.problem,
-      {.tolerance = stepping.tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
+      {.tolerance = tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
       work_.solution);
   findCrushed(links, solved);
   if (solved.status != SolveStatus::Solved)

@@ -189,6 +189,9 @@ class Stepping {
   SolveReport solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
                              IslandMemory& memory, double h);
   SolveReport solveFine(std::span<const Link> links);
+  /// Mass of the lightest point of what bends in an island, by that of its heaviest solid; at
+  /// most 1.
+  double lightness() const;
   /// Whether sweeps left a small island far from what was planned for it.
   bool isFarOff(const SolveReport& solved, double tolerance) const;
   SolveReport solveRough(std::span<const Link> links, double tolerance, double h);
