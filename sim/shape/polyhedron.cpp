@@ -13,7 +13,6 @@ namespace tumble {
 namespace {
 
 constexpr double kFlat = 1e-12;  // of a face's size: what rounding of its points may bend it by
-constexpr double kThin = 1e-12;  // of size × area: a volume below it may be rounding alone
 constexpr double kFar = 1e60;    // m: fifth powers, as inertia tensors have, stay finite
 
 std::string number(double value) {
@@ -86,23 +85,17 @@ void checkEdges(const Polyhedron& solid, const std::vector<Vec3>& given) {
                       f);
 }
 
-/// Σ p₀·(p₁ × p₂) over all triangles, six times the volume, is positive and more than rounding.
+/// The surface holds a volume, and Σ p₀·(p₁ × p₂) over all its triangles is positive.
 void checkVolume(const Polyhedron& solid, const std::vector<Vec3>& given) {
-  double sum = 0.0, area = 0.0, size = 0.0;
-  for (const std::vector<int>& face : solid.faces) {
-    const Vec3 n = areaVector(solid, face);
-    sum += at(solid, face[0]).dot(n);
-    area += n.norm();
-    for (const int i : face) size = std::max(size, at(solid, i).norm());
-  }
-  if (!(sum > 0.0))
+  const int side = sideOf(solid);
+  if (side == 0)
+    throw NotASolid("the surface holds no volume, or so little that it may be rounding alone", 0);
+  if (side < 0)
     throw NotASolid(
         "the surface is inside out: " + edgeText(given, solid.faces[0][0], solid.faces[0][1]) +
             " and all others should run counter-clockwise about their faces, "
             "seen from outside",
         0);
-  if (!(sum > kThin * size * area))
-    throw NotASolid("the surface is too thin: what it holds may be rounding alone", -1);
 }
 
 bool isFlat(const Polyhedron& solid, const std::vector<int>& face) {

@@ -1,6 +1,7 @@
 #include "sim/shape/shells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 
@@ -9,10 +10,11 @@
 namespace tumble {
 namespace {
 
+constexpr double kThin = 1e-12;         // of size × area: a volume below it may be rounding alone
 constexpr double kUnder = 1e-4;         // of a triangle's width: how far inside a shell is tried
 constexpr std::size_t kMostTried = 16;  // triangles of a shell, four points each
 
-/// A closed surface as a solid of its own; `side` is −1 if it is inside out.
+/// A closed surface as a solid of its own; `side` is −1 if it is inside out, 0 without volume.
 struct Shell {
   int face = 0;  ///< the first, in the whole surface
   std::shared_ptr<const Polyhedron> solid;
@@ -43,16 +45,8 @@ std::vector<int> piecesOf(const Polyhedron& solid) {
   return up;
 }
 
-double sixfoldVolume(const Polyhedron& solid) {
-  double sum = 0.0;
-  for (const std::vector<int>& face : solid.faces)
-    sum += (solid.points[static_cast<std::size_t>(face[0])] - solid.points[0])
-               .dot(areaVector(solid, face));
-  return sum;
-}
-
 void complete(Shell& shell, Polyhedron&& solid) {
-  shell.side = sixfoldVolume(solid) < 0.0 ? -1.0 : 1.0;
+  shell.side = sideOf(solid);
   for (const std::vector<int>& face : solid.faces) cutIntoTriangles(solid, face, shell.triangles);
   shell.solid = std::make_shared<const Polyhedron>(std::move(solid));
   shell.shape = std::make_unique<const Shape>(Mesh{shell.solid, Vec3::Zero()});
@@ -159,9 +153,28 @@ void checkSide(const Shell& shell, const Polyhedron& solid) {
 
 }  // namespace
 
+int sideOf(const Polyhedron& solid) {
+  double sum = 0.0, area = 0.0, size = 0.0;
+  const auto from0 = [&](int i) -> Vec3 {
+    return solid.points[static_cast<std::size_t>(i)] - solid.points[0];
+  };
+  for (const std::vector<int>& face : solid.faces) {
+    const Vec3 n = areaVector(solid, face);
+    sum += from0(face[0]).dot(n);
+    area += n.norm();
+    for (const int i : face) size = std::max(size, from0(i).norm());
+  }
+  return !(std::abs(sum) > kThin * size * area) ? 0 : sum > 0.0 ? 1 : -1;
+}
+
 void checkShells(const Polyhedron& solid) {
   std::vector<Shell> shells = shellsOf(solid);
   if (shells.size() < 2) return;
+  for (const Shell& shell : shells)
+    if (shell.side == 0.0)
+      throw NotASolid(
+          name(shell, solid) + " holds no volume, or so little that it may be rounding alone",
+          shell.face);
   // Only shells whose boxes meet can share anything: a sweep along x finds those.
   std::vector<Shell*> order;
   for (Shell& shell : shells) order.push_back(&shell);

@@ -91,6 +91,8 @@ shape = { mesh = "m.obj" }
   refused(cube(0.0, 1, true), ":9: ", "inside out");
   refused(solid + cube(5.0, 9, true), ":23: ", "inside out");
   refused(solid + cube(0.5, 9), ":", "overlaps the shell");
+  const std::string sheet = "v 0 0 0\nv 1 0 0.3\nv 0 1 0.7\n";
+  refused(sheet + "f 1 2 3\nf 3 2 1\n", ":4: ", "the surface holds no volume");
   refused("v 0.5 0 0\n" + cube(0.0, 2) + "f 2 1 3\n", ":16: ", "has no area");
   refused(solid + "v 0 nan 0\n", ":15:5: ", "expected a finite number, found 'nan'");
 }

@@ -79,6 +79,22 @@ TEST_CASE("a surface that bounds no solid is refused with the offending edge") {
   flat.points[3] = Vec3(2.0, 0.0, 0.0);
   CHECK(says(refusal(flat), "no area"));
 
+  // One triangle seen from either side; its volume rounds to either sign, and to 0.
+  const solids::Raw sheet{{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}, {{0, 1, 2}, {2, 1, 0}}};
+  for (const Vec3& aside : {Vec3(0, 0, 0), Vec3(0.1, 0.2, 0.7), Vec3(-0.3, 0.1, -0.9)}) {
+    for (const double angle : {0.0, 0.4, 1.1, 2.9}) {
+      solids::Raw there = solids::turned(sheet, fromAxisAngle(Vec3(1, 2, 3).normalized(), angle));
+      for (Vec3& p : there.points) p += aside;
+      CHECK(refusal(there) ==
+            "the surface holds no volume, or so little that it may be rounding alone");
+      for (const bool turned : {false, true})
+        CHECK(
+            refusal(both(cube, there, turned)) ==
+            "the shell of face 7 at point 9 holds no volume, or so little that it may be rounding "
+            "alone");
+    }
+  }
+
   solids::Raw missing = cube;
   missing.faces[0][0] = 8;
   CHECK(says(refusal(missing), "names point 9 of 8"));
