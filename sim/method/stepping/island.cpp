@@ -47,7 +47,6 @@ void Stepping::solveIslands(double h) {
   work_.crushed.clear();
   if (!joints().empty()) stepBonds(state_.bodies, joints(), work_.star, h, work_.bonds);
   addSprings(h);
-  work_.after.resize(n + 1);
   work_.touched.resize(n);
   work_.later.resize(n);
   memory_.islands.resize(n);

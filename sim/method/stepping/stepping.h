@@ -1,4 +1,5 @@
-// Time stepping after Moreau: each step solves one contact problem for the velocities at its end,
+// Time stepping after Moreau; one class, and so long. Each step solves one contact problem for the
+// velocities at its end,
 //   M (v⁺ − v) = h F + Jᵀ λ,   u_n ≥ −separation/h,  λ_n ≥ 0, complementary, Coulomb's cone,
 // moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. What
 // rebounds is struck where it meets, by the scene's law of impact: a step is divided there. Bodies
