@@ -30,23 +30,41 @@ std::string kindOf(fs::file_type type) {
   return "no regular file";
 }
 
-}  // namespace
-
-std::shared_ptr<const Polyhedron> parseMesh(const std::string& text, const std::string& file) {
-  ObjFile obj = read(text, file);
-  if (obj.points.size() > kMostPoints) throw MeshError(file + ": more than a million points");
-  try {
-    return std::make_shared<const Polyhedron>(
-        makePolyhedron(std::move(obj.points), std::move(obj.faces)));
-  } catch (const NotASolid& reason) {
-    const int face = reason.face();
-    const std::string line =
-        face < 0 ? "" : ":" + std::to_string(obj.lines[static_cast<std::size_t>(face)]);
-    throw MeshError(file + line + ": " + reason.what());
+// The lines of a solid's faces, from those of a file's: a face with as many corners as written is
+// one, another has been cut into triangles, two fewer than its corners.
+std::vector<int> linesOf(const Polyhedron& solid, const std::vector<int>& written,
+                         const std::vector<std::size_t>& corners) {
+  std::vector<int> lines;
+  for (std::size_t f = 0; f < written.size(); ++f) {
+    const bool whole = solid.faces[lines.size()].size() == corners[f];
+    lines.insert(lines.end(), whole ? 1 : corners[f] - 2, written[f]);
   }
+  return lines;
 }
 
-std::shared_ptr<const Polyhedron> readMesh(const std::string& path) {
+}  // namespace
+
+std::string MeshFile::lineOf(int face) const {
+  return face < 0 ? "" : ":" + std::to_string(lines[static_cast<std::size_t>(face)]);
+}
+
+MeshFile parseMesh(const std::string& text, const std::string& file) {
+  ObjFile obj = read(text, file);
+  if (obj.points.size() > kMostPoints) throw MeshError(file + ": more than a million points");
+  std::vector<std::size_t> corners;
+  for (const std::vector<int>& face : obj.faces) corners.push_back(face.size());
+  MeshFile mesh{nullptr, std::move(obj.lines)};
+  try {
+    mesh.solid = std::make_shared<const Polyhedron>(
+        makePolyhedron(std::move(obj.points), std::move(obj.faces)));
+  } catch (const NotASolid& reason) {
+    throw MeshError(file + mesh.lineOf(reason.face()) + ": " + reason.what());
+  }
+  mesh.lines = linesOf(*mesh.solid, mesh.lines, corners);
+  return mesh;
+}
+
+MeshFile readMesh(const std::string& path) {
   std::string text;
   try {
     text = readFile(path);

@@ -97,14 +97,16 @@ std::optional<Shape> readMeshFile(Section& shape) {
   const PieceKind kind = pieces == "good"   ? PieceKind::Good
                          : pieces == "hull" ? PieceKind::Hull
                                             : PieceKind::Slivers;
+  MeshFile file;
   try {
-    Mesh mesh{readMesh(meshPath(name, shape.findings().file()))};
+    file = readMesh(meshPath(name, shape.findings().file()));
+    Mesh mesh{file.solid};
     mesh.pieces = storedPieces(*mesh.solid, kind, tolerance * sizeOf(*mesh.solid), name);
     return mesh;
   } catch (const MeshError& reason) {
     shape.complain("mesh", reason.what());
   } catch (const NoPieces& reason) {
-    shape.complain("mesh", name + ": " + reason.what());
+    shape.complain("mesh", name + file.lineOf(reason.face()) + ": " + reason.what());
   }
   return {};
 }

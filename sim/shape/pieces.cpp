@@ -34,7 +34,8 @@ struct Wrapping {
 
 class Decomposer {
  public:
-  Decomposer(const Polyhedron& solid, double tolerance) : tolerance_(tolerance) {
+  Decomposer(const Polyhedron& solid, double tolerance)
+      : given_(static_cast<int>(solid.points.size())), tolerance_(tolerance) {
     points_.at = solid.points;
     points_.exact.resize(solid.points.size());
     for (const std::vector<int>& face : solid.faces) {
@@ -269,8 +270,10 @@ class Decomposer {
     int face = -1;
     if (!notches.empty()) {
       const auto text = [&](int p) {
+        if (p < given_) return "point " + std::to_string(p + 1);
         char buffer[96];
-        std::snprintf(buffer, sizeof buffer, "(%.6g, %.6g, %.6g)", at(p).x(), at(p).y(), at(p).z());
+        std::snprintf(buffer, sizeof buffer, "(%.6g, %.6g, %.6g) off point 1", at(p).x(), at(p).y(),
+                      at(p).z());
         return std::string(buffer);
       };
       const Notch& notch = notches[0];
@@ -285,6 +288,7 @@ class Decomposer {
   }
 
   cut::Points points_;
+  int given_;  ///< points of the mesh, the first of all
   Surface whole_;
   std::vector<int> faceOf_;  ///< per triangle of `whole_`: the face of the polyhedron
   std::optional<Notches> notches_;

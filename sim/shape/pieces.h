@@ -26,7 +26,8 @@ enum class PieceKind {
 /// The largest number of pieces; a mesh that needs more is refused.
 inline constexpr std::size_t kMostPieces = 512;
 
-/// A mesh that has no decomposition within bounds; the text says why, and what may help.
+/// A mesh that has no decomposition within bounds; the text says why, and what may help. It names
+/// points by their numbers from 1, as in OBJ files.
 class NoPieces : public std::runtime_error {
  public:
   NoPieces(const std::string& what, int face) : std::runtime_error(what), face_(face) {}

@@ -250,8 +250,8 @@ TEST_CASE("a mesh file may hold comments, joined lines and what a solid does not
       "v 0 1e0 \\\r\n 0\r\n\tv 0 0 1#up\r\nvt 0 0\r\nvn 0 0 1\r\ng a\r\ns off\r\nusemtl m\r\n"
       "f 1/1/1 3//1 \\\r\n2/1 # below\r\nf -4 -3 -1\r\nf 1 4\\\r\n3\r\nl 1 2\r\np 1\r\nf 2 3 4";
   CHECK(why(rich).empty());
-  CHECK(parseMesh(rich, "m.obj")->points == parseMesh(plain, "m.obj")->points);
-  CHECK(parseMesh(rich, "m.obj")->faces == parseMesh(plain, "m.obj")->faces);
+  CHECK(parseMesh(rich, "m.obj").solid->points == parseMesh(plain, "m.obj").solid->points);
+  CHECK(parseMesh(rich, "m.obj").solid->faces == parseMesh(plain, "m.obj").solid->faces);
   CHECK(says(why(kCorners + "f 1 \\\n 3 2\nf 1 2 4\nf 1 4 3\n"), "m.obj:8: the edge"));
   CHECK(says(why(kCorners + "f 1 \\\n 3 x\n"), "m.obj:7:4: "));
 }

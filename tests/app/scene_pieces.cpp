@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Mesh meshOf(const std::string& keys) {
+Mesh meshOf(const std::string& keys, const std::string& file = "ell.obj") {
   const Scene scene = parseScene(
       "[world]\ngravity = [0, 0, 0]\nduration = 1\n[[body]]\nname = \"b\"\n"
-      "mass = 3.0\nshape = { mesh = \"ell.obj\"" +
-          keys + " }\n",
+      "mass = 3.0\nshape = { mesh = \"" +
+          file + "\"" + keys + " }\n",
       "s.toml");
   return std::get<Mesh>(scene.world.bodies.at(0).shape);
 }
@@ -52,9 +52,9 @@ std::string refusalOf(const std::string& text) {
   return "";
 }
 
-std::string why(const std::string& keys) {
+std::string why(const std::string& keys, const std::string& file = "ell.obj") {
   try {
-    meshOf(keys);
+    meshOf(keys, file);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -102,6 +102,30 @@ TEST_CASE("a mesh that is no solid is refused in one line that says where") {
   says(boxFile({0, 0, 0}, {1, 1, 1}, 1, true), "9", "inside out");
   says(box + boxFile({5, 5, 5}, {6, 6, 6}, 9, true), "23", "inside out");
   says(box + "v 0 nan 0\n", "15:5", "expected a finite number, found 'nan'");
+}
+
+// Oracle: the file itself. 511 boxes, of which the first has faces that are not flat and is cut
+// into triangles, and an L: the L is met first, and makes it one piece too many.
+TEST_CASE("a mesh of too many pieces is refused at the line of a face at a notch") {
+  solids::Raw bent = solids::box({0, 0, 0}, {1, 1, 1});
+  bent.points[7] = {1.1, 1.2, 1.3};
+  std::string text = fileOf(bent);
+  for (int k = 1; k < 511; ++k) text += boxFile({3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}, 8 * k + 1);
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  solids::Raw ell = solids::ell();
+  for (Vec3& p : ell.points) p.y() -= 5.0;
+  const int first = 8 * 511 + 1;
+  text += fileOf(ell, first);
+  const fs::path path = fs::temp_directory_path() / "tumble-many-pieces.obj";
+  std::ofstream(path) << text;
+  const std::string found = why("", path.string());
+  fs::remove(path);
+  CAPTURE(found);
+  // Its points 4 and 10 are the notch, and its third face, after twelve points, runs from 4 to 10.
+  CHECK(found.find(fmt::format(
+            "many-pieces.obj:{}: the mesh needs more than 512 convex pieces, as at the notch from "
+            "point {} to point {};",
+            lines + 12 + 3, first + 3, first + 9)) != std::string::npos);
 }
 
 TEST_CASE("pieces as text are the same to the last bit, and a broken text is none") {

@@ -62,7 +62,7 @@ void takeApart(const Polyhedron& solid, std::size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const auto solid = parseMesh(std::string(data, data + size), "fuzz.obj");
+    const auto solid = parseMesh(std::string(data, data + size), "fuzz.obj").solid;
     need(solid && solid->points.size() >= 4 && solid->faces.size() >= 4);
     for (const Vec3& point : solid->points) need(point.allFinite());
     for (const auto& face : solid->faces)
