@@ -20,6 +20,8 @@ std::vector<ClaimRow> freeSpinRows(const Scene&, const Recording&);
 std::vector<ClaimRow> flipRows(const Scene&, const Recording&);
 std::vector<ClaimRow> topRows(const Scene&, const Recording&);
 std::vector<ClaimRow> planRows(const Scene&, const Recording&);
+std::vector<ClaimRow> pointPlanRows(const Scene&, const Recording&);
+std::vector<ClaimRow> holdRows(const Scene&, const Recording&);
 std::vector<ClaimRow> springContactRows(const Scene&, const Recording&);
 std::vector<ClaimRow> rowOfBallsRows(const Scene&, const Recording&);
 std::vector<ClaimRow> leverRows(const Scene&, const Recording&);

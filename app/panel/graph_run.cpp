@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/claim/holds.h"
 #include "app/claim/meter.h"
 #include "app/claim/parting.h"
 #include "app/present/palette.h"
@@ -22,6 +23,7 @@ std::string captionOf(const std::string& shows) {
   if (shows == "velocity") return "velocity / (m/s)";
   if (shows == "planes") return "planes sought";
   if (shows == "pairs") return "pairs of parts asked about";
+  if (shows == "holds") return "residual, relative";
   if (shows == "force") return "contact force / N";
   if (shows == "joint") return "joint force upward / N";
   return shows == "energy" ? "energy / J" : "height / m";
@@ -89,6 +91,25 @@ void addValues(const Scene& scene, const GraphDef& graph, const GraphCurve& curv
   }
 }
 
+// What each way to hold points leaves of the step in which most are held, the more the less is
+// asked of it: against its steps.
+void addHolds(const Scene& scene, std::vector<GraphSeries>& all) {
+  const Recording recording = record(scene, scene.image.rate);
+  const Sample* at = mostHeld(scene, recording);
+  const HeldProblem problem = at ? heldStep(scene, *at) : HeldProblem{};
+  if (problem.holds.empty())
+    throw SceneError({{{scene.file}, "[[graph]]: nothing that bends is held in this variant"}});
+  for (const HeldSolver& solver : heldSolvers()) {
+    GraphSeries& series = all.emplace_back();
+    series.label = solver.name;
+    for (double tolerance = 1.0; tolerance > 1e-13; tolerance *= 0.1) {
+      const HeldAnswer answer = solver.solve(problem, tolerance);
+      if (series.points.empty() || answer.count > series.points.back().x())
+        series.points.emplace_back(answer.count, answer.residual);
+    }
+  }
+}
+
 void addShown(const Scene& scene, const GraphDef& graph, const std::string& label,
               std::vector<GraphSeries>& all) {
   const int body = bodyNamed(scene, graph.body);
@@ -112,6 +133,8 @@ std::vector<GraphSeries> runGraph(const Scene& scene, const GraphDef& graph, con
       addPlaneCounts(changed, graph, curve.variant.title, all);
     else if (graph.shows == "values")
       addValues(changed, graph, curve, all);
+    else if (graph.shows == "holds")
+      addHolds(changed, all);
     else
       addShown(changed, graph, curve.variant.title, all);
     done();
@@ -150,14 +173,16 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
   Chart plot;
   plot.title = graph.variant.title;
   plot.subtitle = graph.subtitle;
-  plot.x = {graph.across.empty() ? "time / s" : graph.across, false};
-  plot.y = {graph.shows == "values" ? graph.axis : captionOf(graph.shows), false,
+  const bool holds = graph.shows == "holds";
+  const std::string time = holds ? "steps" : "time / s";
+  plot.x = {graph.across.empty() ? time : graph.across, false};
+  plot.y = {graph.shows == "values" ? graph.axis : captionOf(graph.shows), holds,
             graph.shows == "energy" && !changesVisibly(series)};
   for (std::size_t i = 0; i < series.size(); ++i) {
     ChartCurve& curve = plot.curves.emplace_back();
     curve.label = series[i].label;
     curve.colour = seriesColour(i);
-    curve.marked = false;
+    curve.marked = holds;
     curve.points = series[i].points;
     if (graph.shows != "force") continue;
     for (const Event& hit : series[i].impacts) plot.guides.push_back({true, hit.t, ""});

@@ -18,7 +18,8 @@ struct GraphSeries {
 /// [J].
 double shownOf(const std::string& shows, const Sample& sample, int body);
 
-/// Runs every curve; where planes are shown, each is two: with memory and without.
+/// Runs every curve; where planes are shown, each is two: with memory and without; of holds, one
+/// for each way to hold.
 /// @throws SceneError
 std::vector<GraphSeries> runGraph(const Scene& scene, const GraphDef& graph, const RunDone& done);
 

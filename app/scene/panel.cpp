@@ -232,16 +232,17 @@ void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& sce
     readVariant(section, "title", parts, graph.variant);
     readLine(section, "subtitle", graph.subtitle);
     section.read("body", graph.body);
-    section.read("shows", graph.shows,
-                 {"height", "velocity", "force", "joint", "energy", "planes", "pairs", "values"});
+    section.read(
+        "shows", graph.shows,
+        {"height", "velocity", "force", "joint", "energy", "planes", "pairs", "holds", "values"});
     readLine(section, "axis", graph.axis);
     readLine(section, "against", graph.against);
     readLine(section, "across", graph.across);
     section.read("slides", graph.slides);
     const auto named = [&](const BodyDef& body) { return body.name == graph.body; };
-    const bool ofBody =
-        graph.shows != "planes" && graph.shows != "pairs" && graph.shows != "values";
-    if (ofBody && std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
+    const bool ofAll = graph.shows == "planes" || graph.shows == "pairs" ||
+                       graph.shows == "holds" || graph.shows == "values";
+    if (!ofAll && std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
       section.complain("body", "expected the name of a body, found " + inQuotes(graph.body));
     readGraphCurves(section, "graph[" + index + "]", parts, graph);
     section.finish();

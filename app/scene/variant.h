@@ -75,7 +75,7 @@ struct GraphDef {
   Variant variant;  ///< of all its runs
   std::string subtitle;
   std::string body;  ///< its name; of planes and formulas none
-  /// height | velocity | force | joint | energy | planes | pairs | values
+  /// height | velocity | force | joint | energy | planes | pairs | holds | values
   std::string shows = "height";
   std::string axis;             ///< caption of the upright axis of values
   std::string against, across;  ///< of values: a formula that is no time, and its caption; or ""

@@ -253,6 +253,8 @@ const std::set<std::string> kAsked = {"One solver for particles and bodies",
                                       "Wind",
                                       "Path of a brick",
                                       "Cloth on a solid",
+                                      "New contacts: generally inside",
+                                      "Exact constraints for cloth and solids",
                                       "Fur on a solid",
                                       "What stands for a deformable body?",
                                       "Which forces resist deformation?"};
