@@ -54,21 +54,31 @@ void Aggregates::findEdges(const NodeMatrix& A) {
     structure_ = std::make_unique<BlockStructure>(count_, edges_);
 }
 
-[[gnu::flatten]] void Aggregates::factor(const NodeMatrix& A, std::span<const char> held) {
-  held_.assign(held.begin(), held.end());
+[[gnu::flatten]] void Aggregates::factor(const NodeMatrix& A, std::span<const Freedom> free) {
+  // Of the diagonal: what an aggregate has along what none of its nodes is free.
+  constexpr double kAcross = 1e-10;
+  using Kind = Freedom::Kind;
+  free_.assign(free.begin(), free.end());
   factor_.begin(*structure_);
+  const auto between = [&](int i, int j, const Mat3& block) -> Mat3 {
+    if (free_[i].kind == Kind::All && free_[j].kind == Kind::All) return block;
+    return free_[i].along.lazyProduct(block).lazyProduct(free_[j].along);
+  };
   std::vector<char> moves(count_, 0);
   for (int i = 0; i < A.count(); ++i) {
-    if (held_[i]) continue;
+    if (free_[i].kind == Kind::None) continue;
     const int p = of_[i];
     moves[p] = 1;
-    factor_.diagonal(p) += A.own[i];
+    factor_.diagonal(p) += between(i, i, A.own[i]);
+    if (free_[i].kind == Kind::Some)
+      factor_.diagonal(p).diagonal().array() += kAcross * A.own[i].trace();
     for (int k = A.begin[i]; k < A.begin[i + 1]; ++k) {
-      if (held_[A.near[k].node]) continue;
+      const int j = A.near[k].node;
+      if (free_[j].kind == Kind::None) continue;
       if (edgeOf_[k] < 0)
-        factor_.diagonal(p) += A.near[k].block;
+        factor_.diagonal(p) += between(i, j, A.near[k].block);
       else if (factor_.edgeRow(edgeOf_[k]) == p)
-        factor_.lower(edgeOf_[k]) += A.near[k].block;
+        factor_.lower(edgeOf_[k]) += between(i, j, A.near[k].block);
     }
   }
   for (int p = 0; p < count_; ++p)
@@ -77,12 +87,17 @@ void Aggregates::findEdges(const NodeMatrix& A) {
 }
 
 void Aggregates::correct(std::span<const Vec3> r, std::span<Vec3> v) {
+  using Kind = Freedom::Kind;
   sums_.assign(count_, Vec3::Zero());
-  for (std::size_t i = 0; i < r.size(); ++i)
-    if (!held_[i]) sums_[of_[i]] += r[i];
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (free_[i].kind == Kind::All) sums_[of_[i]] += r[i];
+    if (free_[i].kind == Kind::Some) sums_[of_[i]] += free_[i].along.lazyProduct(r[i]);
+  }
   factor_.solve(sums_);
-  for (std::size_t i = 0; i < r.size(); ++i)
-    if (!held_[i]) v[i] += sums_[of_[i]];
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    if (free_[i].kind == Kind::All) v[i] += sums_[of_[i]];
+    if (free_[i].kind == Kind::Some) v[i] += free_[i].along.lazyProduct(sums_[of_[i]]);
+  }
 }
 
 }  // namespace tumble

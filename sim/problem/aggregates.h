@@ -23,6 +23,12 @@ struct NodeMatrix {
   int count() const { return static_cast<int>(own.size()); }
 };
 
+/// The directions along which a node is free, as the projection onto them.
+struct Freedom {
+  enum class Kind { All, Some, None } kind = Kind::All;
+  Mat3 along = Mat3::Identity();
+};
+
 /// What neighbours have in common of an error, which sweeps from point to point take long to find:
 /// a point and those around it move as one (aggregation; Vaněk, Mandel & Brezina, Algebraic
 /// Multigrid by Smoothed Aggregation, 1996, §5.1, without its smoothing).
@@ -30,9 +36,10 @@ class Aggregates {
  public:
   /// Deals the nodes out.
   void gather(const NodeMatrix& A);
-  /// The matrix Pᵀ A P of aggregates, where nodes that are held do not move with theirs.
-  void factor(const NodeMatrix& A, std::span<const char> held);
-  /// Moves the nodes so that nothing is left of r in any sum over an aggregate.
+  /// The matrix Pᵀ A P of aggregates, whose nodes move with theirs as far as they are free.
+  void factor(const NodeMatrix& A, std::span<const Freedom> free);
+  /// Moves the nodes so that nothing is left of what they are free along of r in any sum over an
+  /// aggregate.
   void correct(std::span<const Vec3> r, std::span<Vec3> v);
 
  private:
@@ -40,7 +47,7 @@ class Aggregates {
 
   int count_ = 0;
   std::vector<int> of_;  ///< per node: its aggregate
-  std::vector<char> held_;
+  std::vector<Freedom> free_;
   std::vector<BlockEdge> edges_;
   std::vector<int> edgeOf_;  ///< per neighbour in A; −1 in one aggregate
   std::unique_ptr<BlockStructure> structure_;

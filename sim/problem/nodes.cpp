@@ -39,6 +39,8 @@ class Nodes {
   void readCones(const Problem& problem, const Solution& start);
   /// b + Jᵀ λ less what the neighbours take: what is left for the point itself.
   Vec3 restOf(int node) const;
+  /// b + Jᵀ λ − A v.
+  Vec3 openOf(int node) const { return restOf(node) - A_.own[node].lazyProduct(v_[node]); }
   void visit(int node);
   void correct();
 
@@ -50,7 +52,7 @@ class Nodes {
   std::vector<int> coneOf_;        ///< per touch
   std::vector<Vec3> side_, v_, before_, way_, open_;
   Aggregates aggregates_;
-  std::vector<char> held_;
+  std::vector<Freedom> free_;
   int sweeps_ = 0;
   double gradient_ = 0.0;
 };
@@ -169,18 +171,34 @@ Vec3 Nodes::restOf(int node) const {
   }
 }
 
-/// Moves neighbours together, but for what is pushed.
+/// A point that is pushed slides: without friction in a plane, with it along what rubs, as across
+/// that its friction turns. One that sticks, or is pushed twice, stays.
+void bind(const Touching& touch, Freedom& free) {
+  constexpr double kSticks = 1.0 - 1e-9;  // of its limit: friction that has not reached it
+  const Vec3 n = touch.J.row(0).normalized();
+  const Vec3 rubs = touch.J.bottomRows<2>().transpose() * touch.lambda.tail<2>();
+  const bool rough = touch.kind == ConeKind::Friction && touch.mu > 0.0;
+  const bool sticks = rough && rubs.norm() < kSticks * touch.mu * touch.lambda[0];
+  if (sticks || free.kind != Freedom::Kind::All)
+    free = {Freedom::Kind::None, Mat3::Zero()};
+  else if (rough)
+    free = {Freedom::Kind::Some, rubs.normalized() * rubs.normalized().transpose()};
+  else
+    free = {Freedom::Kind::Some, Mat3::Identity() - n * n.transpose()};
+}
+
+/// Moves neighbours together, as far as they are free.
 [[gnu::flatten]] void Nodes::correct() {
   constexpr int kRenewed = 10;  // sweeps in which other points come to be pushed
   if (sweeps_ == 1) aggregates_.gather(A_);
   if (sweeps_ % kRenewed == 1) {
-    held_.assign(v_.size(), 0);
+    free_.assign(v_.size(), {});
     for (const Touching& touch : touches_)
-      if (touch.lambda[0] > 0.0) held_[touch.node] = 1;
-    aggregates_.factor(A_, held_);
+      if (touch.lambda[0] > 0.0) bind(touch, free_[touch.node]);
+    aggregates_.factor(A_, free_);
   }
   open_.resize(v_.size());
-  for (int i = 0; i < A_.count(); ++i) open_[i] = restOf(i) - A_.own[i].lazyProduct(v_[i]);
+  for (int i = 0; i < A_.count(); ++i) open_[i] = openOf(i);
   aggregates_.correct(open_, v_);
 }
 
@@ -218,7 +236,7 @@ bool Nodes::closes(const Problem& problem, const SweepSettings& settings) const 
   double work = 0.0, energy = 0.0;
   for (int i = 0; i < A_.count(); ++i) {
     const double speed = std::max(v_[i].norm(), settings.still);
-    work += v_[i].dot(restOf(i) - A_.own[i].lazyProduct(v_[i]));
+    work += v_[i].dot(openOf(i));
     energy += 0.5 * speed * speed / problem.invM[bodyOf_[i]];
   }
   return std::abs(work) <= settings.open * energy;
