@@ -15,6 +15,13 @@ namespace {
   throw FileError(std::string("cannot ") + verb + " '" + path + "': " + std::strerror(error));
 }
 
+// The folder that a file is to stand in is made; where that cannot be, opening the file says so.
+void makeFolderOf(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
+}
+
 // A file in the folder of the path that has no name yet, and so goes with the process; null where
 // the file system has none of these.
 std::FILE* nameless(const std::string& path) {
@@ -34,10 +41,10 @@ int giveName(std::FILE* file, const std::string& path) {
 }  // namespace
 
 FileWriter::FileWriter(std::string path)
-    : path_(std::move(path)),
-      temporary_(path_ + ".part" + std::to_string(::getpid())),
-      file_(nameless(path_)),
-      named_(!file_) {
+    : path_(std::move(path)), temporary_(path_ + ".part" + std::to_string(::getpid())) {
+  makeFolderOf(path_);
+  file_.reset(nameless(path_));
+  named_ = !file_;
   if (named_) file_.reset(std::fopen(temporary_.c_str(), "wb"));
   if (!file_) fail(errno);
 }

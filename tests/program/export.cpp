@@ -79,3 +79,38 @@ TEST_CASE("a page of the pile weighs less than half a megabyte") {
   CHECK(size < 500'000);
   CHECK(size > 50'000);
 }
+
+// Oracle: one rule for everything that is written.
+TEST_CASE("whatever is written makes the folders that it is to stand in, or says why it cannot") {
+  const Scratch scratch;
+  scratch.file("drop.toml", R"(
+[world]
+duration = 0.1
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1
+[image]
+size = [64, 36]
+)");
+  const std::pair<const char*, const char*> written[] = {
+      {"simulate drop.toml -q -o a/one", "a/one/summary.json"},
+      {"render drop.toml -q --still 0 -o b/one", "b/one/still.png"},
+      {"render drop.toml -q --html c/one/drop.html", "c/one/drop.html"},
+      {"export drop.toml -q -o d/one/drop.glb", "d/one/drop.glb"},
+      {"export drop.toml -q -o e/one/drop.json", "e/one/drop.json"}};
+  for (const auto& [line, file] : written) {
+    CAPTURE(line);
+    const Outcome outcome = tumbleRun(scratch, line);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(std::filesystem::exists(scratch.path / file));
+  }
+  for (const char* line : {"render drop.toml -q --html drop.toml/drop.html",
+                           "export drop.toml -q -o drop.toml/drop.json"}) {
+    const Outcome outcome = tumbleRun(scratch, line);
+    CAPTURE(line, outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(outcome.err.find("drop.toml") != std::string::npos);
+  }
+}
