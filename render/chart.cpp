@@ -221,15 +221,16 @@ class Plot {
   }
 
   void drawLegend() {
-    const double x = right_ + kLegendGap;
+    const double x = right_ + kLegendGap, count = static_cast<double>(chart_.curves.size());
     double y = top_ + 10.0;
-    for (std::size_t i = 0; i < chart_.curves.size(); ++i, y += kLegendStep) {
+    const double step = std::min(kLegendStep, (canvas_.height() - y - 12.0) / count);
+    for (std::size_t i = 0; i < chart_.curves.size(); ++i, y += step) {
       const ChartCurve& curve = chart_.curves[i];
       if (curve.label.empty()) continue;
       canvas_.stroke({x - 12.0, y}, {x + 10.0, y}, 2.0, curve.colour);
       if (curve.marked) drawMark(i, {x - 1.0, y}, curve.colour, canvas_);
       canvas_.text({x + 18.0, y + 5.0}, curve.label, kLabel);
-      canvas_.text({x + 18.0, y + 22.0}, curve.note, kNote);
+      canvas_.text({x + 18.0, y + std::min(22.0, 0.5 * step + 4.0)}, curve.note, kNote);
     }
   }
 

@@ -1,6 +1,7 @@
 #include "render/sheet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -11,8 +12,28 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kMargin = 32, kGutter = 16, kTop = 100, kCaption = 48, kLine = 20;
+constexpr int kMargin = 32, kGutter = 16;  // [px]
+// [px] of type: above the panels, of the first line below one, of each further line and below all.
+constexpr double kTop = 100.0, kFirst = 30.0, kLine = 20.0, kGap = 2.0, kFoot = 16.0;
+constexpr double kLetter = 20.0;  // [px] of type, room for the letter
+const Canvas::TextStyle kName{16.0, Face::Bold, Align::Left, ink::text};
+const Canvas::TextStyle kCaption{16.0, Face::Regular, Align::Left, ink::text};
 const Canvas::TextStyle kFinding{14.0, Face::Regular, Align::Left, ink::secondary};
+
+/// What stands below a panel, line by line.
+struct Words {
+  std::vector<std::string> caption, finding;
+  double height() const {
+    return kFirst + kGap + kFoot +
+           kLine * static_cast<double>(std::max<std::size_t>(1, caption.size()) - 1 +
+                                       std::max<std::size_t>(1, finding.size()));
+  }
+};
+
+/// Type is as high as on a page of 1800 px that is shown as wide as this one.
+double typeOf(int pageWidth) {
+  return std::clamp(pageWidth / 1800.0, 1.0, 2.0);
+}
 
 void place(Image& page, const Image& image, int left, int top) {
   for (int y = 0; y < image.height; ++y)
@@ -27,53 +48,80 @@ std::string letter(int index) {
   return index < 26 ? last : letter(index / 26 - 1) + last;
 }
 
-void drawPanel(const Panel& panel, const std::string& name, std::span<const std::string> finding,
-               int left, int top, Image& page, Canvas& canvas) {
-  place(page, panel.image, left, top);
-  canvas.frame({left, top}, {panel.image.width, panel.image.height}, 1.0, ink::frame);
-  const Vector2d corner(left, top + panel.image.height);
-  canvas.text(corner + Vector2d(2.0, 30.0), name, {16.0, Face::Bold, Align::Left, ink::text});
-  canvas.text(corner + Vector2d(20.0, 30.0), panel.caption,
-              {16.0, Face::Regular, Align::Left, ink::text});
-  for (std::size_t i = 0; i < finding.size(); ++i)
-    canvas.text(corner + Vector2d(20.0, 52.0 + kLine * static_cast<double>(i)), finding[i],
-                kFinding);
+/// @param corner  [px] of type, where the words begin: below the panel, on its left
+void drawWords(const Words& words, const std::string& name, const Vector2d& corner,
+               Canvas& canvas) {
+  Vector2d pen = corner + Vector2d(2.0, kFirst);
+  canvas.text(pen, name, kName);
+  pen.x() = corner.x() + kLetter;
+  for (const std::string& line : words.caption) {
+    canvas.text(pen, line, kCaption);
+    pen.y() += kLine;
+  }
+  pen.y() += words.caption.empty() ? kLine + kGap : kGap;
+  for (const std::string& line : words.finding) {
+    canvas.text(pen, line, kFinding);
+    pen.y() += kLine;
+  }
+}
+
+void requireAlike(std::span<const Panel> panels, int columns) {
+  if (panels.empty() || columns < 1)
+    throw std::invalid_argument("a sheet needs a panel and a column");
+  const Image& first = panels[0].image;
+  const int count = static_cast<int>(panels.size()), free = columns - (count - 1) % columns;
+  for (const Panel& panel : panels) {
+    const bool last = &panel == &panels.back();
+    const int most = last && count > 1 ? spanningWidth(first.width, free) : first.width;
+    if (panel.image.width < first.width || panel.image.width > most ||
+        panel.image.height != first.height)
+      throw std::invalid_argument("the panels of a sheet must have one size");
+  }
 }
 
 }  // namespace
 
+int spanningWidth(int width, int columns) {
+  return columns * width + (columns - 1) * kGutter;
+}
+
 Image drawSheet(std::span<const Panel> panels, int columns, const std::string& title,
                 const std::string& subtitle, Fonts& fonts) {
-  if (panels.empty() || columns < 1)
-    throw std::invalid_argument("a sheet needs a panel and a column");
+  requireAlike(panels, columns);
   const int width = panels[0].image.width, height = panels[0].image.height;
-  for (const Panel& panel : panels)
-    if (panel.image.width != width || panel.image.height != height)
-      throw std::invalid_argument("the panels of a sheet must have one size");
+  const int count = static_cast<int>(panels.size()), across = std::min(columns, count);
+  Image page{2 * kMargin + spanningWidth(width, across), 0, {}};
+  const double type = typeOf(page.width);
 
-  // Findings on as many lines as the longest needs.
-  Image nothing;
-  Canvas rule(nothing, fonts, 1.0);
-  std::vector<std::vector<std::string>> findings;
-  std::size_t lines = 1;
-  for (const Panel& panel : panels) {
-    findings.push_back(rule.lines(panel.finding, width - 20.0, kFinding));
-    lines = std::max(lines, findings.back().size());
+  // Words on as many lines as they take, rows as high as the longest words in them.
+  Canvas rule(page, fonts, type);
+  std::vector<Words> words;
+  std::vector<int> tops = {static_cast<int>(std::lround(type * kTop))};
+  for (int first = 0; first < count; first += across) {
+    double below = 0.0;
+    for (int i = first; i < std::min(count, first + across); ++i) {
+      const double room = panels[i].image.width / type - kLetter;
+      words.push_back({rule.lines(panels[i].caption, room, kCaption),
+                       rule.lines(panels[i].finding, room, kFinding)});
+      below = std::max(below, words.back().height());
+    }
+    tops.push_back(tops.back() + height + static_cast<int>(std::lround(type * below)));
   }
 
-  const int count = static_cast<int>(panels.size()), across = std::min(columns, count);
-  const int rows = (count + across - 1) / across;
-  const int row = height + kCaption + kLine * static_cast<int>(lines);
-  Image page{2 * kMargin + across * width + (across - 1) * kGutter, kTop + rows * row, {}};
+  page.height = tops.back();
   page.rgb.resize(3u * static_cast<std::size_t>(page.width) * page.height);
-  Canvas canvas(page, fonts, 1.0);
-  canvas.setPaper(ink::page);
-  canvas.fill({0.0, 0.0}, {canvas.width(), canvas.height()}, ink::page);
-  for (int i = 0; i < count; ++i)
-    drawPanel(panels[i], letter(i), findings[static_cast<std::size_t>(i)],
-              kMargin + i % across * (width + kGutter), kTop + i / across * row, page, canvas);
-  canvas.text({32.0, 46.0}, title, {22.0, Face::Bold, Align::Left, ink::text});
-  canvas.text({32.0, 70.0}, subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
+  Canvas pixels(page, fonts, 1.0), canvas(page, fonts, type);
+  for (Canvas* each : {&pixels, &canvas}) each->setPaper(ink::page);
+  pixels.fill({0.0, 0.0}, {pixels.width(), pixels.height()}, ink::page);
+  for (int i = 0; i < count; ++i) {
+    const Image& image = panels[i].image;
+    const int left = kMargin + i % across * (width + kGutter), top = tops[i / across];
+    place(page, image, left, top);
+    pixels.frame({left, top}, {image.width, image.height}, 1.0, ink::frame);
+    drawWords(words[i], letter(i), Vector2d(left, top + height) / type, canvas);
+  }
+  canvas.text({kMargin / type, 46.0}, title, {22.0, Face::Bold, Align::Left, ink::text});
+  canvas.text({kMargin / type, 70.0}, subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
   return page;
 }
 

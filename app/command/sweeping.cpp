@@ -57,8 +57,9 @@ Image drawSweep(const Scene& scene, const std::deque<VariantRun>& runs, Studio& 
   format.width = kSheetPanel;
   format.height = panelHeight(scene, kSheetPanel);
   format.transparent = false;
-  const std::vector<Panel> panels =
-      drawPanels(runs, [&](const Picture& picture) { return studio.draw(picture, format); });
+  const Eigen::Vector2d page = panelPage(scene);
+  const std::vector<Panel> panels = drawPanels(
+      runs, page, [&](const Picture& picture) { return studio.draw(picture, format, page.y()); });
   return drawSheet(panels, columnsOf(panels.size()), scene.title,
                    fmt::format("{} from {} to {}", scene.sweep->parameter,
                                scene.sweep->values.front(), scene.sweep->values.back()),

@@ -60,14 +60,20 @@ PageRuns runPage(const Scene& scene, const RunDone& done) {
 Image drawPage(const Scene& scene, const PageRuns& runs, int width, const DrawPanel& draw,
                Fonts& fonts) {
   const int height = panelHeight(scene, width);
-  std::vector<Panel> panels = drawPanels(runs.panels, draw);
-  for (Plot& plot : plotsOf(scene, runs)) {
+  std::vector<Panel> panels = drawPanels(runs.panels, panelPage(scene), draw);
+  std::vector<Plot> plots = plotsOf(scene, runs);
+  const int columns = columnsOf(panels.size() + plots.size());
+  for (Plot& plot : plots) {
     const std::string title = std::exchange(plot.chart.title, "");
     const std::string subtitle = std::exchange(plot.chart.subtitle, "");
-    panels.push_back({drawChart(plot.chart, width, height, width / panelPage(scene).x(), fonts),
+    // The last plot takes what is free in its row.
+    const bool last = &plot == &plots.back();
+    const int free = columns - static_cast<int>(panels.size()) % columns;
+    panels.push_back({drawChart(plot.chart, spanningWidth(width, last ? free : 1), height,
+                                width / panelPage(scene).x(), fonts),
                       title, subtitle});
   }
-  return drawSheet(panels, columnsOf(panels.size()), scene.title, scene.subtitle, fonts);
+  return drawSheet(panels, columns, scene.title, scene.subtitle, fonts);
 }
 
 }  // namespace tumble

@@ -11,7 +11,8 @@ namespace tumble {
 
 namespace {
 
-constexpr double kPanelWidth = 800.0;  // [px] of the page of a panel
+// [px] of the page of a panel; of a small panel among many, where type has to be larger.
+constexpr double kPanelWidth = 800.0, kSmallPanelWidth = 640.0;
 
 // Whether one camera serves both: the same bodies, seen in the same way.
 bool comparable(const VariantRun& runA, const VariantRun& runB) {
@@ -92,11 +93,12 @@ std::deque<VariantRun> runPanels(const Scene& scene, const RunDone& done) {
   return runs;
 }
 
-std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPanel& draw) {
+std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const Eigen::Vector2d& page,
+                              const DrawPanel& draw) {
   std::vector<Panel> panels;
   for (const VariantRun& run : runs) {
     Framing framing = sharedFraming(runs, run);
-    framing.page = panelPage(run.scene);
+    framing.page = page;
     const Presenter presenter(run.scene, run.recording, framing);
     Picture picture = run.picture(presenter);
     picture.title.clear();
@@ -108,7 +110,11 @@ std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPane
 }
 
 Eigen::Vector2d panelPage(const Scene& scene) {
-  return {kPanelWidth, kPanelWidth * scene.image.height / scene.image.width};
+  const std::size_t page = scene.panels.size() + scene.graphs.size() + scene.charts.size();
+  const std::size_t sweep = scene.sweep ? scene.sweep->values.size() : 0;
+  const double width =
+      std::max(columnsOf(page), columnsOf(sweep)) > 3 ? kSmallPanelWidth : kPanelWidth;
+  return {width, width * scene.image.height / scene.image.width};
 }
 
 int panelHeight(const Scene& scene, int width) {

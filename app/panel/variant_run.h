@@ -37,9 +37,12 @@ using DrawPanel = std::function<Image(const Picture&)>;
 
 /// The pictures of the runs without their titles, as panels of a sheet. Stills of
 /// the same bodies that are looked at from the same side share a camera, and so do strobes.
-std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const DrawPanel& draw);
+/// @param page  [px] that each is drawn for
+std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const Eigen::Vector2d& page,
+                              const DrawPanel& draw);
 
-/// Page [px] that a panel is drawn for: text is nearly as large as the captions.
+/// Page [px] that a panel of the scene's page is drawn for: text is nearly as large as the
+/// captions.
 Eigen::Vector2d panelPage(const Scene& scene);
 
 /// Height [px] of panels of a width: in the proportion of the scene's images.

@@ -16,7 +16,13 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr Colour kPaper = hex(0xFBFAF7), kLit = hex(0xF6D9C8), kUnknown = hex(0xE6E8EC);
-constexpr double kEdge = 20.0;  // [px] below a diagram
+constexpr double kEdge = 20.0;        // [px] below a diagram
+constexpr double kLeastPage = 800.0;  // [px] across that a diagram is laid out on
+
+// Pixels of a page to a unit of what a diagram is laid out in.
+double unitOf(const Vector2d& page) {
+  return std::min(1.0, page.x() / kLeastPage);
+}
 
 /// A part of the state, what becomes of it in time, and the numbers of both.
 struct Slot {
@@ -87,8 +93,9 @@ double diagramShare(const Scene& scene, const Vector2d& page) {
   return (height + kEdge + 24.0) / page.y();
 }
 
-void addStateDiagram(const Scene& scene, const Sample& sample, const Vector2d& page,
+void addStateDiagram(const Scene& scene, const Sample& sample, const Vector2d& whole,
                      Picture& picture) {
+  const Vector2d page = whole / unitOf(whole);
   const std::vector<BodyDef>& bodies = scene.world.bodies;
   const auto first = std::find_if(bodies.begin(), bodies.end(), moves);
   if (first == bodies.end() || scene.show.slots.empty()) return;
@@ -99,7 +106,7 @@ void addStateDiagram(const Scene& scene, const Sample& sample, const Vector2d& p
   const double left = 0.5 * (page.x() - count * width) + 28.0;
   const double upper = page.y() - kEdge - 2.0 * kCellHeight - kRowGap;
   const double lower = upper + kCellHeight + kRowGap;
-  Sketch sketch(picture);
+  Sketch sketch(picture, unitOf(whole));
   sketch.text({left - 14.0, upper + 30.0}, "Y =", {18.0, Align::Right, colour::kInk, true});
   sketch.text({left - 14.0, lower + 30.0}, "Ẏ =", {18.0, Align::Right, colour::kInk, true});
   for (std::size_t k = 0; k < scene.show.slots.size(); ++k) {
@@ -111,11 +118,12 @@ void addStateDiagram(const Scene& scene, const Sample& sample, const Vector2d& p
   }
 }
 
-void addSolverDiagram(const Scene& scene, const Vector2d& page, Picture& picture) {
+void addSolverDiagram(const Scene& scene, const Vector2d& whole, Picture& picture) {
+  const Vector2d page = whole / unitOf(whole);
   const Vector2d size(190.0, 64.0);
   const Vector2d corner(0.5 * (page.x() - size.x()), page.y() - kEdge - 92.0);
   const double middle = corner.y() + 0.5 * size.y(), right = corner.x() + size.x();
-  Sketch sketch(picture);
+  Sketch sketch(picture, unitOf(whole));
   sketch.box(corner, size, kUnknown, colour::kInk);
   sketch.text({0.5 * page.x(), middle - 3.0}, "ode", {22.0, Align::Centre, colour::kInk, true});
   sketch.text({0.5 * page.x(), middle + 18.0},
@@ -173,14 +181,15 @@ void drawEvents(const Recording& recording, const Sample& sample, double left, d
 
 }  // namespace
 
-void addFlowDiagram(const Recording& recording, const Sample& sample, const Vector2d& page,
+void addFlowDiagram(const Recording& recording, const Sample& sample, const Vector2d& whole,
                     Picture& picture) {
+  const Vector2d page = whole / unitOf(whole);
   constexpr double kGap = 22.0, kHeight = 40.0;
   const double width = std::min(190.0, (page.x() - 60.0 - 4.0 * kGap) / 5.0);
   const double left = 0.5 * (page.x() - 5.0 * width - 4.0 * kGap);
   const double top = page.y() - kEdge - 104.0;
   const std::size_t lit = stageAt(recording, sample);
-  Sketch sketch(picture);
+  Sketch sketch(picture, unitOf(whole));
   for (std::size_t k = 0; k < kStages.size(); ++k) {
     const double x = left + static_cast<double>(k) * (width + kGap);
     const bool now = k == lit;

@@ -5,15 +5,16 @@ namespace tumble {
 using Eigen::Vector2d;
 
 void Sketch::line(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) {
-  picture_.pageShapes.push_back({Flat::Line, from, to, width, colour});
+  picture_.pageShapes.push_back({Flat::Line, scale_ * from, scale_ * to, scale_ * width, colour});
 }
 
 void Sketch::fill(const Vector2d& from, const Vector2d& to, const Colour& colour) {
-  picture_.pageShapes.push_back({Flat::Rectangle, from, to, 0.0, colour});
+  picture_.pageShapes.push_back({Flat::Rectangle, scale_ * from, scale_ * to, 0.0, colour});
 }
 
 void Sketch::disc(const Vector2d& centre, double diameter, const Colour& colour) {
-  picture_.pageShapes.push_back({Flat::Disc, centre, centre, diameter, colour});
+  picture_.pageShapes.push_back(
+      {Flat::Disc, scale_ * centre, scale_ * centre, scale_ * diameter, colour});
 }
 
 void Sketch::box(const Vector2d& corner, const Vector2d& size, const Colour& paper,
@@ -33,9 +34,9 @@ void Sketch::arrow(const Vector2d& from, const Vector2d& to, const Colour& colou
 
 void Sketch::text(const Vector2d& pen, const std::string& text, const Style& style) {
   Label label;
-  label.offset = pen;
+  label.offset = scale_ * pen;
   label.text = text;
-  label.size = static_cast<float>(style.size);
+  label.size = static_cast<float>(scale_ * style.size);
   label.align = style.align;
   label.colour = style.colour;
   label.bold = style.bold;

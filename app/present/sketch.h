@@ -9,10 +9,10 @@
 
 namespace tumble {
 
-/// Adds flat things to a picture, in pixels of its page.
+/// Adds flat things to a picture, in pixels of its page, or in units of `scale` pixels.
 class Sketch {
  public:
-  explicit Sketch(Picture& picture) : picture_(picture) {}
+  explicit Sketch(Picture& picture, double scale = 1.0) : picture_(picture), scale_(scale) {}
 
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
             const Colour& colour);
@@ -33,6 +33,7 @@ class Sketch {
 
  private:
   Picture& picture_;
+  double scale_;
 };
 
 }  // namespace tumble

@@ -265,23 +265,45 @@ TEST_CASE("a sheet holds its panels' pixels, in rows, and refuses unlike ones") 
   Fonts fonts(kFonts);
   const Image red{40, 30, std::vector<std::uint8_t>(3600, 200)},
       dark{40, 30, std::vector<std::uint8_t>(3600, 20)};
-  Panel panels[] = {{red, "ε = 0.1", ""}, {dark, "ε = 0.2", ""}, {red, "ε = 0.3", "rests"}};
+  Panel panels[] = {{red, "0.1", ""}, {dark, "0.2", ""}, {red, "0.3", "rests"}};
   const Image sheet = drawSheet(panels, 2, "Title", "", fonts);
   CHECK(sheet.width == 2 * 32 + 2 * 40 + 16);
   CHECK(sheet.height == 100 + 2 * (30 + 68));
   CHECK(brightness(sheet, 32 + 20, 100 + 15) == 200.0);
   CHECK(brightness(sheet, 32 + 56 + 20, 100 + 15) == 20.0);
   CHECK(brightness(sheet, 32 + 20, 100 + 98 + 15) == 200.0);
-  // A long finding is set on lines of its own, and the page grows by them.
+  // A long finding is set on lines of its own, and its row grows by them.
   panels[0].finding = "a finding of many words that no panel of this width holds on a single line";
   const Image longer = drawSheet(panels, 2, "Title", "", fonts);
   CHECK(longer.width == sheet.width);
   CHECK(longer.height > sheet.height);
   CHECK((longer.height - sheet.height) % 20 == 0);
+  CHECK(brightness(longer, 32 + 20, longer.height - 68 - 15) == 200.0);
+  panels[0].finding = "", panels[0].caption = "many words";
+  CHECK(drawSheet(panels, 2, "Title", "", fonts).height == sheet.height + 20);
+  // The last may take the room of those that its row lacks, and no more.
+  const Image wide{96, 30, std::vector<std::uint8_t>(8640, 90)};
+  panels[2].image = wide;
+  const Image spanned = drawSheet(panels, 2, "Title", "", fonts);
+  CHECK(spanningWidth(40, 2) == 96);
+  CHECK(spanned.width == sheet.width);
+  CHECK(brightness(spanned, 32 + 90, spanned.height - 68 - 15) == 90.0);
+  CHECK_THROWS_AS(drawSheet(panels, 3, "", "", fonts), std::invalid_argument);
   CHECK_THROWS_AS(drawSheet({}, 2, "", "", fonts), std::invalid_argument);
   const Panel unlike[] = {{red, "", ""},
                           {Image{30, 40, std::vector<std::uint8_t>(3600, 0)}, "", ""}};
   CHECK_THROWS_AS(drawSheet(unlike, 2, "", "", fonts), std::invalid_argument);
+}
+
+TEST_CASE("type on a page wider than a screen is larger, by as much as the page will be smaller") {
+  Fonts fonts(kFonts);
+  const Image blank{640, 30, std::vector<std::uint8_t>(57600, 248)};
+  const std::vector<Panel> two(2, {blank, "caption", "finding"}), five(5, two[0]);
+  const Image page = drawSheet(two, 2, "T", "", fonts), wide = drawSheet(five, 5, "T", "", fonts);
+  CHECK(page.height == 100 + 30 + 68);
+  const double type = wide.width / 1800.0;
+  CHECK(type > 1.8);
+  CHECK(wide.height == std::lround(100 * type) + 30 + std::lround(68 * type));
 }
 
 TEST_CASE("text is set on lines that are no wider than asked, broken at blanks alone") {
