@@ -46,11 +46,12 @@ std::optional<double> numberOf(const std::string& text) {
   return value;
 }
 
-// "samples" for "body.torus.samples".
+// "samples" for "body.torus.samples", "step / s" for "course.step".
 std::string costTitle(const ChartDef& chart) {
   if (chart.cost == "cpu") return "CPU seconds per simulated second";
   if (chart.cost == "evaluations") return "evaluations of dY/dt";
-  return chart.along.parameter.substr(chart.along.parameter.rfind('.') + 1);
+  const std::string key = chart.along.parameter.substr(chart.along.parameter.rfind('.') + 1);
+  return key == "step" ? "step / s" : key;
 }
 
 }  // namespace

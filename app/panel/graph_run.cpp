@@ -167,6 +167,15 @@ bool changesVisibly(const std::vector<GraphSeries>& series) {
   return least > 0.5 * most && least < 0.95 * most;
 }
 
+// Whether all heights are below ten centimetres: then they are told in millimetres.
+bool isSmall(const std::vector<GraphSeries>& series) {
+  constexpr double kSmall = 0.1;  // m
+  for (const GraphSeries& one : series)
+    for (const Eigen::Vector2d& point : one.points)
+      if (std::abs(point.y()) > kSmall) return false;
+  return true;
+}
+
 }  // namespace
 
 Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
@@ -178,12 +187,16 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
   plot.x = {graph.across.empty() ? time : graph.across, false};
   plot.y = {graph.shows == "values" ? graph.axis : captionOf(graph.shows), holds,
             graph.shows == "energy" && !changesVisibly(series)};
+  const bool small = graph.shows == "height" && isSmall(series);
+  if (small) plot.y.caption = "height / mm";
   for (std::size_t i = 0; i < series.size(); ++i) {
     ChartCurve& curve = plot.curves.emplace_back();
     curve.label = series[i].label;
     curve.colour = seriesColour(i);
     curve.marked = holds;
     curve.points = series[i].points;
+    if (small)
+      for (Eigen::Vector2d& point : curve.points) point.y() *= 1e3;
     if (graph.shows != "force") continue;
     for (const Event& hit : series[i].impacts) plot.guides.push_back({true, hit.t, ""});
     if (!series[i].impacts.empty())

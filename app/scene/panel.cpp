@@ -156,9 +156,12 @@ Array* elements(Node& tree, std::string_view key) {
   return entry ? entry->node.as<Array>() : nullptr;
 }
 
+// The tables of what a panel may name.
+constexpr const char* kParts[] = {"body", "array", "cloth", "fur", "soft"};
+
 void keepBodies(const std::vector<std::string>& kept, Node& tree) {
   std::vector<std::string> gone;
-  for (const char* kind : {"body", "array"})
+  for (const char* kind : kParts)
     if (Array* parts = elements(tree, kind))
       std::erase_if(*parts, [&](const Node& part) {
         const std::string* name = nameOf(part);
@@ -185,7 +188,7 @@ Variant joined(const Variant& outer, const Variant& inner) {
 std::vector<std::string> partNames(const Node& tree) {
   std::vector<std::string> names;
   const Table* root = tree.as<Table>();
-  for (const char* kind : {"body", "array"}) {
+  for (const char* kind : kParts) {
     const Entry* entry = root ? root->find(kind) : nullptr;
     const Array* parts = entry ? entry->node.as<Array>() : nullptr;
     if (!parts) continue;

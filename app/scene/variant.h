@@ -20,7 +20,7 @@ struct Setting {
 struct Variant {
   std::string title;
   std::vector<Setting> set;         ///< in this order, after every --set
-  std::vector<std::string> bodies;  ///< names of [[body]] and [[array]]; none: all live
+  std::vector<std::string> bodies;  ///< names of [[body]], [[array]], [[cloth]] …; none: all live
 };
 
 /// What the inner variant says on top of the outer one.

@@ -98,7 +98,7 @@ TEST_CASE("each panel runs its own variant, and what can be compared shares a ca
   CHECK(runs[2].scene.world.bodies.size() == 2);
 
   std::vector<Picture> pictures;
-  const std::vector<Panel> panels = drawPanels(runs, [&](const Picture& picture) {
+  const std::vector<Panel> panels = drawPanels(runs, {800.0, 450.0}, [&](const Picture& picture) {
     pictures.push_back(picture);
     return Image{1, 1, {0, 0, 0}};
   });
@@ -219,4 +219,50 @@ TEST_CASE("a chart of a check that is none is refused at its place") {
     const std::string said = error.what();
     CHECK(said.find("unknown check 'first-hits', did you mean 'first-hit'?") != std::string::npos);
   }
+}
+
+TEST_CASE("a panel names what bends as it names bodies") {
+  const Folder folder;
+  writeFile(folder / "x.toml", R"(
+[world]
+duration = 0.1
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1
+[[cloth]]
+name = "sheet"
+columns = 3
+rows = 3
+size = [0.2, 0.2]
+density = 0.2
+stretch = 100
+shear = 10
+bend = 1e-5
+position = [0, 1, 0]
+[[panel]]
+title = "a"
+bodies = ["ball"]
+[[panel]]
+title = "b"
+bodies = ["sheet"]
+)");
+  const Scene scene = readScene(folder / "x.toml");
+  REQUIRE(scene.panels.size() == 2);
+  CHECK(scene.world.bodies.size() == 10);
+  CHECK(sceneOf(scene, scene.panels[0].variant).world.bodies.size() == 1);
+  CHECK(sceneOf(scene, scene.panels[1].variant).world.bodies.size() == 9);
+}
+
+TEST_CASE("heights of less than ten centimetres are drawn in millimetres") {
+  const GraphDef graph;  // of heights
+  GraphSeries series;
+  series.points = {{0.0, 0.02}, {1.0, -0.03}};
+  const Chart low = graphOf(graph, {series});
+  CHECK(low.y.caption == "height / mm");
+  CHECK(low.curves[0].points[1].y() == -30.0);
+  series.points.back().y() = 0.11;
+  const Chart high = graphOf(graph, {series});
+  CHECK(high.y.caption == "height / m");
+  CHECK(high.curves[0].points[0].y() == 0.02);
 }
