@@ -39,6 +39,13 @@ void drawDots(const Polyline& line, const Projection& projection, Canvas& canvas
   for (const Vector2d& bead : beads) canvas.disc(bead, kDotRadius * grow, line.colour);
 }
 
+const Canvas::TextStyle kMarkWords{14.0, Face::Regular, Align::Centre, ink::text};
+
+/// From a mark to the middle of the baseline of its i-th line [px].
+Vector2d wordsOffset(std::size_t i) {
+  return {0.0, 49.0 + 18.0 * static_cast<double>(i)};
+}
+
 void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
   const auto place = projection.project(mark.position);
   if (!place) return;
@@ -46,18 +53,23 @@ void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
   if (!mark.lines.empty())
     canvas.stroke(centre + Vector2d(0.0, 6.0), centre + Vector2d(0.0, 34.0), 1.0, ink::secondary);
   canvas.ring(centre, 5.0, 1.6, mark.colour);
-  double baseline = 49.0;
-  for (const std::string& line : mark.lines) {
-    const Colour colour = baseline == 49.0 ? ink::text : ink::secondary;
-    canvas.text(centre + Vector2d(0.0, baseline), line,
-                {14.0, Face::Regular, Align::Centre, colour});
-    baseline += 18.0;
+  for (std::size_t i = 0; i < mark.lines.size(); ++i) {
+    Canvas::TextStyle style = kMarkWords;
+    if (i > 0) style.colour = ink::secondary;
+    canvas.text(centre + wordsOffset(i), mark.lines[i], style);
   }
 }
 
-/// Labels, none on another.
-void drawLabels(const std::vector<Label>& labels, const Projection& projection, Canvas& canvas) {
+/// Labels, none on another or on the words of a mark.
+void drawLabels(const std::vector<Label>& labels, const std::vector<Mark>& marks,
+                const Projection& projection, Canvas& canvas) {
   LabelPlaces places({canvas.width(), canvas.height()});
+  for (const Mark& mark : marks) {
+    const auto place = projection.project(mark.position);
+    for (std::size_t i = 0; place && i < mark.lines.size(); ++i)
+      places.take(inkOf(flat(*place) + wordsOffset(i), canvas.textWidth(mark.lines[i], kMarkWords),
+                        kMarkWords.size, Align::Centre));
+  }
   for (const Label& label : labels) {
     const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
     const Canvas::TextStyle style{label.size, face, label.align, label.colour};
@@ -121,7 +133,7 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
   for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
   for (const PageBar& bar : picture.pageBars) drawBar(bar, projection, canvas);
-  drawLabels(picture.labels, projection, canvas);
+  drawLabels(picture.labels, picture.marks, projection, canvas);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
   drawTitle(picture, canvas);
 }

@@ -151,10 +151,11 @@ void addDot(const Axes& axes, const PairState& state, Picture& picture) {
   if (pushes)
     addText({at.x() + 14.0, std::min(at.y() + 5.0, axes.origin.y() - 7.0)},
             fourDigits(state.force) + " N", 14.0f, Align::Left, colour::kForce, picture);
-  else
-    addText(at + Vector2d(parts ? 0.0 : 14.0, -14.0),
-            parts ? fourDigits(state.acceleration) + " m/s²" : "neither", 14.0f,
-            parts ? Align::Centre : Align::Left, colour::kForce, picture);
+  else  // clear of the upper half-line
+    addText(
+        Vector2d(parts ? std::max(at.x(), axes.origin.x() + 44.0) : at.x() + 14.0, at.y() - 14.0),
+        parts ? fourDigits(state.acceleration) + " m/s²" : "neither", 14.0f,
+        parts ? Align::Centre : Align::Left, colour::kForce, picture);
 }
 
 }  // namespace

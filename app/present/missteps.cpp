@@ -23,6 +23,7 @@ Instance ghostOf(const BodyDef& body, const Pose& pose, const Colour& colour, fl
   ghost.scale *= kCover;
   ghost.finish = Finish::Ghost;
   ghost.alpha = alpha;
+  ghost.banded = false;  // it is no body that spins
   return ghost;
 }
 
@@ -58,7 +59,7 @@ void addMissteps(const Scene& scene, const Recording& recording, double t, Pictu
     picture.labels.push_back(labelAt(beside(body, misstep.pose, 1.0), Align::Left,
                                      "t = " + fourDigits(misstep.t) + " s: " +
                                          fourDigits(-1e3 * misstep.separation) + " mm too deep",
-                                     colour::kForce));
+                                     colour::kInk));
     picture.labels.back().offset = {16.0, -10.0};  // above the ruler, which passes the body
     if (misstep.mendedAt > t) continue;
     picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), 0.85f));

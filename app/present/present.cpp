@@ -33,6 +33,8 @@ namespace tumble {
 
 namespace {
 
+constexpr double kExpectTop = 100.0, kExpectLine = 19.0;  // [px] baselines of [[expect]]
+
 // From 0 to that.
 ColourBar barTo(const std::string& caption, std::span<const Colour> stops, double top) {
   ColourBar bar{caption, {stops.begin(), stops.end()}, 0.0, top, {}};
@@ -60,6 +62,13 @@ double aspectOf(const Scene& scene) {
   return static_cast<double>(scene.image.width) / static_cast<double>(scene.image.height);
 }
 
+double titleHeight(const Scene& scene) {
+  if (!scene.show.title) return 0.0;
+  return scene.expects.empty()
+             ? 80.0
+             : kExpectTop + kExpectLine * static_cast<double>(scene.expects.size() - 1) + 10.0;
+}
+
 Margins marginsOf(const Scene& scene) {
   bool named = false;
   for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
@@ -71,6 +80,7 @@ Margins marginsOf(const Scene& scene) {
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
   if (scene.show.tensors) margins.right = 0.32;
   if (scene.show.gel > 0.0) margins.bottom = 0.26;
+  margins.top = std::max(margins.top, titleHeight(scene) / 720.0);
   margins.bottom += diagramShare(scene, {720.0 * aspectOf(scene), 720.0});
   return margins;
 }
@@ -266,7 +276,7 @@ void Presenter::finish(Picture& picture) const {
 // Below the title, if it is shown, a line for each: what was measured, and what it should be. A
 // formula that is one coordinate gets a dotted line there, across or along the picture.
 void Presenter::addExpectations(Picture& picture) const {
-  double baseline = 100.0;
+  double baseline = kExpectTop;
   for (const Expectation& one : expectations_) {
     if (one.body && one.sample >= 0) picture.lines.push_back(expectedLine(one));
     if (!scene_.show.title) continue;
@@ -281,7 +291,7 @@ void Presenter::addExpectations(Picture& picture) const {
     label.size = 13.0f;
     label.colour = one.row.holds() ? colour::kQuiet : colour::kForce;
     picture.labels.push_back(label);
-    baseline += 19.0;
+    baseline += kExpectLine;
   }
 }
 

@@ -32,6 +32,9 @@ double aspectOf(const Scene& scene);
 /// Room for the title above, and for what stands beside and below the bodies.
 Margins marginsOf(const Scene& scene);
 
+/// What title, subtitle and the lines of [[expect]] take from the top of a page 720 px high [px].
+double titleHeight(const Scene& scene);
+
 /// The scene's own camera, or one that the points of the motion fill.
 Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points);
 

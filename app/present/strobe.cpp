@@ -53,7 +53,7 @@ std::vector<std::size_t> Presenter::ghosts() const {
 
 // A camera that the scene places may see too little of where bodies were: then it steps back.
 Framing Presenter::framingOfStrobe() const {
-  constexpr double kTitle = 80.0;  // [px] kept free
+  const double title = titleHeight(scene_);
   const CameraView& view = scene_.camera;
   if (!alone_ || !view.eye || !view.target) return framing_;
   Recording seen;
@@ -63,7 +63,7 @@ Framing Presenter::framingOfStrobe() const {
   const Projection projection(framing_.camera, framing_.page.x(), framing_.page.y());
   const auto shown = [&](const Eigen::Vector3d& point) {
     const std::optional<Eigen::Vector3d> place = projection.project(point);
-    return place && place->x() > 0.0 && place->x() < framing_.page.x() && place->y() > kTitle &&
+    return place && place->x() > 0.0 && place->x() < framing_.page.x() && place->y() > title &&
            place->y() < framing_.page.y();
   };
   if (std::all_of(points.begin(), points.end(), shown)) return framing_;
