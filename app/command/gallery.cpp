@@ -13,6 +13,7 @@
 #include "app/command/sweeping.h"
 #include "app/file/file.h"
 #include "app/panel/page.h"
+#include "app/present/instants.h"
 #include "app/scene/demos.h"
 
 namespace tumble::command {
@@ -40,12 +41,15 @@ int exhibit(const Options& options, const std::string& asked, Studio& studio,
   std::fflush(stdout);
   const std::string folder = options.folder + "/" + name;
   Shoot shoot(scene, folder, studio);
-  shoot.strobe();
   shoot.still(scene.image.still.value_or(kStillShare * scene.world.duration));
-  shoot.sheet();
-  shown.plates = {{name + "/strobe.png", "the whole motion"},
-                  {name + "/still.png", "one instant"},
-                  {name + "/sheet.png", "where it has moved on"}};
+  shown.plates = {{name + "/still.png", "one instant"}};
+  // What stays at rest looks the same at all times.
+  if (tellingSamples(scene, shoot.recording(), 2).size() > 1) {
+    shoot.strobe();
+    shoot.sheet();
+    shown.plates.insert(shown.plates.begin(), {name + "/strobe.png", "the whole motion"});
+    shown.plates.push_back({name + "/sheet.png", "where it has moved on"});
+  }
   shoot.page(folder + "/page.html");
   writeFile(folder + "/" + name + ".toml", readFile(scene.file));
   shown.links = {{name + "/page.html", "play it"}, {name + "/" + name + ".toml", "scene"}};
