@@ -6,7 +6,10 @@ if [[ ${2:-} != inside ]]; then
   for tool in xvfb-run xauth xdotool; do
     command -v "$tool" >/dev/null || { echo "window: skipped, there is no $tool"; exit 77; }
   done
-  exec xvfb-run --auto-servernum --server-args='-screen 0 1280x800x24' "$0" "$1" inside
+  # The screen is a file, so that what stands on it can be read at any instant.
+  FRAMEBUFFER=$(mktemp -d)
+  export FRAMEBUFFER
+  exec xvfb-run --auto-servernum --server-args="-screen 0 1280x800x24 -fbdir $FRAMEBUFFER" "$0" "$1" inside
 fi
 tumble=$(realpath "$1")/tumble
 scratch=$(mktemp -d)
@@ -31,7 +34,7 @@ TOML
 scene '[0.2, 0.4, 0.7]'
 "$tumble" view fall.toml >log 2>&1 &
 program=$!
-trap 'kill "$program" 2>/dev/null || true; rm -rf "$scratch"' EXIT
+trap 'kill "$program" 2>/dev/null || true; rm -rf "$scratch" "$FRAMEBUFFER"' EXIT
 
 status=0
 tell() {  # what was asked, whether it came about
@@ -94,6 +97,33 @@ check "l lets it run on beyond its end" until_done 30 later
 
 # How fast it is, told, not judged: what else runs on the machine counts too.
 now() { date +%s%3N; }
+# answered KEY: ms from before it is pressed until the screen differs; 9999 if it never does
+answered() {
+  local start end
+  cp "$FRAMEBUFFER/Xvfb_screen0" before
+  start=$(now)
+  end=$((SECONDS + 3))
+  xdotool keydown "$1"
+  while cmp -s before "$FRAMEBUFFER/Xvfb_screen0"; do
+    ((SECONDS < end)) || { start=$(($(now) - 9999)); break; }
+  done
+  echo $(($(now) - start))
+  xdotool keyup "$1"
+}
+answers() {
+  for _ in 1 2 3 4 5 6 7 8; do
+    for key in Left Right; do
+      sleep 0.4
+      answered "$key"
+    done
+  done | sort -n
+}
+xdotool key l  # back from the live world
+sleep 0.5
+xdotool key Home
+sleep 0.5
+mapfile -t times < <(answers)
+echo "time until a key shows on the screen: median ${times[8]} ms, longest ${times[15]} ms of ${#times[@]}"
 kill "$program"
 wait "$program" 2>/dev/null || true
 # took IMAGES: ms until `pile` has shown so many, from the command on
