@@ -136,6 +136,40 @@ TEST_CASE("stepping: the stricter a preset, the less of a crowd overlaps, and no
   }
 }
 
+// Oracle: Newton's law of impact. Balls that fall at once, far from each other, are a crowd, which
+// a draft strikes by the contact problem of its step: each leaves at e of the speed at which that
+// step began, to what its solver leaves. Measured 0.
+TEST_CASE("stepping: a draft gives back what restitution asks for, and divides no step") {
+  constexpr double e = 0.6;
+  WorldDef def = worldOf("stepping", 0.6, {ground(e, 0.5)});
+  for (int i = 0; i < 80; ++i)
+    def.bodies.push_back(ball("ball." + std::to_string(i), 0.1, {1.0 * i, 1.0, 0.0}, e));
+  def.stepping.take(*findSolverPreset("draft"));
+  World world(def);
+  const double h = def.stepping.step;
+  std::vector<BodySample> before = world.sample(0.0).bodies;
+  int rebounds = 0;
+  double off = 0.0;
+  for (int k = 1; k * h <= def.duration; ++k) {
+    world.advance(k * h);
+    const std::vector<BodySample> after = world.sample(k * h).bodies;
+    for (std::size_t i = 1; i < after.size(); ++i) {
+      if (!(before[i].v.y() < 0.0 && after[i].v.y() > 0.0)) continue;
+      ++rebounds;
+      off = std::max(off, std::abs(after[i].v.y() + e * before[i].v.y()));
+    }
+    before = after;
+  }
+  const Certificate& books = world.report().certificate;
+  CAPTURE(off, books.hits_early, books.max_hit_shift, books.max_energy_gain);
+  CHECK(rebounds == 80);
+  CHECK(off < 1e-9);
+  CHECK(books.hits_early == 80);
+  CHECK(books.max_hit_shift <= h);
+  CHECK(books.steps == std::lround(def.duration / h));
+  CHECK(books.max_energy_gain < 1e-9 * books.energy_start);
+}
+
 // Oracle: the plan of the preset. A ball that hangs on a rope 40 m away leaves a crowd a crowd: its
 // islands are swept. Measured 567 islands of 1157.
 TEST_CASE("stepping: a crowd is one, whatever joints there are elsewhere") {

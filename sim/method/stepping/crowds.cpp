@@ -1,6 +1,7 @@
 // Crowds: near bodies that more contacts join than reflections are for. They are struck once a
 // step, for all that meets within it; what would rebound for less than a step lasts. Islands of
-// many contacts that move are solved as far as is planned for them.
+// many contacts that move are solved as far as is planned for them. In a draft a hit is a row of
+// the step's contact problem, which gives back what restitution asks for.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,11 @@
 #include "sim/problem/cone.h"
 
 namespace tumble {
+namespace {
+
+constexpr std::size_t kSmall = 128;  ///< contacts that cost little to be solved to the end
+
+}  // namespace
 
 int Stepping::weightOf(const PairMemory& pair) {
   return weightOfContacts(static_cast<int>(pair.touches.size()),
@@ -42,12 +48,16 @@ bool Stepping::strikesAsCrowd() const {
   return crowd_ && (model_.def.impact == "auto" || model_.def.impact == "crowd");
 }
 
-double Stepping::roughTolerance(std::span<const Link> links, double scale) const {
-  constexpr double kMoves = 3e-3;   // of the largest speed
+bool Stepping::isManyContacts(std::span<const Link> links) const {
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
+  return work_.problem.cones.size() > kFew && !isBonded(links);
+}
+
+double Stepping::roughTolerance(std::span<const Link> links, double scale) const {
+  constexpr double kMoves = 3e-3;  // of the largest speed
   const SteppingSettings& stepping = model_.def.stepping;
   const Problem& problem = work_.problem;
-  if (problem.cones.size() <= kFew || isBonded(links) ||
+  if (!isManyContacts(links) ||
       (stepping.crowdSolver == stepping.solver && stepping.crowdTolerance == stepping.tolerance))
     return 0.0;
   double fastest = 0.0;
@@ -151,9 +161,8 @@ void Stepping::leaveOpen(double scale, double h) {
 }
 
 bool Stepping::isFarOff(const SolveReport& solved, double tolerance) const {
-  constexpr int kMeant = 100;          // sweeps: a plan of fewer takes what they leave
-  constexpr std::size_t kSmall = 128;  // contacts that cost little to be solved to the end
-  constexpr double kFarOff = 5.0;      // times the tolerance
+  constexpr int kMeant = 100;      // sweeps: a plan of fewer takes what they leave
+  constexpr double kFarOff = 5.0;  // times the tolerance
   return model_.def.stepping.crowdIterations >= kMeant && work_.problem.cones.size() <= kSmall &&
          solved.residual > kFarOff * tolerance;
 }
@@ -168,8 +177,36 @@ SolveReport Stepping::solveAsPlanned(std::span<const Link> links, bool bent, boo
     return solveRough(links, part, h);
   }
   takeBack(links);
+  if (scale > 0.0 && isDrafted() && isManyContacts(links) && work_.problem.cones.size() > kSmall)
+    return solveCalm(links, memory, h);
   if (bent) startFromBefore(links, h);
-  return solveFine(links);
+  SolveReport solved = solveFine(links);
+  if (reboundsInStep() && anyRebounds(links) && keepFromGaining(h))
+    solved.residual = naturalResidual(work_.problem, work_.solution);
+  return solved;
+}
+
+bool Stepping::anyRebounds(std::span<const Link> links) const {
+  return std::any_of(links.begin(), links.end(), [&](Link link) {
+    return isPair(link) &&
+           std::any_of(memory_.pairs[link].touches.begin(), memory_.pairs[link].touches.end(),
+                       [](const Touch& touch) { return touch.rebounds; });
+  });
+}
+
+SolveReport Stepping::solveCalm(std::span<const Link> links, IslandMemory& memory, double h) {
+  constexpr int kFewIterations = 20, kSteps = 8;
+  if (step_ >= memory.sweptTo) {
+    startFromBefore(links, h);
+    const SolveReport solved =
+        solver_.solve(work_.problem,
+                      {.tolerance = model_.def.stepping.tolerance, .maxIterations = kFewIterations},
+                      work_.solution);
+    if (solved.status == SolveStatus::Solved) return solved;
+    memory.sweptTo = step_ + kSteps;
+  }
+  memory.rough = true;
+  return solveRough(links, model_.def.stepping.crowdTolerance, h);
 }
 
 /// What is left open is a velocity: that of a point of cloth is soon small, while the push behind

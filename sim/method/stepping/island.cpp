@@ -18,6 +18,7 @@ std::pair<int, int> Stepping::ends(Link link) const {
 
 void Stepping::solveSteadily(double h) {
   constexpr int kRounds = 10, kAgain = 12;
+  const int rounds = isDrafted() ? 1 : kRounds;
   allKept_ = true;
   ++step_;
   if (bends() && !bend(h)) return;
@@ -25,7 +26,7 @@ void Stepping::solveSteadily(double h) {
     again_ = false;
     solveIslands(h);
     again_ = true;
-    for (int round = 0; round < kRounds && work_.crushed.empty() && seeFurther(h); ++round)
+    for (int round = 0; round < rounds && work_.crushed.empty() && seeFurther(h); ++round)
       solveIslands(h);
   };
   solve();
@@ -253,6 +254,7 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
   normal.bias = gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
 
+  if (reboundsInStep() && !isAside(touch)) rebound(touch, vrel, h, normal);
   const Vec3 lead = carried(contact, h);
   if (model_.fixed(contact.a) || model_.fixed(contact.b)) normal.bias += c.n.dot(lead);
   if (contact.friction <= 0.0) return;

@@ -98,6 +98,7 @@ struct IslandMemory {
   double residual = 0.0;
   std::size_t cones = 0;  ///< how many of its points were held apart
   long step = 0;          ///< Stepping::solveSteadily that solved it
+  long sweptTo = 0;       ///< until that solveSteadily it is swept, in a draft
   bool rough = false;     ///< solved as far as is planned for crowds
   bool kept = false;      ///< the last step asked nothing new
   IslandBooks books;

@@ -11,6 +11,7 @@ namespace tumble {
 
 bool Stepping::project() {
   constexpr int kRounds = 10, kSwept = 3;  // by the solver of crowds, if all is lifted
+  constexpr int kDrafted = 2;
   double deepest = deepestOverlap();
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
@@ -21,7 +22,10 @@ bool Stepping::project() {
   const bool lifts = open;
   const double before = lifts ? potential() : 0.0;
   int left = model_.def.stepping.iterations;  // of the solver, for all rounds
-  for (int round = 0; round < kRounds && open && left > 0; ++round) {
+  const auto rounds = [&] {
+    return isDrafted() && largestGap() <= tolerance_.drift ? kDrafted : kRounds;
+  };
+  for (int round = 0; open && left > 0 && round < rounds(); ++round) {
     left -= lift(left, rough_ && (leftOpen_ > 0.0 || round < kSwept));
     deepest = deepestOverlap();
     open = isOpen();
@@ -68,7 +72,8 @@ int Stepping::lift(int most, bool asCrowd) {
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
   constexpr int kMost = 200, kMostOfCrowd = 20;  // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
-  const int atMost = std::min(most, asCrowd ? kMostOfCrowd : kMost);
+  const int ofCrowd = std::min(kMostOfCrowd, model_.def.stepping.crowdIterations);
+  const int atMost = std::min(most, asCrowd ? ofCrowd : kMost);
   // Where overlap may be left alone, gaps wider than the deepest overlap are not asked to stay.
   double reach = std::numeric_limits<double>::infinity();
   if (asCrowd && isHasty()) reach = deepestKnown();

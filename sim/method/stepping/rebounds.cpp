@@ -35,6 +35,10 @@ double Stepping::meet(double h, Hits divide) {
   findOut(h);
   known_ = false;
   if (halted()) return h;
+  if (reboundsInStep()) {
+    forgetHits();
+    return h;
+  }
   double first = untilHit(soon, h, least);
   if (strike(divides ? soon : h)) {
     if (report_.stopped) return h;
@@ -187,6 +191,23 @@ bool Stepping::anyHit(double within) const {
     return (pair.bounces || pair.tumbles) &&
            std::any_of(pair.touches.begin(), pair.touches.end(), hits);
   });
+}
+
+void Stepping::forgetHits() {
+  for (PairMemory& pair : memory_.pairs)
+    for (Touch& touch : pair.touches) {
+      touch.rebounds = false;
+      touch.due = 0.0;
+    }
+}
+
+void Stepping::rebound(Touch& touch, double vrel, double h, Row& normal) const {
+  const Contact& c = touch.contact;
+  const double gap = std::max(c.point.separation, 0.0);
+  const bool meets = gap + h * vrel < 0.0;
+  touch.rebounds = meets && -c.restitution * vrel > -landingSpeed();
+  touch.due = touch.rebounds && !closed(touch) ? gap / -vrel : 0.0;
+  if (touch.rebounds) normal.bias = c.restitution * vrel;
 }
 
 void Stepping::bookShift(const Touch& touch) {

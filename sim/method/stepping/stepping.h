@@ -154,6 +154,10 @@ class Stepping {
   bool anyHit(double within) const;
   /// Applies the law of impact to what touches, and to what is due within that time [s].
   bool strike(double within);
+  /// Of a hit that the contact problem of a whole step of h seconds takes in: it gives back what
+  /// restitution asks for from the speed `vrel` [m/s] at which the step begins (Newton's law).
+  void rebound(Touch& touch, double vrel, double h, Row& normal) const;
+  void forgetHits();
   void bookShift(const Touch& touch);
   /// Whether a touch is left out of the contact problem of a step, being struck at its end or
   /// later.
@@ -171,6 +175,12 @@ class Stepping {
   static int weightOf(const PairMemory& pair);
   /// Whether their hits divide no step.
   bool strikesAsCrowd() const;
+  /// Whether they are in such haste that a step is taken whole, without a second look.
+  bool isDrafted() const { return crowd_ && isHasty() && !model_.def.stepping.divides; }
+  /// Whether the contact problem of a step takes in what hits.
+  bool reboundsInStep() const { return isDrafted() && strikesAsCrowd(); }
+  /// Whether the problem at hand is that of many contacts, and of nothing else.
+  bool isManyContacts(std::span<const Link> links) const;
   /// What may be left of the problem at hand, if it is that of many contacts that move: of what
   /// moves, the part that is planned for crowds. 0 for any other problem.
   /// @param scale [m/s] its velocityScale
@@ -190,6 +200,11 @@ class Stepping {
   SolveReport solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
                              IslandMemory& memory, double h);
   SolveReport solveFine(std::span<const Link> links);
+  /// Whether its problem gives back what restitution asks for.
+  bool anyRebounds(std::span<const Link> links) const;
+  /// Of a crowd that moves hardly any more, in a draft: to the last digits if that takes few
+  /// iterations; else swept, for some steps.
+  SolveReport solveCalm(std::span<const Link> links, IslandMemory& memory, double h);
   /// Mass of the lightest point of what bends in an island, by that of its heaviest solid; at
   /// most 1.
   double lightness() const;
