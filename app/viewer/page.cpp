@@ -52,15 +52,15 @@ void Viewer::page() {
   shownList();
   ImGui::End();
 
+  // Before the picture, which then shows what was asked for without waiting for the next image.
+  beginPanel("transport", kListWidth, height, width, kTransportHeight,
+             ImGuiWindowFlags_NoScrollbar);
+  transport();
+  ImGui::End();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
   beginPanel("picture", kListWidth, 0.0f, width, height, ImGuiWindowFlags_NoScrollbar);
   ImGui::PopStyleVar();
   picture(width, height);
-  ImGui::End();
-
-  beginPanel("transport", kListWidth, height, width, kTransportHeight,
-             ImGuiWindowFlags_NoScrollbar);
-  transport();
   ImGui::End();
   if (helping_) help();
 }
