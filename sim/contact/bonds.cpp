@@ -24,13 +24,15 @@ void Bonds::clear() {
   rows.clear();
   kinds.clear();
   owners.clear();
+  places.clear();
   lambda.clear();
 }
 
-void Bonds::add(const Row& row, ConeKind kind, int owner) {
+void Bonds::add(const Row& row, ConeKind kind, int owner, int place) {
   rows.push_back(row);
   kinds.push_back(kind);
   owners.push_back(owner);
+  places.push_back(place);
   lambda.push_back(0.0);
 }
 

@@ -15,11 +15,12 @@ struct Bonds {
   std::vector<Row> rows;
   std::vector<ConeKind> kinds;  ///< per row: Equality or Push
   std::vector<int> owners;      ///< per row: the joint that it belongs to; −1: none
+  std::vector<int> places;      ///< per row: its number among all rows of its owner
   std::vector<double> lambda;   ///< per row: force [N, N m] or impulse, as found
 
   bool empty() const { return rows.empty(); }
   void clear();
-  void add(const Row& row, ConeKind kind, int owner);
+  void add(const Row& row, ConeKind kind, int owner, int place);
 };
 
 /// Appends the rows, and the world as the last body of the problem. Their first cone is what the

@@ -16,7 +16,10 @@ void forRows(std::span<const RigidBody> bodies, std::span<const Joint> joints, S
   thread_local std::vector<JointRow> rows;  // keeps its storage from call to call
   for (int k = 0; k < static_cast<int>(joints.size()); ++k) {
     jointRows(bodies, joints[k], rows);
-    for (const JointRow& row : rows) see(k, row);
+    for (std::size_t place = 0; place < rows.size(); ++place) {
+      rows[place].place = static_cast<int>(place);
+      see(k, rows[place]);
+    }
   }
 }
 
@@ -49,7 +52,7 @@ double rotorRate(std::span<const RigidBody> bodies, const Row& row) {
 void addRow(const JointRow& found, double bias, int joint, Bonds& bonds) {
   Row row = found.row;
   row.bias = bias;
-  bonds.add(row, found.limit < 0 ? ConeKind::Equality : ConeKind::Push, joint);
+  bonds.add(row, found.limit < 0 ? ConeKind::Equality : ConeKind::Push, joint, found.place);
 }
 
 }  // namespace

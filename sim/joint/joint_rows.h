@@ -15,6 +15,7 @@ struct JointRow {
   double rate = 0.0;  ///< [m/s] or [rad/s]
   double arm = 1.0;   ///< what makes metres of it: 1, or the joint's arm [m]
   int limit = -1;     ///< 0: the lower limit; 1: the upper; −1: an equality
+  int place = 0;      ///< its number among the rows of the joint
 };
 
 /// All conditions of a joint, equalities first. With pa, pb the anchors, u fixed in b, w in a:

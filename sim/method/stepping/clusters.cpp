@@ -283,14 +283,14 @@ void Stepping::stepClusters(double t1, double h) {
       leave();
     }
     const bool stopped = report_.stopped;
-    if (!stopped) {
+    if (!stopped && !misses_) {
       gather();
       activateAll();
       takePairs();
       if (!haveMet(h)) break;
     }
     restore();
-    if (stopped) return state_.trail.pop_back();
+    if (stopped || misses_) return state_.trail.pop_back();
     takePairs();
     lookAtAll(h);
     apart = findClusters(h);

@@ -142,7 +142,7 @@ void Stepping::addSpringRow(const Row& made, const SpringLaw& law, double h) {
   row.compliance = 1.0 / yields;
   const double stretch = law.stretch + swift * law.bend;
   row.bias = h * (law.stiffness * stretch - slow * spring.before) / yields;
-  work_.bonds.add(row, ConeKind::Equality, -1);
+  work_.bonds.add(row, ConeKind::Equality, -1, 0);
 }
 
 /// Of soft springs, what the damper takes and what the row damps; of stiff ones, all that goes.

@@ -26,17 +26,18 @@ void Stepping::solveSteadily(double h) {
     again_ = false;
     solveIslands(h);
     again_ = true;
-    for (int round = 0; round < rounds && work_.crushed.empty() && seeFurther(h); ++round)
+    for (int round = 0; round < rounds && work_.crushed.empty() && !misses_ && seeFurther(h);
+         ++round)
       solveIslands(h);
   };
   solve();
   const int most = model_.def.stepping.linearisations;
-  for (int k = 1; bends() && work_.crushed.empty(); ++k) {
+  for (int k = 1; bends() && work_.crushed.empty() && !misses_; ++k) {
     const bool again = gains(h) && k < kAgain, all = k < most;
     if (!(again || all) || !bendFurther(h, all)) break;
     solve();
   }
-  if (work_.crushed.empty()) bookIslands(h);
+  if (work_.crushed.empty() && !misses_) bookIslands(h);
 }
 
 void Stepping::solveIslands(double h) {
@@ -63,7 +64,7 @@ void Stepping::solveIslands(double h) {
   if (bends()) markBent();
   groupLinks(h);
   work_.heads.clear();
-  for (std::size_t i = 0; i + 1 < work_.begin.size(); ++i) solveIsland(linksOf(i), h);
+  for (std::size_t i = 0; i + 1 < work_.begin.size() && !misses_; ++i) solveIsland(linksOf(i), h);
   if (bends()) moveAlone(h);
 }
 
@@ -157,6 +158,7 @@ void Stepping::swing(std::span<const Link> links, double h) {
       if (work_.crushed.empty()) solved = solveAsPlanned(links, bent, crowd, memory, h);
     }
     if (!work_.crushed.empty()) return;
+    if (!bent && isBonded(links) && !closeGaps(links, crowd, memory, h, solved)) return;
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     rough_ = rough_ || memory.rough;

@@ -4,9 +4,19 @@
 
 #include "sim/contact/rest.h"
 #include "sim/joint/swing.h"
+#include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
+namespace {
+
+/// [m] from the place where a joint holds to the farthest that it moves.
+double reachOf(const Joint& joint) {
+  if (joint.kind != JointKind::Distance) return joint.arm;
+  return joint.arm + (std::isfinite(joint.hi) ? joint.hi : joint.length);
+}
+
+}  // namespace
 
 void Stepping::bookOuter() {
   const OuterBonds outer = outerBonds(work_.bonds, state_.bodies);
@@ -27,6 +37,86 @@ void Stepping::bookJoints(double h) {
   }
   Segment& segment = state_.trail.back();
   jointForces(segment.start, model_.joints, work_.bonds, h, segment.joints);
+}
+
+/// Where a body of the island at hand stands after the step, at the velocities that were found.
+void Stepping::moveAhead(int i, double h) {
+  RigidBody& body = work_.ahead[i];
+  body = state_.bodies[i];
+  const bool fixed = body.fixed();
+  const Vec6& v = fixed ? work_.before[i] : work_.solution.v[work_.local[i]];
+  body.x += h * v.head<3>();
+  if (fixed)
+    body.q = rotated(body.q, h * v.tail<3>());
+  else if (!body.particle)
+    turn(body, body.R * (body.Ibody * (body.R.transpose() * v.tail<3>())), h);
+  body.q.normalize();
+  updateDerived(body);
+}
+
+bool Stepping::closeGaps(std::span<const Link> links, bool crowd, IslandMemory& memory, double h,
+                         SolveReport& solved) {
+  constexpr int kRounds = 8;
+  constexpr double kFar = 1e-5;     // of an arm: what rows may miss in a part; it grows with h³
+  constexpr double kLeast = 1e-3;   // of a step: shorter parts miss what they miss
+  constexpr double kClosed = 1e-2;  // of the gap that is allowed to stay
+  Missed missed = foretellGaps(links, h);
+  const double parts = std::cbrt(missed.part / kFar);
+  memory_.missed = std::max(memory_.missed, parts / h);
+  if (parts > 2.0 && h > kLeast * model_.def.stepping.step) {
+    misses_ = true;
+    for (const int i : work_.bodies) work_.local[i] = -1;
+    return false;
+  }
+  for (int round = 0; round < kRounds && missed.way > kClosed * tolerance_.drift; ++round) {
+    work_.solutionBefore = work_.solution;
+    work_.solution.lambda.clear();
+    for (std::size_t i = 0; i < work_.bodies.size(); ++i)
+      work_.solution.v[i] = work_.before[work_.bodies[i]];
+    const SolveReport again = solveAsPlanned(links, false, crowd, memory, h);
+    if (!work_.crushed.empty()) return false;
+    const Missed now = foretellGaps(links, h);
+    if (!(now.way < missed.way)) {
+      work_.solution = work_.solutionBefore;
+      break;
+    }
+    solved = again;
+    missed = now;
+  }
+  return true;
+}
+
+/// Rows that turn alone move no centre of mass: the projection may have their gaps.
+Stepping::Missed Stepping::foretellGaps(std::span<const Link> links, double h) {
+  Missed worst;
+  int owner = -1;
+  work_.ahead.resize(state_.bodies.size());
+  std::size_t cone = 0;
+  for (const Link link : links) {
+    if (isPair(link)) {
+      for (const Touch& touch : memory_.pairs[link].touches)
+        cone += !flies(touch, h) && !isAside(touch);
+      continue;
+    }
+    const int bond = link - static_cast<int>(state_.near.size());
+    Row& row = work_.problem.rows[work_.problem.cones[cone++].row];
+    if (work_.bonds.owners[bond] < 0 || row.linear.isZero(0.0)) continue;
+    const Joint& joint = model_.joints[work_.bonds.owners[bond]];
+    if (work_.bonds.owners[bond] != owner) {
+      owner = work_.bonds.owners[bond];
+      for (const int i : {joint.a, joint.b})
+        if (i < static_cast<int>(state_.bodies.size())) moveAhead(i, h);
+      jointRows(work_.ahead, joint, work_.jointRows);
+    }
+    const JointRow& found = work_.jointRows[work_.bonds.places[bond]];
+    const double missed =
+        found.gap -
+        h * (rowSpeed(row, work_.solution.v[row.a], work_.solution.v[row.b]) + row.bias);
+    row.bias += missed / h;
+    worst.way = std::max(worst.way, std::abs(missed));
+    worst.part = std::max(worst.part, std::abs(missed) / reachOf(joint));
+  }
+  return worst;
 }
 
 void Stepping::meetJoints(double h) {
@@ -71,6 +161,7 @@ void Stepping::divide(double h, std::span<const JointForce> forces) {
   double rate = fastestSwing(state_.bodies, model_.joints, forces, solver_, kSwing / h,
                              memory_.swing, work_.swing) /
                 kSwing;
+  rate = std::max(rate, memory_.missed);
   for (const Joint& joint : model_.joints) {
     for (const int i : {joint.a, joint.b}) {
       const RigidBody& body = partner(state_.bodies, i);

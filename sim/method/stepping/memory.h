@@ -11,6 +11,7 @@
 #include "sim/collide/witness.h"
 #include "sim/contact/bonds.h"
 #include "sim/contact/contact.h"
+#include "sim/joint/joint_rows.h"
 #include "sim/joint/swing.h"
 #include "sim/method/report.h"
 #include "sim/method/stepping/bending.h"
@@ -164,8 +165,10 @@ struct SteppingWork {
   std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
   std::vector<int> movers;
   Problem problem;
-  Solution solution;
-  std::vector<JointForce> joints;  ///< that bring velocities to what joints allow
+  Solution solution, solutionBefore;  ///< of one island, and of the round before
+  std::vector<RigidBody> ahead;       ///< per body in a joint of an island: after the step
+  std::vector<JointRow> jointRows;    ///< of one joint
+  std::vector<JointForce> joints;     ///< that bring velocities to what joints allow
   SwingWork swing;
   /// Per body: twists at both ends of the step, and what they would be without contacts.
   std::vector<Vec6> before, star, after;
@@ -193,6 +196,7 @@ struct SteppingMemory {
   std::vector<LastingPair> lasting;    ///< of the step before, in order of pairs
   std::vector<double> left;            ///< [m/s] per body: what the last solve left of its contacts
   int division = 0;                    ///< equal parts of the next step; 0: not known yet
+  double missed = 0.0;                 ///< [1/s] parts that rows of joints asked for, in the step
   Swing swing;                         ///< the fastest in joints
   std::optional<Drives> drives;        ///< once dealt out
   std::vector<int> tied;               ///< bodies that more acts on than contacts, gravity and wind

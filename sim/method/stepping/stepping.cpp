@@ -121,6 +121,7 @@ void Stepping::step() {
   const double whole = lengthTo(t1);
   if (memory_.division == 0) divideFirst(whole);
   const double h = whole / memory_.division;
+  memory_.missed = 0.0;
   for (int k = 1; k <= memory_.division && !report_.stopped; ++k)
     stepTo(k == memory_.division ? t1 : t0 + k * h, h);
   if (report_.stopped) return;
@@ -133,8 +134,15 @@ void Stepping::stepTo(double t1, double h) {
   if (report_.stopped) return;
   findCrowded(h);
   work_.met.clear();
-  if (model_.def.stepping.divides && findClusters(h)) return stepClusters(t1, h);
-  go(t1, h);
+  if (model_.def.stepping.divides && findClusters(h))
+    stepClusters(t1, h);
+  else
+    go(t1, h);
+  if (!misses_) return;
+  misses_ = false;
+  const double half = 0.5 * (t1 - state_.t);
+  stepTo(state_.t + half, half);
+  if (!report_.stopped) stepTo(t1, t1 - state_.t);
 }
 
 /// First for every hit, then for those that rebound for longer than a step, while the pairs of
@@ -166,6 +174,10 @@ void Stepping::go(double t1, double h) {
 void Stepping::moveTo(double t1, double h) {
   beginPart(t1);
   solveSteadily(h);
+  if (misses_) {
+    if (!parted_) state_.trail.pop_back();
+    return;
+  }
   if (report_.stopped) return stop(report_.reason);
   if (!work_.crushed.empty()) return stop(work_.crushed);
   applyTwists(h);
@@ -337,7 +349,8 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
   constexpr double kTurn = 0.05;  // [rad]
   constexpr int kMostTurns = 1000;
   if (body.particle || L.isZero(0.0)) return body.q.normalize();
-  const double turns = std::min(std::ceil(h * body.omega.norm() / kTurn), double{kMostTurns});
+  const double turns =
+      std::min(std::ceil(h * Vec3(body.Iinv * L).norm() / kTurn), double{kMostTurns});
   const double part = h / std::max(1.0, turns);
   for (int k = 0; k < std::max(1.0, turns); ++k) {
     const Vec3 first = k == 0 ? Vec3(body.Iinv * L) : angularVelocityAt(body, body.q, L);

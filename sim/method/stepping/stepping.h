@@ -4,7 +4,8 @@
 // moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. What
 // rebounds is struck where it meets, by the scene's law of impact: a step is divided there. Bodies
 // that joints alone hold go by RATTLE (Andersen, 1983): half of what forces give comes after the
-// move, and then velocities are what the joints allow.
+// move, and then velocities are what the joints allow. Joints close their gaps by their forces
+// alone, so that the move keeps angular momentum.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +44,8 @@ class Stepping {
   void moveTo(double t1, double h);
   void beginPart(double t1);
   void endPart(double t1);
-  /// Whether the step ends here: the run stops.
-  bool halted() const { return report_.stopped; }
+  /// Whether the step ends here: the run stops, or what is left of the step is to be divided.
+  bool halted() const { return report_.stopped || misses_; }
   double lengthTo(double t1) const;
   void beginSegment(double t1);
   void endSegment(double t1);
@@ -275,6 +276,17 @@ class Stepping {
   void bookJoints(double h);
   /// What the rows of joints as they stand take from the world and from fixed bodies.
   void bookOuter();
+  void moveAhead(int body, double h);
+  /// How far the gaps of joints after the step differ from what their rows foretold.
+  struct Missed {
+    double way = 0.0, part = 0.0;  ///< the most: [m], and of the joint's arm
+  };
+  /// Tells where the answer of an island leads, and the rows of joints what they missed there.
+  Missed foretellGaps(std::span<const Link> links, double h);
+  /// Solves the island once more until the forces of joints alone close their gaps.
+  /// @return false if it has no answer, or rows miss too much: misses_
+  bool closeGaps(std::span<const Link> links, bool crowd, IslandMemory& memory, double h,
+                 SolveReport& solved);
   /// Takes from the velocities what the joints do not allow where they now are.
   void meetJoints(double h);
   /// How many parts the next step needs for what swings fast in joints: under what they carried in
@@ -419,6 +431,7 @@ class Stepping {
   bool again_ = false;                ///< islands are solved once more, with what their bodies met
   std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
+  bool misses_ = false;               ///< rows of joints miss too much in the part under way
   int parts_ = 0;                     ///< of the step that is most divided
   double partStart_ = 0.0;            ///< [s] of the part under way
   long step_ = 0;                     ///< counts solveSteadily
