@@ -9,7 +9,8 @@ namespace {
 
 /// A body at the part s of the way from one state to another, which takes h seconds.
 RigidBody between(const RigidBody& start, const RigidBody& end, double s, double h) {
-  if (!(s > 0.0) || !(s < 1.0)) return s < 1.0 ? start : end;
+  constexpr double kEnd = 1e-9;  // of a step: an instant as near to one of its ends is that end
+  if (!(s > kEnd) || !(s < 1.0 - kEnd)) return s < 0.5 ? start : end;
   const Vec3 way = end.x - start.x, bend = h * end.v - way;
   RigidBody body = end;
   body.x = start.x + s * way + (s * s - s) * bend;
