@@ -72,8 +72,7 @@ int Stepping::lift(int most, bool asCrowd) {
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
   constexpr int kMost = 200, kMostOfCrowd = 20;  // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
-  const int ofCrowd = std::min(kMostOfCrowd, model_.def.stepping.crowdIterations);
-  const int atMost = std::min(most, asCrowd ? ofCrowd : kMost);
+  const int atMost = std::min(most, asCrowd ? kMostOfCrowd : kMost);
   // Where overlap may be left alone, gaps wider than the deepest overlap are not asked to stay.
   double reach = std::numeric_limits<double>::infinity();
   if (asCrowd && isHasty()) reach = deepestKnown();
