@@ -44,5 +44,5 @@ TEST_CASE("verify refuses what holds no hashes of this scene in one line with it
   refused("garbage.txt", "garbage.txt:2:16: expected a number of bodies, found 'x'");
   refused("other.txt", "other.txt:2:");
   CHECK(tumbleRun(scratch, "verify overhang").code == 2);
-  CHECK(tumbleRun(scratch, "simulate overhang -q -o out --hash no/such/folder.txt").code == 5);
+  CHECK(tumbleRun(scratch, "simulate overhang -q -o out --hash garbage.txt/hash.txt").code == 5);
 }
