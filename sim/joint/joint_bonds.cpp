@@ -16,10 +16,7 @@ void forRows(std::span<const RigidBody> bodies, std::span<const Joint> joints, S
   thread_local std::vector<JointRow> rows;  // keeps its storage from call to call
   for (int k = 0; k < static_cast<int>(joints.size()); ++k) {
     jointRows(bodies, joints[k], rows);
-    for (std::size_t place = 0; place < rows.size(); ++place) {
-      rows[place].place = static_cast<int>(place);
-      see(k, rows[place]);
-    }
+    for (const JointRow& row : rows) see(k, row);
   }
 }
 

@@ -121,11 +121,8 @@ void addAxes(const View& s, std::vector<JointRow>& rows) {
     rows.push_back(axesRow(s, s.frameA.col(w), s.frameB.col(u)));
 }
 
-}  // namespace
-
-void jointRows(std::span<const RigidBody> bodies, const Joint& joint, std::vector<JointRow>& rows) {
-  const View s(bodies, joint);
-  rows.clear();
+void addRows(const View& s, std::vector<JointRow>& rows) {
+  const Joint& joint = s.joint;
   switch (joint.kind) {
     case JointKind::Ball:
     case JointKind::Hinge:
@@ -145,6 +142,14 @@ void jointRows(std::span<const RigidBody> bodies, const Joint& joint, std::vecto
       row.gap -= joint.length;
       rows.push_back(row);
   }
+}
+
+}  // namespace
+
+void jointRows(std::span<const RigidBody> bodies, const Joint& joint, std::vector<JointRow>& rows) {
+  rows.clear();
+  addRows(View(bodies, joint), rows);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].place = static_cast<int>(k);
 }
 
 double largestJointGap(std::span<const RigidBody> bodies, std::span<const Joint> joints) {

@@ -16,6 +16,13 @@ namespace {
 constexpr double kSoon = 1e-4,
                  kNext = 1e-10;  ///< of a step: what is struck at once, and after that
 
+void forgetHits(PairMemory& pair) {
+  for (Touch& touch : pair.touches) {
+    touch.rebounds = false;
+    touch.due = 0.0;
+  }
+}
+
 }  // namespace
 
 void Stepping::findOut(double h) {
@@ -36,7 +43,7 @@ double Stepping::meet(double h, Hits divide) {
   known_ = false;
   if (halted()) return h;
   if (reboundsInStep()) {
-    forgetHits();
+    for (PairMemory& pair : memory_.pairs) forgetHits(pair);
     return h;
   }
   double first = untilHit(soon, h, least);
@@ -82,10 +89,7 @@ double Stepping::untilHit(double soon, double h, double least) {
     if (pair.bounces) {
       foresee(k, least);
     } else {
-      for (Touch& touch : pair.touches) {
-        touch.rebounds = false;
-        touch.due = 0.0;
-      }
+      forgetHits(pair);
     }
     if (pair.tumbles) foreseeMeeting(k, h);
     for (Touch& touch : pair.touches) {
@@ -191,14 +195,6 @@ bool Stepping::anyHit(double within) const {
     return (pair.bounces || pair.tumbles) &&
            std::any_of(pair.touches.begin(), pair.touches.end(), hits);
   });
-}
-
-void Stepping::forgetHits() {
-  for (PairMemory& pair : memory_.pairs)
-    for (Touch& touch : pair.touches) {
-      touch.rebounds = false;
-      touch.due = 0.0;
-    }
 }
 
 void Stepping::rebound(Touch& touch, double vrel, double h, Row& normal) const {

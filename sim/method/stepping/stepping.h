@@ -158,7 +158,6 @@ class Stepping {
   /// Of a hit that the contact problem of a whole step of h seconds takes in: it gives back what
   /// restitution asks for from the speed `vrel` [m/s] at which the step begins (Newton's law).
   void rebound(Touch& touch, double vrel, double h, Row& normal) const;
-  void forgetHits();
   void bookShift(const Touch& touch);
   /// Whether a touch is left out of the contact problem of a step, being struck at its end or
   /// later.
