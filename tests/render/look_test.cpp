@@ -1,4 +1,6 @@
 // What the picture says about space: shadows, ghosts, glass, bodies that sank.
+// Long: what is drawn beside bodies, labels and pages of panels among it, is measured by one set of
+// helpers.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
