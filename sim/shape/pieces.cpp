@@ -5,7 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "sim/shape/coarse_cuts.h"
 #include "sim/shape/convex_hull.h"
+#include "sim/shape/excess.h"
 #include "sim/shape/join.h"
 #include "sim/shape/notches.h"
 
@@ -21,9 +23,13 @@ using cut::Triangle;
 
 constexpr double kSnap = 2e-6;              // of the size: corners no further from a cut are on it
 constexpr long kMostWork = 20'000'000;      // triangles looked at, in all surfaces together
+constexpr long kMostCoarse = 200'000'000;   // where cuts may be anywhere
 constexpr long kHullWork = 250;             // of these cost as much as a corner of a hull
+constexpr long kStirredWork = 50;           // as much as one of a hull of stirred corners
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
 constexpr std::size_t kMostSeeds = 48;      // notches of a piece from which planes are drawn
+constexpr double kCoarse = 1e-3;       // of the size: from this tolerance on, cuts are anywhere
+constexpr std::size_t kMostExact = 4;  // cuts through notches that are tried beside those
 constexpr int kSlices = 4;
 
 /// The convex hull of a piece, and how far the mesh lies under it.
@@ -49,6 +55,7 @@ class Decomposer {
     for (const Vec3& p : solid.points) size_ = std::max(size_, (p - solid.points[0]).norm());
     snap_ = std::min(tolerance, kSnap * size_);
     notches_.emplace(points_, whole_, cut::OnPlane{.slack = slack(), .snap = snap_});
+    if (tolerance >= kCoarse * size_) distance_.emplace(solid);
   }
 
   Pieces good() {
@@ -105,7 +112,7 @@ class Decomposer {
 
  private:
   /// A question that takes whole numbers costs as much as looking at a hundred triangles.
-  bool spent() const { return work_ + 100 * points_.looks > kMostWork; }
+  bool spent() const { return work_ + 100 * points_.looks > (distance_ ? kMostCoarse : kMostWork); }
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
   double slack() const { return std::max(tolerance_, kRounding * size_); }
 
@@ -142,7 +149,7 @@ class Decomposer {
 
   /// The hull of a piece that stands out of the mesh by no more than the tolerance.
   std::optional<Wrapping> wrapped(const Surface& piece, const std::vector<Notch>& notches,
-                                  const std::optional<Polyhedron>& hull) const {
+                                  const std::optional<Polyhedron>& hull) {
     if (tolerance_ == 0.0 && !notches.empty()) return {};
     Wrapping whole;
     if (!hull)
@@ -151,14 +158,28 @@ class Decomposer {
                  : std::nullopt;
     whole.hull = *hull;
     if (notches.empty()) return whole;
+    const double along = depthOf(piece, whole.hull, distance_ ? snap_ : slack());
+    if (std::isfinite(along)) {
+      whole.excess = along;
+      return whole;
+    }
+    if (!distance_) return {};
+    const Excess out = excessOf(whole.hull, *distance_, tolerance_);
+    over_ = out.where;
+    whole.excess = out.bound;
+    return out.bound <= tolerance_ ? std::optional(whole) : std::nullopt;
+  }
+
+  /// How far faces of the mesh lie under a hull, each along its normal; infinite if over `most`.
+  double depthOf(const Surface& piece, const Polyhedron& hull, double most) const {
+    double depth = 0.0;
     for (const Triangle& t : piece) {
       if (t.face < 0) continue;
-      const double depth = depthUnder(whole.hull, at(t.corner[0]), at(t.corner[1]), at(t.corner[2]),
-                                      kRounding * size_ * size_);
-      if (depth > slack()) return {};
-      whole.excess = std::max(whole.excess, depth);
+      depth = std::max(depth, depthUnder(hull, at(t.corner[0]), at(t.corner[1]), at(t.corner[2]),
+                                         kRounding * size_ * size_));
+      if (depth > most) return std::numeric_limits<double>::infinity();
     }
-    return whole;
+    return depth;
   }
 
   /// A plane and what it is worth.
@@ -176,6 +197,7 @@ class Decomposer {
     std::vector<Cut> cuts = cutsOf(piece, hull ? deepest(*hull, notches) : notches);
     std::stable_sort(cuts.begin(), cuts.end(),
                      [&](const Cut& a, const Cut& b) { return isBetter(a, b); });
+    if (distance_ && hull) cuts = tightest(piece, cuts);
     for (const Cut& best : cuts) {
       work_ += static_cast<long>(piece.size());
       cut::Halves halves = cut::halve(points_, piece, best.plane, snap_);
@@ -185,6 +207,38 @@ class Decomposer {
       return parts;
     }
     refuse(notches);
+  }
+
+  /// Cuts through notches and elsewhere, those first whose parts fill their hulls best.
+  std::vector<Cut> tightest(const Surface& piece, std::vector<Cut> cuts) {
+    if (cuts.size() > kMostExact) cuts.resize(kMostExact);
+    for (const CutPlane& plane : cut::planesInto(over_, distance_->nearest(over_), size_))
+      cuts.push_back({plane});
+    for (const CutPlane& plane : cut::planesAcross(cornersOf(piece))) cuts.push_back({plane});
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < cuts.size(); ++k)
+      order.emplace_back(hollowBeside(piece, cuts[k].plane), k);
+    std::sort(order.begin(), order.end());
+    std::vector<Cut> sorted;
+    for (const auto& [hollow, k] : order) sorted.push_back(cuts[k]);
+    return sorted;
+  }
+
+  /// Volume [m³] of the hulls of what a plane leaves of a piece, outside of it.
+  double hollowBeside(const Surface& piece, const CutPlane& plane) {
+    const std::size_t known = points_.at.size();
+    const cut::Halves halves = cut::halve(points_, piece, plane, snap_);
+    double hollow = 0.0;
+    for (const Surface* half : {&halves.below, &halves.above})
+      for (const Surface& part : cut::pieces(points_, *half)) try {
+          const std::vector<Vec3> corners = cut::stirred(cornersOf(part), snap_);
+          work_ += kStirredWork * static_cast<long>(corners.size());
+          hollow += volumeOf(convexHull(corners)) - cut::sixfoldVolume(points_, part) / 6.0;
+        } catch (const NotASolid&) {
+        }
+    points_.at.resize(known);
+    points_.exact.resize(known);
+    return hollow;
   }
 
   /// Cuts by notches that matter, from all over the piece.
@@ -292,7 +346,9 @@ class Decomposer {
   Surface whole_;
   std::vector<int> faceOf_;  ///< per triangle of `whole_`: the face of the polyhedron
   std::optional<Notches> notches_;
-  double tolerance_, snap_ = 0.0;  ///< [m] of a piece over the mesh; of corners on a cut
+  std::optional<MeshDistance> distance_;  ///< where the tolerance is coarse
+  Vec3 over_ = Vec3::Zero();              ///< a point over a dent of the piece that was looked at
+  double tolerance_, snap_ = 0.0;         ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
   long work_ = 0;
 };

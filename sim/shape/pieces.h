@@ -12,7 +12,7 @@ namespace tumble {
 /// The convex pieces that carry the contacts of a mesh, in the frame of its polyhedron.
 struct Pieces {
   std::vector<Hull> hulls;
-  double excess = 0.0;  ///< [m] no face of the mesh lies deeper under its piece, along its normal
+  double excess = 0.0;  ///< [m] no point of a piece is further from the mesh (see `piecesOf`)
   double slack = 0.0;   ///< [m] pieces that touch overlap, or gape, by no more
 };
 
@@ -43,6 +43,10 @@ class NoPieces : public std::runtime_error {
 /// on which side is decided exactly; corners within `tolerance` of a cut count as on it.
 ///   Chazelle, "Convex Partitions of Polyhedra", SIAM J. Comput. 13, 1984. Departure: one plane
 ///   takes several notches, and notches shallower than the tolerance stay.
+/// From a tolerance of a thousandth of the size on, as scans need it, planes into dents and across
+/// the piece are tried beside these, and that one is taken whose parts fill their hulls best. There
+/// the excess is a bound on the distance of any point of a piece from the mesh (`excessOf`); below,
+/// on how deep a face of the mesh lies under its piece, along its normal.
 /// @param tolerance  [m] that a piece may stand out of the mesh; 0: the union of the pieces is the
 ///                   mesh, their corners rounded once
 /// @throws NoPieces  for more than kMostPieces, or too much work to find them

@@ -156,21 +156,6 @@ TEST_CASE("what takes too many pieces is refused with the place, and a tolerance
   CHECK(pieces.excess <= 0.08);
 }
 
-TEST_CASE("a scan of 2,024 faces is refused as it is, and taken to a few per cent",
-          "[long][figures]") {
-  const Polyhedron solid = solids::scan(23, 0.05).made();
-  CHECK(solid.faces.size() == 2024);
-  CHECK(refusalOf(solid, 0.0).find("pieces_tolerance") != std::string::npos);
-  // By then it is cut into many pieces of many corners each, and their hulls cost most.
-  CHECK(refusalOf(solid, 0.02).find("too intricate") != std::string::npos);
-  const double tolerance = 0.047;  // of 2 m, half the diagonal of its box
-  const Pieces pieces = piecesOf(solid, PieceKind::Good, tolerance);
-  WARN("a scan of 2,024 faces, 2.6 m high, at "
-       << tolerance << " m: measured " << pieces.hulls.size() << " pieces, excess " << pieces.excess
-       << " m");
-  CHECK(pieces.excess <= tolerance);
-}
-
 TEST_CASE("a mesh of more faces than can be taken apart is refused with words, its hull is not") {
   const Polyhedron solid = solids::scan(101, 0.1).made();
   REQUIRE(solid.faces.size() > 20'000);

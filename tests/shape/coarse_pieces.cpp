@@ -1,0 +1,192 @@
+// Convex decomposition to a few per cent: what scans come apart into, and how far that is off.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "sim/math/rotation.h"
+#include "sim/shape/convex_hull.h"
+#include "sim/shape/excess.h"
+#include "sim/shape/pieces.h"
+#include "tests/body/notched.h"
+#include "tests/catch.h"
+
+using namespace tumble;
+
+namespace {
+
+double sizeOf(const Polyhedron& solid) {
+  Vec3 lo = solid.points[0], hi = lo;
+  for (const Vec3& p : solid.points) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+  return 0.5 * (hi - lo).norm();
+}
+
+const Vec3& corner(const Polyhedron& solid, int i) {
+  return solid.points[static_cast<std::size_t>(i)];
+}
+
+/// Whether p is inside a mesh of triangles: the solid angle that they take of all ways from it.
+///   van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983.
+bool isInside(const Polyhedron& mesh, const Vec3& p) {
+  double angle = 0.0;
+  for (const std::vector<int>& face : mesh.faces) {
+    const Vec3 a = corner(mesh, face[0]) - p, b = corner(mesh, face[1]) - p,
+               c = corner(mesh, face[2]) - p;
+    const double x = a.norm(), y = b.norm(), z = c.norm();
+    angle +=
+        2.0 * std::atan2(a.dot(b.cross(c)), x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y);
+  }
+  return angle > 6.28;
+}
+
+/// The least distance from p to the points of a fine grid on each face: never less than the true.
+double coarseDistance(const Polyhedron& mesh, const Vec3& p) {
+  constexpr int kGrid = 8;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<int>& face : mesh.faces)
+    for (int i = 0; i <= kGrid; ++i)
+      for (int k = 0; i + k <= kGrid; ++k) {
+        const Vec3 q = (i * corner(mesh, face[0]) + k * corner(mesh, face[1]) +
+                        (kGrid - i - k) * corner(mesh, face[2])) /
+                       kGrid;
+        least = std::min(least, (q - p).squaredNorm());
+      }
+  return std::sqrt(least);
+}
+
+double longestEdge(const Polyhedron& mesh) {
+  double most = 0.0;
+  for (const Polyhedron::Edge& e : mesh.edges)
+    most = std::max(most, (corner(mesh, e.from) - corner(mesh, e.to)).norm());
+  return most;
+}
+
+/// How far p stands over a hull, < 0 inside.
+double heightOver(const Hull& hull, const Vec3& p) {
+  const Polyhedron& solid = *hull.solid;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < solid.faces.size(); ++f)
+    most = std::max(most, solid.normals[f].dot(p - hull.origin - corner(solid, solid.faces[f][0])));
+  return most;
+}
+
+/// Points all over the surface of a hull.
+std::vector<Vec3> pointsOf(const Hull& hull, int count, std::mt19937& random) {
+  std::uniform_real_distribution<double> share(0.05, 1.0);
+  std::vector<Vec3> points;
+  for (int k = 0; k < count; ++k) {
+    const auto& face = hull.solid->faces[random() % hull.solid->faces.size()];
+    Vec3 sum = Vec3::Zero();
+    double weight = 0.0;
+    for (const int i : face) {
+      const double w = share(random);
+      sum += w * corner(*hull.solid, i);
+      weight += w;
+    }
+    points.push_back(sum / weight + hull.origin);
+  }
+  return points;
+}
+
+/// Holds the pieces to what they claim: no sampled point of them is further from the mesh than the
+/// excess, and each corner and middle of a face of the mesh is in one of them.
+void hold(const Polyhedron& mesh, const Pieces& pieces, double tolerance) {
+  CHECK(pieces.excess <= tolerance);
+  std::mt19937 random(7);
+  const int each = 1 + 60 / static_cast<int>(pieces.hulls.size());
+  double far = 0.0;
+  for (const Hull& hull : pieces.hulls)
+    for (const Vec3& p : pointsOf(hull, each, random))
+      if (!isInside(mesh, p)) far = std::max(far, coarseDistance(mesh, p));
+  // Between the points of the grid.
+  CHECK(far <= std::hypot(pieces.excess, longestEdge(mesh) / 8.0));
+  double out = 0.0;
+  const auto look = [&](const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Hull& hull : pieces.hulls) least = std::min(least, heightOver(hull, p));
+    out = std::max(out, least);
+  };
+  for (const std::vector<int>& face : mesh.faces) {
+    look(corner(mesh, face[0]));
+    look((corner(mesh, face[0]) + corner(mesh, face[1]) + corner(mesh, face[2])) / 3.0);
+  }
+  // Measured 4e-16 of the size.
+  CHECK(out <= 1e-13 * sizeOf(mesh));
+}
+
+}  // namespace
+
+// Oracle: closed form. In the opening of a U, 2 wide and 1.5 deep, its upper middle is farthest
+// from it: 1 from both walls.
+TEST_CASE("the hull of a U reaches out of it by half the width of its opening") {
+  const Polyhedron u = solids::letterU().made();
+  Polyhedron hull = convexHull(u.points);
+  for (Vec3& p : hull.points) p += u.points[0];
+  const MeshDistance distance(u);
+  const Excess loose = excessOf(hull, distance, 1.1), tight = excessOf(hull, distance, 0.9);
+  CHECK(loose.bound >= 1.0);
+  CHECK(loose.bound <= 1.1);
+  CHECK(tight.bound >= 1.0);
+  CHECK(distance(tight.where, 10.0) > 0.9);
+}
+
+// Oracle: symmetry of a box about the middle of its faces, edges and corners.
+TEST_CASE("the distance from a mesh is that from the nearest face, edge or corner") {
+  const Polyhedron box = solids::box({-1, -1, -1}, {1, 1, 1}).made();
+  const MeshDistance distance(box);
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : box.points) centre += p / 8.0;
+  CHECK(distance(centre + Vec3(2, 0.3, 0.2), 10.0) == Approx(1.0));
+  CHECK(distance(centre + Vec3(2, 2, 0.2), 10.0) == Approx(std::sqrt(2.0)));
+  CHECK(distance(centre - Vec3(2, 2, 2), 10.0) == Approx(std::sqrt(3.0)));
+  CHECK(distance(centre + Vec3(0.5, 0, 0), 10.0) == Approx(-0.5));
+}
+
+// Oracle: points of the pieces beside all faces of the mesh; inside by solid angles.
+TEST_CASE("scans come apart to a few per cent, as their excess says", "[figures]") {
+  const auto check = [](const char* name, const solids::Raw& raw, double share, std::size_t most) {
+    const Polyhedron mesh = raw.made();
+    const double size = sizeOf(mesh);
+    const Pieces pieces = piecesOf(mesh, PieceKind::Good, share * size);
+    WARN(name << " of " << mesh.faces.size() << " faces to " << 100.0 * share << " %: measured "
+              << pieces.hulls.size() << " pieces, excess " << 100.0 * pieces.excess / size << " %");
+    CHECK(pieces.hulls.size() <= most);
+    hold(mesh, pieces, share * size);
+  };
+  SECTION("a bunny") {
+    const solids::Raw bunny = solids::bunny(23);
+    CHECK_THROWS_AS(piecesOf(bunny.made(), PieceKind::Good, 0.0), NoPieces);
+    check("a bunny", bunny, 0.05, 20);
+    check("a bunny", bunny, 0.03, 40);
+  }
+  SECTION("a ball with bumps") {
+    const solids::Raw ball = solids::scan(23, 0.1);
+    check("a ball with bumps", ball, 0.03, 10);
+    check("a ball with bumps", ball, 0.02, 25);
+  }
+  SECTION("a rough ring") {
+    check("a rough ring", solids::roughRing(50, 20, 0.05), 0.03, 40);
+  }
+}
+
+// Oracle: the same mesh turned, in millimetres and in kilometres; and the same bits again.
+TEST_CASE("coarse pieces do not hang on where a mesh stands or what its unit is") {
+  const solids::Raw given = solids::bunny(12);
+  const Polyhedron mesh = given.made();
+  const Pieces before = piecesOf(mesh, PieceKind::Good, 0.04 * sizeOf(mesh));
+  const Pieces again = piecesOf(mesh, PieceKind::Good, 0.04 * sizeOf(mesh));
+  REQUIRE(before.hulls.size() == again.hulls.size());
+  for (std::size_t k = 0; k < before.hulls.size(); ++k)
+    CHECK(before.hulls[k].solid->points == again.hulls[k].solid->points);
+  for (const double unit : {1e-3, 1.0, 1e3}) {
+    solids::Raw turned = given;
+    const Quat q = Quat(0.3, -0.5, 0.7, 0.2).normalized();
+    for (Vec3& p : turned.points) p = unit * (q * p);
+    const Polyhedron other = turned.made();
+    const double tolerance = 0.04 * unit * sizeOf(mesh);
+    const Pieces pieces = piecesOf(other, PieceKind::Good, tolerance);
+    CAPTURE(unit, before.hulls.size(), pieces.hulls.size());
+    CHECK(pieces.hulls.size() <= 2 * before.hulls.size());
+    hold(other, pieces, tolerance);
+  }
+}
