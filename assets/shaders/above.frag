@@ -1,5 +1,5 @@
 // The map from above: red contact, green height, blue cast shadow; the largest value of each stays.
-#include "stage.glsl"
+#include "given.glsl"
 in vec3 worldPoint;
 in vec2 heights;
 flat in float alpha, present;

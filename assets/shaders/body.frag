@@ -1,22 +1,23 @@
 // Surface of a body: form, edge line, bevel and spin mark, then light by its finish.
-#include "stage.glsl"
+#include "given.glsl"
 #include "light.glsl"
 in vec3 worldPoint;
 in vec3 bodyPoint;
 flat in vec3 bodyNormal, half_B, centre, colour, colourBack;
 flat in vec4 turnBody;
 flat in float alpha, banded;
+flat in vec2 pass;                // opacity, keepAbove as in body.vert
 #ifdef FACETS
 in vec3 smoothNormal, toEdge;
 flat in float thickness;
 #endif
-uniform float opacity;            // of the whole pass
-uniform float keepAbove;          // as in body.vert
 layout(location = 0) out vec4 result;
 
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
+// Light comes first in each, while there is little to keep over nine looks at a map.
 struct Surface {
+  float sun;                      // share of the key light that arrives
   vec3 point, normal;             // in the world
   vec3 point_B;                   // in the body
   float edge;                     // 1 on an edge line
@@ -32,17 +33,19 @@ float edgeLine(float pixels, float smallest, float pixel) {
 }
 
 Surface boxSurface() {
+  float sun = lit(worldPoint);
   vec3 away = 1e3 * abs(bodyNormal);
   vec3 toEdge = half_B - abs(bodyPoint);
   vec3 pixels = toEdge / max(fwidth(bodyPoint), 1e-6) + away;
   float smallest = min(half_B.x, min(half_B.y, half_B.z)), pixel = pixelSize(worldPoint);
   vec3 bevel = clamp(1.0 - (toEdge + away) / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
   vec3 tilted = bodyNormal + 0.9 * bevel * sign(bodyPoint);
-  return Surface(worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
+  return Surface(sun, worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
                  edgeLine(min(pixels.x, min(pixels.y, pixels.z)), smallest, pixel));
 }
 
 Surface cylinderSurface() {
+  float sun = lit(worldPoint);
   bool cap = abs(bodyNormal.y) > 0.5;
   vec3 outward = vec3(bodyPoint.x, 0.0, bodyPoint.z) / max(length(bodyPoint.xz), 1e-9);
   vec3 upward = vec3(0.0, sign(bodyPoint.y), 0.0);
@@ -50,21 +53,23 @@ Surface cylinderSurface() {
   float smallest = min(half_B.x, half_B.y), pixel = pixelSize(worldPoint);
   float bevel = clamp(1.0 - toRim / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
   vec3 tilted = cap ? upward + 0.9 * bevel * outward : outward + 0.9 * bevel * upward;
-  return Surface(worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
+  return Surface(sun, worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
                  edgeLine(toRim / max(fwidth(toRim), 1e-6), smallest, pixel));
 }
 
 #ifdef FACETS
 Surface facetSurface() {
+  float sun = lit(worldPoint);
   vec3 pixels = toEdge / max(fwidth(toEdge), 1e-6);
-  return Surface(worldPoint, rotate(turnBody, normalize(smoothNormal)), bodyPoint,
+  return Surface(sun, worldPoint, rotate(turnBody, normalize(smoothNormal)), bodyPoint,
                  edgeLine(min(pixels.x, min(pixels.y, pixels.z)), thickness, pixelSize(worldPoint)));
 }
 #endif
 // With lines where the planes of the principal axes cut it.
 Surface ellipsoidSurface() {
+  float sun = lit(worldPoint);
   vec3 normal = normalize(bodyPoint / (half_B * half_B)), pixels = abs(bodyPoint) / max(fwidth(bodyPoint), 1e-6);
-  return Surface(worldPoint, rotate(turnBody, normal), bodyPoint, edgeLine(min(pixels.x, min(pixels.y, pixels.z)), 1.0, 1e-6));
+  return Surface(sun, worldPoint, rotate(turnBody, normal), bodyPoint, edgeLine(min(pixels.x, min(pixels.y, pixels.z)), 1.0, 1e-6));
 }
 
 // Where the sight line through this fragment first meets the exact sphere.
@@ -74,7 +79,7 @@ Surface ballSurface() {
   float root = sqrt(max(0.0, along * along - dot(p, p) + r * r));
   vec3 normal = normalize(p - (along + root) * sight);
   vec4 back = vec4(-turnBody.xyz, turnBody.w);
-  return Surface(centre + r * normal, normal, r * rotate(back, normal), 0.0);
+  return Surface(lit(centre + r * normal), centre + r * normal, normal, r * rotate(back, normal), 0.0);
 }
 
 // The colour of the half of the body that the point lies in.
@@ -103,7 +108,7 @@ vec3 spinMark(vec3 base, Surface s) {
 // Share of this fragment on the wanted side of the floor; all but balls are cut before.
 float kept(Surface s) {
 #ifdef BALL
-  return keepAbove == 0.0 ? 1.0 : clamp(0.5 + keepAbove * s.point.y / max(fwidth(s.point.y), 1e-6), 0.0, 1.0);
+  return pass.y == 0.0 ? 1.0 : clamp(0.5 + pass.y * s.point.y / max(fwidth(s.point.y), 1e-6), 0.0, 1.0);
 #else
   return 1.0;
 #endif
@@ -129,18 +134,18 @@ void main() {
 #if defined(GLASS)
   float rim = 1.0 - facing;
   vec3 c = mix(shadePlain(base, s.normal), 0.55 * base, s.edge);
-  result = vec4(c, opacity * mix(0.18 + 0.25 * rim * rim * rim, 0.85, s.edge));
+  result = vec4(c, pass.x * mix(0.18 + 0.25 * rim * rim * rim, 0.85, s.edge));
 #else
 #if defined(GHOST)
   vec3 c = shadePlain(spinMark(base, s), s.normal);
 #else
-  vec3 c = shadeSolid(spinMark(base, s), s.point, s.normal, toEye);
+  vec3 c = shadeSolid(spinMark(base, s), s.point, s.normal, toEye, s.sun);
 #endif
   c = mix(c, 0.52 * c, 0.75 * s.edge);
 #ifdef BALL
   float limb = (1.0 - facing) * (1.0 - facing);
   c *= sqrt(1.0 - 0.38 * limb * limb);
 #endif
-  result = vec4(c, opacity * alpha * share);
+  result = vec4(c, pass.x * alpha * share);
 #endif
 }

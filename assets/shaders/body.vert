@@ -1,5 +1,6 @@
 // Boxes, cylinders, ellipsoids, balls and facets, seen from the camera, from the light or from above.
-#include "stage.glsl"
+#define GIVES
+#include "given.glsl"
 #include "instance.glsl"
 
 invariant gl_Position;
@@ -9,11 +10,13 @@ out vec2 heights;                 // lowest and highest point of the body above 
 flat out vec3 bodyNormal, half_B, centre, colour, colourBack;
 flat out vec4 turnBody;
 flat out float alpha, present, banded;
+flat out vec2 pass;              // opacity, keepAbove
 #ifdef FACETS
 layout(location = 8) in vec3 cornerToEdge;
 out vec3 smoothNormal, toEdge;
 flat out float thickness;
 #endif
+uniform float opacity;            // of the whole pass
 uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below, 0 all
 uniform float layer;              // depth by which each body lies before the one drawn before it
 
@@ -36,6 +39,8 @@ vec3 ballCorner(vec3 c, float r) {
 }
 
 void main() {
+  give();
+  pass = vec2(opacity, keepAbove);
   centre = centreAlpha.xyz;
   alpha = centreAlpha.w;
   half_B = halfExtent.xyz;

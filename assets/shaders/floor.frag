@@ -1,10 +1,10 @@
 // Paper with two families of grid lines, contact shadow and cast shadow, fading into the page.
-#include "stage.glsl"
+#include "given.glsl"
 #include "page.glsl"
 uniform sampler2D aboveMap;
-uniform vec2 gridShift, fineShift;   // where the middle of the stage lies between grid lines, in lines
-uniform vec2 gridStep;               // coarse and fine [m]; 0 draws none
 in vec2 place;
+flat in vec4 shifts;                 // where the middle of the stage lies between grid lines, in lines
+flat in vec2 steps;                  // coarse and fine [m]; 0 draws none
 layout(location = 0) out vec4 result;
 
 const vec3 kTint = vec3(0.9569, 0.9529, 0.9412) / vec3(0.9804, 0.9804, 0.9725);
@@ -21,8 +21,8 @@ void main() {
   float fade = 1.0 - smoothstep(0.75 * extent.x, 1.96 * extent.x, length(place));
   vec3 c = page(1.0 - gl_FragCoord.y / image.y) * kTint;
   float scale = max(forward.w, 0.75);
-  if (gridStep.x > 0.0) c = mix(c, kInk, 0.26 * lines(place / gridStep.x + gridShift, 1.15 * scale));
-  if (gridStep.y > 0.0) c = mix(c, kInk, 0.10 * lines(place / gridStep.y + fineShift, 0.90 * scale));
+  if (steps.x > 0.0) c = mix(c, kInk, 0.26 * lines(place / steps.x + shifts.xy, 1.15 * scale));
+  if (steps.y > 0.0) c = mix(c, kInk, 0.10 * lines(place / steps.y + shifts.zw, 0.90 * scale));
   vec3 map = texture(aboveMap, 0.5 + 0.5 * vec2(place.x, -place.y) / extent.y).rgb;
   c *= mix(vec3(1.0), vec3(0.66, 0.69, 0.75), map.b) * mix(vec3(1.0), vec3(0.60, 0.60, 0.63), map.r);
   result = vec4(c * fade, fade);

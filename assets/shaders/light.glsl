@@ -31,9 +31,9 @@ float openness(vec3 p, vec3 n) {
 
 vec3 develop(vec3 radiance) { return sqrt(radiance / (1.0 + 0.55 * max(radiance - 0.8, 0.0))); }
 
-// The 15 % that wrap around keep grazing faces from showing the texels of the shadow map.
-vec3 shadeSolid(vec3 colour, vec3 p, vec3 n, vec3 toEye) {
-  float nd = dot(n, light.xyz), s = lit(p), ao = openness(p, n);
+// s: share of the key light that arrives. The 15 % that wrap around keep grazing faces from showing the texels of the shadow map.
+vec3 shadeSolid(vec3 colour, vec3 p, vec3 n, vec3 toEye, float s) {
+  float nd = dot(n, light.xyz), ao = openness(p, n);
   float diffuse = 0.85 * max(nd, 0.0) * s + 0.15 * (0.5 + 0.5 * nd) * (0.6 + 0.4 * s);
   float nh = max(dot(n, normalize(light.xyz + toEye)), 0.0);
   float gloss = nh * nh, gloss4 = gloss * gloss, gloss16 = gloss4 * gloss4 * gloss4 * gloss4;
