@@ -46,7 +46,7 @@ void needPieces(const Polyhedron& solid, const Pieces& pieces, double tolerance)
 
 // With a tolerance that the length of the text decides.
 void takeApart(const Polyhedron& solid, std::size_t size) {
-  constexpr std::size_t kFew = 100;  // faces; more take seconds
+  constexpr std::size_t kFew = 60;  // faces; a hundred may take a minute under sanitizers
   if (solid.faces.size() > kFew) return;
   double reach = 0.0;
   for (const Vec3& p : solid.points) reach = std::max(reach, (p - solid.points[0]).norm());
