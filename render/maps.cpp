@@ -3,9 +3,12 @@
 namespace tumble {
 namespace {
 
-void setWrap(GLenum wrap) {
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap));
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
+/// Outside the map every texel has this value.
+void setBorder(float value) {
+  const float border[4] = {value, value, value, value};
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border);
 }
 
 }  // namespace
@@ -19,7 +22,7 @@ void ShadowMap::resize(int size) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  setWrap(GL_CLAMP_TO_EDGE);
+  setBorder(1.0f);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_, 0);
   glDrawBuffer(GL_NONE);
@@ -34,13 +37,9 @@ void ShadowMap::draw(const Bodies& bodies, const Stage& stage) {
   glViewport(0, 0, size_, size_);
   glEnable(GL_DEPTH_TEST);
   glClear(GL_DEPTH_BUFFER_BIT);
-  // Its rim stays lit, so that everything beyond is.
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(1, 1, size_ - 2, size_ - 2);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.2f, 4.0f);
   bodies.drawFromLight();
-  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -57,7 +56,7 @@ AboveMap::AboveMap(const std::string& shaders)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSize, kSize, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    setWrap(GL_CLAMP_TO_BORDER);  // where nothing stands: a texture's border is black
+    setBorder(0.0f);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
     gl::checkFramebuffer("the map from above");
