@@ -83,13 +83,13 @@ void drawCell(const Vector2d& corner, const Vector2d& size, const std::string& n
   }
 }
 
-constexpr double kCellHeight = 48.0, kRowGap = 14.0;
+constexpr double kCellHeight = 48.0, kRowGap = 14.0, kFlowHeight = 118.0;
 
 }  // namespace
 
 double diagramShare(const Scene& scene, const Vector2d& page) {
   if (scene.show.diagram.empty()) return 0.0;
-  const double height = scene.show.diagram == "state" ? 2.0 * kCellHeight + kRowGap : 104.0;
+  const double height = scene.show.diagram == "state" ? 2.0 * kCellHeight + kRowGap : kFlowHeight;
   return (height + kEdge + 24.0) / page.y();
 }
 
@@ -146,8 +146,12 @@ void addSolverDiagram(const Scene& scene, const Vector2d& whole, Picture& pictur
 
 namespace {
 
-constexpr std::array kStages = {"update the state", "detect collisions", "find contact points",
-                                "respond: impulses", "forces at rest"};
+struct Stage {
+  const char *upper, *lower;  // its words, in two lines
+};
+constexpr std::array kStages = {Stage{"update", "the state"}, Stage{"detect", "collisions"},
+                                Stage{"find contact", "points"}, Stage{"respond:", "impulses"},
+                                Stage{"forces", "at rest"}};
 
 // Which stage the instant is about: that of an impact since the sample before, of contacts that
 // rest, or of free flight.
@@ -174,9 +178,9 @@ void drawEvents(const Recording& recording, const Sample& sample, double left, d
                 impact ? colour::kForce : colour::kVelocity);
   }
   sketch.disc({at(sample.t), y}, 11.0, colour::kInk);
-  sketch.text({left - 8.0, y + 4.0}, "0", {12.5, Align::Right, colour::kQuiet});
+  sketch.text({left - 8.0, y + 4.0}, "0", {16.0, Align::Right, colour::kQuiet});
   sketch.text({right + 8.0, y + 4.0}, fmt::format("{:g} s", end),
-              {12.5, Align::Left, colour::kQuiet});
+              {16.0, Align::Left, colour::kQuiet});
 }
 
 }  // namespace
@@ -184,10 +188,10 @@ void drawEvents(const Recording& recording, const Sample& sample, double left, d
 void addFlowDiagram(const Recording& recording, const Sample& sample, const Vector2d& whole,
                     Picture& picture) {
   const Vector2d page = whole / unitOf(whole);
-  constexpr double kGap = 22.0, kHeight = 40.0;
+  constexpr double kGap = 22.0, kHeight = 54.0;
   const double width = std::min(190.0, (page.x() - 60.0 - 4.0 * kGap) / 5.0);
   const double left = 0.5 * (page.x() - 5.0 * width - 4.0 * kGap);
-  const double top = page.y() - kEdge - 104.0;
+  const double top = page.y() - kEdge - kFlowHeight;
   const std::size_t lit = stageAt(recording, sample);
   Sketch sketch(picture, unitOf(whole));
   for (std::size_t k = 0; k < kStages.size(); ++k) {
@@ -195,8 +199,9 @@ void addFlowDiagram(const Recording& recording, const Sample& sample, const Vect
     const bool now = k == lit;
     sketch.box({x, top}, {width, kHeight}, now ? kLit : kPaper,
                now ? colour::kForce : colour::kQuiet);
-    sketch.text({x + 0.5 * width, top + 25.0}, kStages[k],
-                {std::min(15.0, 0.102 * width), Align::Centre, colour::kInk, now});
+    const Sketch::Style words{std::min(19.0, 0.145 * width), Align::Centre, colour::kInk, now};
+    sketch.text({x + 0.5 * width, top + 23.0}, kStages[k].upper, words);
+    sketch.text({x + 0.5 * width, top + 44.0}, kStages[k].lower, words);
     if (k > 0)
       sketch.arrow({x - kGap + 2.0, top + 0.5 * kHeight}, {x - 2.0, top + 0.5 * kHeight},
                    colour::kQuiet);
@@ -207,7 +212,7 @@ void addFlowDiagram(const Recording& recording, const Sample& sample, const Vect
   sketch.arrow({left + 0.5 * width, back}, {left + 0.5 * width, top + kHeight + 2.0},
                colour::kQuiet);
   sketch.text({second + 8.0, back + 4.0}, "too deep: back to the instant of touch",
-              {12.5, Align::Left, colour::kQuiet});
+              {16.0, Align::Left, colour::kQuiet});
   // The colour bar of a strobe stands in the corner.
   const double right =
       std::min(left + 5.0 * width + 4.0 * kGap - 40.0, page.x() - (picture.bar ? 400.0 : 0.0));
