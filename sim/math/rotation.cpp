@@ -141,7 +141,13 @@ Quat turnBetween(const Vec3& from, const Vec3& to) {
   return Quat(c, scale * w.x(), scale * w.y(), scale * w.z()) * q;
 }
 
-[[gnu::flatten]] Mat3 rotationMatrix(const Quat& q) {
+[[gnu::flatten]] Vec3 turnVector(const Quat& q) {
+  const double sine = q.vec().norm(), sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const double scale = sine > 0.0 ? 2.0 * std::atan2(sine, sign * q.w()) / sine : 2.0;
+  return sign * scale * q.vec();
+}
+
+Mat3 rotationMatrix(const Quat& q) {
   const double s = 2.0 / q.squaredNorm();
   const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
   Mat3 R;

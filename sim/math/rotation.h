@@ -27,6 +27,9 @@ Quat turnBetween(const Vec3& from, const Vec3& to);
 ///   exp(w) = (cos(|w|/2), sin(|w|/2) w/|w|)
 Quat rotated(const Quat& q, const Vec3& w);
 
+/// The inverse: w, |w| ≤ π, with  exp(w) = ±q  for a unit quaternion.
+Vec3 turnVector(const Quat& q);
+
 /// Rotation matrix of a quaternion of any length but zero; the same for q and for 2q, so that the
 /// stages of an integrator, where q is only nearly of unit length, still see a rotation.
 Mat3 rotationMatrix(const Quat& q);

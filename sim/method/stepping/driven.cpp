@@ -1,5 +1,10 @@
 // Springs and drag in a step. Driven groups that something touches, or that are too stiff to be
-// followed, have their springs solved together with contacts; drag decays on the way.
+// followed, have their springs solved together with contacts; drag decays on the way. What joints
+// alone hold goes by RATTLE under all forces: half of what they give comes before the move, half
+// after it,
+//   M (v½ − v0) = ½ h F(x0, v0) + J0ᵀ λ0,  x1 = x0 + h v½,
+//   M (v1 − v½) = ½ h F(x1, 2 v½ − v0) + J1ᵀ λ1,
+// where 2 v½ − v0 differs from v1 by terms in h².
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +17,8 @@ namespace tumble {
 
 void Stepping::bindGroups(double h) {
   constexpr double kStiff =
-      4.0;  // [rad] in a step; below, some hundred evaluations follow a spring
+      4.0;                       // [rad] in a step; below, some hundred evaluations follow a spring
+  constexpr double kSoft = 0.5;  // [rad] in a part: what is faster is followed by rows
   Drives& drives = *memory_.drives;
   if (work_.flown.empty() || (tiesRun() && !drives.groups.empty()))
     work_.flown.assign(state_.bodies.size(), 0);
@@ -21,24 +27,36 @@ void Stepping::bindGroups(double h) {
   for (const Drag& drag : drives.drags)
     work_.drags.push_back(dragStep(drag, state_.bodies[drag.body], h));
   if (drives.groups.empty()) return;
+  for (Chain& chain : drives.chains) chain.halved = !chain.limited;
+  const auto touches = [&](int i) {
+    work_.joined[i] = 1;
+    if (drives.chainOf[i] >= 0) drives.chains[drives.chainOf[i]].halved = false;
+  };
   work_.joined.assign(state_.bodies.size() + 1, 0);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     for (const Touch& touch : memory_.pairs[k].touches)
-      if (!flies(touch, h))
-        work_.joined[state_.near[k].first] = work_.joined[state_.near[k].second] = 1;
+      if (!flies(touch, h)) {
+        touches(state_.near[k].first);
+        touches(state_.near[k].second);
+      }
   for (const Joint& joint : model_.joints) work_.joined[joint.a] = work_.joined[joint.b] = 1;
   for (DrivenGroup& group : drives.groups) {
     const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
     group.stiff = fastest * model_.def.stepping.step > kStiff;
+    if (fastest * h > kSoft) drives.chains[group.chain].halved = false;
+  }
+  for (DrivenGroup& group : drives.groups) {
     const auto held = [&](int i) { return !model_.fixed(i) && work_.joined[i]; };
     group.bound = group.stiff || std::any_of(group.bodies.begin(), group.bodies.end(), held);
+    group.halved = group.bound && drives.chains[group.chain].halved;
     for (std::size_t k = 0; k < group.bodies.size(); ++k) {
       if (model_.fixed(group.bodies[k])) continue;
       if (!group.bound) work_.flown[group.bodies[k]] = 1;
       group.moved[k] = state_.bodies[group.bodies[k]];
     }
+    if (group.halved) group.power = powerOfForces(group.forces, group.moved);
     if (!group.bound || group.springs.empty()) continue;
-    sumForces(model_.def.gravity, group.others, group.moved);
+    sumForces(model_.def.gravity, group.halved ? group.forces : group.others, group.moved);
     for (std::size_t k = 0; k < group.bodies.size(); ++k) {
       RigidBody& body = state_.bodies[group.bodies[k]];
       if (body.fixed()) continue;
@@ -60,7 +78,7 @@ void Stepping::addSprings(double h) {
   work_.springs.clear();
   if (!tiesRun()) return;
   for (const DrivenGroup& group : memory_.drives->groups) {
-    if (!group.bound) continue;
+    if (!group.bound || group.halved) continue;
     for (const Spring& spring : group.springs) addSpring(spring, group.stiff, h);
     if (group.stiff && !group.springs.empty())
       report_.note(
@@ -165,6 +183,43 @@ void Stepping::bookSprings(double h) {
   report_.certificate.work_of_forces += work + storedInStiff() - work_.stored;
 }
 
+/// The second half of what forces give, where the bodies now are.
+void Stepping::pushAgain(double h) {
+  if (!tiesRun()) return;
+  for (DrivenGroup& group : memory_.drives->groups) {
+    if (!group.halved) continue;
+    for (std::size_t k = 0; k < group.bodies.size(); ++k) {
+      RigidBody& ahead = group.moved[k];
+      ahead = state_.bodies[group.bodies[k]];
+      if (ahead.fixed()) continue;
+      const Push& push = memory_.pushes[group.bodies[k]];
+      ahead.P = 2.0 * ahead.P - push.P0;
+      ahead.L = 2.0 * ahead.L - push.L0;
+      updateVelocities(ahead);
+    }
+    sumForces(model_.def.gravity, group.forces, group.moved);
+    for (std::size_t k = 0; k < group.bodies.size(); ++k) {
+      RigidBody& body = state_.bodies[group.bodies[k]];
+      if (body.fixed()) continue;
+      body.P += 0.5 * h * group.moved[k].force;
+      body.L += 0.5 * h * group.moved[k].torque;
+      state_.externalImpulse += 0.5 * h * group.moved[k].force;
+      updateVelocities(body);
+    }
+  }
+}
+
+void Stepping::bookHalves(double h) {
+  if (!tiesRun()) return;
+  for (DrivenGroup& group : memory_.drives->groups) {
+    if (!group.halved) continue;
+    for (std::size_t k = 0; k < group.bodies.size(); ++k)
+      group.moved[k] = state_.bodies[group.bodies[k]];
+    report_.certificate.work_of_forces +=
+        0.5 * h * (group.power + powerOfForces(group.forces, group.moved));
+  }
+}
+
 /// Drag takes what neither contacts nor the other forces explain.
 void Stepping::applyDragged(int i, double h) {
   RigidBody& body = state_.bodies[i];
@@ -198,7 +253,7 @@ double Stepping::steadyPower() const {
   for (const Force& force : memory_.drives->steady) {
     const UniformWind* wind = std::get_if<UniformWind>(&force);
     const int body = wind ? wind->body : std::get<PointForce>(force).body;
-    if (!work_.flown[body] && isActive(body))
+    if (!work_.flown[body] && !isHalved(body) && isActive(body))
       sum += powerOfForces(std::span(&force, 1), state_.bodies);
   }
   return sum;

@@ -6,6 +6,7 @@
 
 #include "sim/body/principal_axes.h"
 #include "sim/contact/rows.h"
+#include "sim/math/rotation.h"
 #include "sim/problem/problem.h"
 
 namespace tumble {
@@ -28,9 +29,14 @@ bool changes(const Force& force) {
 std::vector<int> rootsOf(const Model& model) {
   std::vector<int> root(model.count());
   std::iota(root.begin(), root.end(), 0);
-  std::vector<char> driven(model.count(), 0);
+  std::vector<char> driven(model.count(), 0), joined(model.count() + 1, 0);
+  for (const Joint& joint : model.joints) joined[joint.a] = joined[joint.b] = 1;
   const auto drive = [&](int body) { driven[body] = 1; };
   for (const Force& force : model.def.forces) {
+    if (const LinearDrag* drag = std::get_if<LinearDrag>(&force))
+      forEachMoving(model, drag->body, [&](int i) {
+        if (joined[i]) drive(i);
+      });
     if (!changes(force)) continue;
     if (const Spring* spring = std::get_if<Spring>(&force)) {
       const bool free = spring->b != kNoBody && !model.fixed(spring->b);
@@ -47,6 +53,37 @@ std::vector<int> rootsOf(const Model& model) {
   }
   for (int i = 0; i < model.count(); ++i) root[i] = driven[i] ? islandRoot(root, i) : -1;
   return root;
+}
+
+/// Finds what joints make one of groups.
+void findChains(const Model& model, Drives& drives) {
+  std::vector<int> root(model.count());
+  std::iota(root.begin(), root.end(), 0);
+  const auto moves = [&](int i) { return i < model.count() && !model.fixed(i); };
+  const auto join = [&](int a, int b) {
+    const int p = islandRoot(root, a), q = islandRoot(root, b);
+    root[std::max(p, q)] = std::min(p, q);
+  };
+  for (const DrivenGroup& group : drives.groups)
+    for (const int i : group.bodies)
+      if (moves(i)) join(group.bodies.front(), i);
+  for (const Joint& joint : model.joints)
+    if (moves(joint.a) && moves(joint.b)) join(joint.a, joint.b);
+  drives.chainOf.assign(model.count(), -1);
+  for (DrivenGroup& group : drives.groups) {
+    int& chain = drives.chainOf[islandRoot(root, group.bodies.front())];
+    if (chain < 0) {
+      chain = static_cast<int>(drives.chains.size());
+      drives.chains.emplace_back();
+    }
+    group.chain = chain;
+  }
+  for (int i = 0; i < model.count(); ++i) drives.chainOf[i] = drives.chainOf[islandRoot(root, i)];
+  for (const Joint& joint : model.joints) {
+    if (!std::isfinite(joint.lo) && !std::isfinite(joint.hi)) continue;
+    for (const int i : {joint.a, joint.b})
+      if (moves(i) && drives.chainOf[i] >= 0) drives.chains[drives.chainOf[i]].limited = true;
+  }
 }
 
 /// Adds a force to a group, for those of its bodies on which it acts.
@@ -154,6 +191,7 @@ Drives drivesOf(const Model& model, std::span<const RigidBody> bodies) {
     drives.groups[drives.groupOf[i]].bodies.push_back(i);
   }
   for (DrivenGroup& group : drives.groups) prepare(model, bodies, group);
+  findChains(model, drives);
   for (const Force& force : model.def.forces) {
     if (!std::holds_alternative<Bending>(force)) drives.outer.push_back(force);
     if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
@@ -205,8 +243,9 @@ double fastestDrive(const DrivenGroup& group, std::span<const Drag> drags,
   double fastest = 0.0;
   const auto reach = [&](int i, const Vec3& anchor_B) {
     const RigidBody& body = bodies[i];
-    const double turning = body.particle ? 0.0 : body.IbodyInv.norm() * anchor_B.squaredNorm();
-    return body.fixed() ? 0.0 : body.invM + turning;
+    if (body.fixed()) return 0.0;
+    const Mat3 lever = skew(anchor_B);
+    return body.invM + (body.particle ? 0.0 : (lever.transpose() * body.IbodyInv * lever).norm());
   };
   for (const Spring& spring : group.springs) {
     double mobility = reach(spring.a, spring.anchorA_B);

@@ -38,9 +38,11 @@ class DrivenSystem : public System {
   mutable std::vector<RigidBody> work_;
 };
 
-/// Bodies that springs join, or one that a field drives, or a force that grips it off its centre.
-/// While nothing touches one of them, they follow their equation of motion to rounding; else, or
-/// where springs are too stiff for that, their springs are rows of the contact problem.
+/// Bodies that springs join, or one that a field drives, or a force that grips it off its centre,
+/// or one in a joint that drag brakes. While nothing touches one of them, nor any joint holds it,
+/// they follow their equation of motion to rounding. Where joints alone hold them, forces act in
+/// halves, before they move and after. Else, or where springs are too stiff for either, their
+/// springs are rows of the contact problem.
 struct DrivenGroup {
   std::vector<int> bodies;      ///< in order; fixed ones that hold a spring too
   std::vector<Force> forces;    ///< all on them, by places in `bodies`
@@ -48,7 +50,10 @@ struct DrivenGroup {
   std::vector<Spring> springs;  ///< by bodies of the world
   std::vector<Force> stores;    ///< the same
   bool stiff = false;           ///< faster than a step can follow
-  bool bound = false;           ///< in this step its springs are rows
+  bool bound = false;           ///< something holds it in this step
+  bool halved = false;          ///< and forces on it act in halves; else its springs are rows
+  int chain = 0;                ///< its place in Drives::chains
+  double power = 0.0;           ///< [W] of what has no potential, at the start of a step in halves
   std::shared_ptr<DrivenSystem> system;
   std::shared_ptr<Stepper> stepper;
   std::vector<RigidBody> moved;
@@ -84,13 +89,20 @@ struct Drag {
   Vec3 inverse = Vec3::Zero();         ///< [1/(kg m²)] inverse moments about them
 };
 
+/// Bodies that joints and springs make one.
+struct Chain {
+  bool limited = false;  ///< a joint in it has limits
+  bool halved = false;   ///< forces on it act in halves in this step
+};
+
 /// All of a model, dealt out.
 struct Drives {
   std::vector<DrivenGroup> groups;
   std::vector<Drag> drags;
-  std::vector<int> groupOf, dragOf;  ///< per body; −1: none
-  std::vector<Force> steady;         ///< wind and point forces, one for each body that they act on
-  std::vector<Force> outer;          ///< all but those of what bends
+  std::vector<Chain> chains;
+  std::vector<int> groupOf, dragOf, chainOf;  ///< per body; −1: none
+  std::vector<Force> steady;  ///< wind and point forces, one for each body that they act on
+  std::vector<Force> outer;   ///< all but those of what bends
 };
 Drives drivesOf(const Model& model, std::span<const RigidBody> bodies);
 

@@ -57,7 +57,7 @@ void Stepping::solveIslands(double h) {
   memory_.left.resize(n, 0.0);
   for (const int i : work_.active) {
     work_.after[i] = work_.star[i];
-    work_.touched[i] = 0;
+    work_.touched[i] = isHalved(i);
     work_.later[i] = 0.0;
     memory_.left[i] = 0.0;
   }
@@ -91,7 +91,7 @@ void Stepping::bookIslands(double h) {
     Vec6& star = work_.star[i];
     star = work_.before[i];
     if (body.fixed()) continue;
-    if (const int drag = memory_.drives->dragOf[i]; drag >= 0) {
+    if (const int drag = memory_.drives->dragOf[i]; drag >= 0 && !isHalved(i)) {
       const DragStep& step = work_.drags[drag];
       const Vec3 force = body.force + memory_.drives->drags[drag].linear * body.v;
       const Vec3 torque = body.torque + memory_.drives->drags[drag].angular * body.omega;
@@ -99,8 +99,9 @@ void Stepping::bookIslands(double h) {
       star.tail<3>() = step.left * body.omega + h * step.Iinv * torque;
       continue;
     }
-    star.head<3>() = body.v + h * body.invM * body.force;
-    star.tail<3>() = body.Iinv * (body.L + h * body.torque);
+    const double part = isHalved(i) ? 0.5 * h : h;
+    star.head<3>() = body.v + part * body.invM * body.force;
+    star.tail<3>() = body.Iinv * (body.L + part * body.torque);
   }
 }
 
@@ -175,7 +176,8 @@ void Stepping::swing(std::span<const Link> links, double h) {
     const bool touched =
         (v - star).lpNorm<Eigen::Infinity>() > kNothing * star.lpNorm<Eigen::Infinity>();
     work_.after[work_.movers[i]] = touched ? v : star;
-    work_.touched[work_.movers[i]] = touched || model_.bends(work_.movers[i]);
+    work_.touched[work_.movers[i]] =
+        touched || model_.bends(work_.movers[i]) || isHalved(work_.movers[i]);
   }
 }
 
@@ -184,7 +186,7 @@ int Stepping::localOf(int body) {
   if (work_.local[body] < 0) {
     work_.local[body] = static_cast<int>(work_.problem.invM.size());
     const bool world = body == static_cast<int>(state_.bodies.size());
-    const int drag = world ? -1 : memory_.drives->dragOf[body];
+    const int drag = world || isHalved(body) ? -1 : memory_.drives->dragOf[body];
     const double share = drag < 0 ? 1.0 : work_.drags[drag].way.mean;
     work_.problem.invM.push_back(world ? 0.0 : share * state_.bodies[body].invM);
     if (world)

@@ -1,11 +1,19 @@
-// Any instant inside a step: between its two ends by the parabola that meets both. Contacts ride on
-// the features that touched at its start.
+// Any instant inside a step: between its two ends by the parabola that meets both, with the
+// velocity of its end. Contacts ride on the features that touched at its start.
 #include <algorithm>
 
+#include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
 namespace {
+
+/// Whether nothing twists a body in a step of h seconds; or it turns so far in it that the step
+/// does not show how.
+bool turnsSteadily(const RigidBody& start, const RigidBody& end, double h) {
+  constexpr double kFar = 1.0;  // [rad]
+  return end.fixed() || end.particle || start.L == end.L || h * end.omega.norm() > kFar;
+}
 
 /// A body at the part s of the way from one state to another, which takes h seconds.
 RigidBody between(const RigidBody& start, const RigidBody& end, double s, double h) {
@@ -14,11 +22,19 @@ RigidBody between(const RigidBody& start, const RigidBody& end, double s, double
   const Vec3 way = end.x - start.x, bend = h * end.v - way;
   RigidBody body = end;
   body.x = start.x + s * way + (s * s - s) * bend;
-  // The turn of one step is small: the chord between the two quaternions, back on the sphere.
-  const double sign = start.q.dot(end.q) < 0.0 ? -s : s;
-  body.q.coeffs() = ((1.0 - s) * start.q.coeffs() + sign * end.q.coeffs()).normalized();
   if (!body.fixed()) body.P = body.M * (way + (2.0 * s - 1.0) * bend) / h;
+  if (turnsSteadily(start, end, h)) {
+    // The turn of one step is small: the chord between the two quaternions, back on the sphere.
+    const double sign = start.q.dot(end.q) < 0.0 ? -s : s;
+    body.q.coeffs() = ((1.0 - s) * start.q.coeffs() + sign * end.q.coeffs()).normalized();
+    updateDerived(body);
+    return body;
+  }
+  const Vec3 turn = turnVector(end.q * start.q.conjugate()), lag = h * end.omega - turn;
+  body.q = rotated(start.q, s * turn + (s * s - s) * lag).normalized();
   updateDerived(body);
+  body.L = body.R * (body.Ibody * (body.R.transpose() * (turn + (2.0 * s - 1.0) * lag))) / h;
+  updateVelocities(body);
   return body;
 }
 

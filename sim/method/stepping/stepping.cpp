@@ -193,7 +193,9 @@ void Stepping::moveTo(double t1, double h) {
       return stop("joint \"" + name + "\" came apart; try a smaller stepping.step");
     }
   }
+  pushAgain(h);
   meetJoints(h);
+  bookHalves(h);
   endPart(t1);
 }
 
@@ -324,13 +326,15 @@ void Stepping::joinStill() {
       setVelocity(body, work_.after[i].head<3>(), Vec3::Zero());
       continue;
     }
-    if (memory_.drives->dragOf[i] >= 0) {
+    const bool halved = isHalved(i);
+    if (memory_.drives->dragOf[i] >= 0 && !halved) {
       applyDragged(i, h);
       continue;
     }
-    body.P += h * body.force;
-    body.L += h * body.torque;
-    state_.externalImpulse += h * body.force;
+    const double part = halved ? 0.5 * h : h;
+    body.P += part * body.force;
+    body.L += part * body.torque;
+    state_.externalImpulse += part * body.force;
     if (work_.touched[i]) {
       const Vec6 change = work_.after[i] - work_.star[i];
       const Vec3 turn = change.tail<3>();

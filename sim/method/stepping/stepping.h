@@ -313,6 +313,13 @@ class Stepping {
   }
   /// Decides which driven groups are free in this step; the springs of others leave the forces.
   void bindGroups(double h);
+  /// Whether forces on a body act in halves.
+  bool isHalved(int body) const {
+    const int group = memory_.drives->groupOf[body];
+    return group >= 0 && memory_.drives->groups[group].halved;
+  }
+  void pushAgain(double h);
+  void bookHalves(double h);
   /// Rows of the springs of bound groups.
   void addSprings(double h);
   void addSpring(const Spring& spring, bool stiff, double h);
