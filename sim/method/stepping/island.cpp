@@ -135,12 +135,31 @@ void Stepping::swing(std::span<const Link> links, double h) {
   }
 }
 
+/// Bodies that touch each other alone, under gravity alone, fall on the parabola of what is free:
+/// it changes no velocity of one against another.
+void Stepping::fallAsOne(std::span<const Link> links, double h) {
+  const auto stands = [&](int i) {
+    return i == static_cast<int>(state_.bodies.size()) || model_.fixed(i);
+  };
+  for (const Link link : links) {
+    const auto [b, a] = ends(link);
+    if (stands(a) || stands(b)) return;
+  }
+  for (const int i : work_.movers) {
+    const RigidBody& body = state_.bodies[i];
+    if (isDriven(i) || !body.torque.isZero(0.0) || body.force != body.M * model_.def.gravity)
+      return;
+  }
+  for (const int i : work_.movers) work_.later[i] = 0.5 * h;
+}
+
 [[gnu::flatten]] void Stepping::solveIsland(std::span<const Link> links, double h) {
   collectBodies(links);
   if (work_.movers.empty()) return;
   work_.heads.push_back(work_.movers.front());
   const bool bent = anyBends();
-  if (!bent) swing(links, h);
+  if (!bent && isBonded(links)) swing(links, h);
+  if (!bent && !isBonded(links)) fallAsOne(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
   const bool stretches = !bent && rests(memory, links, h);
   memory.kept = stretches || (!bent && keeps(memory, links));

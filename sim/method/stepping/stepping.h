@@ -250,6 +250,7 @@ class Stepping {
   void solveIsland(std::span<const Link> links, double h);
   void collectBodies(std::span<const Link> links);
   void swing(std::span<const Link> links, double h);
+  void fallAsOne(std::span<const Link> links, double h);
   bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
