@@ -195,8 +195,12 @@ void CellGrid::chooseMiddle() {
 }
 
 void CellGrid::sortIntoLevels() {
-  // Cells of level k are 4^k usual boxes wide.
-  std::array<int, 2 * kSizes + 2> counts{};
+  // Cells of level k are 4^k usual boxes wide. Boxes that are told apart have levels of their own.
+  std::array<int, 2 * (2 * kSizes + 2)> counts{};
+  const auto keyOf = [&](int i) {
+    const int size = size_[static_cast<std::size_t>(i)];
+    return static_cast<std::size_t>(2 * (size + kSizes) + (bothApart(i, i) ? 1 : 0));
+  };
   size_.assign(wide_.size(), kNoLevel);
   for (std::size_t i = 0; i < wide_.size(); ++i) {
     const double ratio = extentOf(wide_[i]) / usual_ * (1.0 + kSlack);
@@ -207,34 +211,29 @@ void CellGrid::sortIntoLevels() {
     const double away = (wide_[i].lo - middle_).lpNorm<Eigen::Infinity>();
     if (size > kSizes || !(away < kFar * std::ldexp(usual_, 2 * size))) continue;
     size_[i] = size;
-    ++counts[static_cast<std::size_t>(size + kSizes)];
+    ++counts[keyOf(static_cast<int>(i))];
   }
 
-  std::array<int, 2 * kSizes + 2> levelOf{};
+  std::array<int, counts.size()> levelOf{};
   used_ = 0;
-  for (int size = -kSizes; size <= kSizes; ++size) {
-    const auto k = static_cast<std::size_t>(size + kSizes);
-    if (counts[k] <= kFew) continue;
+  for (std::size_t key = 0; key < counts.size(); ++key) {
+    if (counts[key] <= kFew) continue;
     if (levels_.size() == used_) levels_.emplace_back();
-    levelOf[k] = static_cast<int>(used_);
-    levels_[used_].size = size;
+    levelOf[key] = static_cast<int>(used_);
+    levels_[used_].size = static_cast<int>(key / 2) - kSizes;
+    levels_[used_].apart = key % 2 == 1;
     levels_[used_].bodies.clear();
     ++used_;
   }
   few_.clear();
-  for (std::size_t i = 0; i < wide_.size(); ++i) {
-    const auto k = static_cast<std::size_t>(size_[i] + kSizes);
-    if (size_[i] == kNoLevel || counts[k] <= kFew)
-      few_.push_back(static_cast<int>(i));
+  for (int i = 0; i < static_cast<int>(wide_.size()); ++i) {
+    const std::size_t key = keyOf(i);
+    if (counts[key] <= kFew)
+      few_.push_back(i);
     else
-      levels_[static_cast<std::size_t>(levelOf[k])].bodies.push_back(static_cast<int>(i));
+      levels_[static_cast<std::size_t>(levelOf[key])].bodies.push_back(i);
   }
   for (const int i : few_) size_[static_cast<std::size_t>(i)] = kNoLevel;
-  for (std::size_t l = 0; l < used_; ++l) {
-    const std::vector<int>& bodies = levels_[l].bodies;
-    levels_[l].apart =
-        std::all_of(bodies.begin(), bodies.end(), [&](int i) { return bothApart(i, i); });
-  }
 }
 
 /// Rounding to a float errs by 6e-8 of a coordinate. Boxes that overlap do so when rounded too, and
