@@ -7,7 +7,7 @@ void differentiate(const Corotated& solid, const ElementPlaces& x, ElementAsk as
                    ElementTerms& terms) {
   terms.clear(ask);
   const Mat3 F = deformation(solid.cell, x);
-  const Stretches stretches = stretchesOf(F);
+  const Stretches stretches = stretchesFor(ask, F);
   const auto [mu, lambda, viscosity] = solid.solid;
   const Vec3 strain = stretches.sigma - Vec3::Ones();
   const double trace = strain.sum();

@@ -7,7 +7,7 @@ void differentiate(const NeoHookean& solid, const ElementPlaces& x, ElementAsk a
                    ElementTerms& terms) {
   terms.clear(ask);
   const Mat3 F = deformation(solid.cell, x);
-  const Stretches stretches = stretchesOf(F);
+  const Stretches stretches = stretchesFor(ask, F);
   const auto [mu, lambda, viscosity] = solid.solid;
   const Vec3& s = stretches.sigma;
   // By strains e = σ − 1, whose first order cancels:  |F|² − 3 = 2 Σ e + |e|²,

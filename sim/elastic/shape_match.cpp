@@ -102,7 +102,7 @@ void differentiate(const ShapeMatch& match, const ElementPlaces& x, ElementAsk a
       terms.hessian.block<3, 3>(3 * i, 3 * j).diagonal().array() =
           stiff(i, j) + stiffness * gradient[i].dot(gradient[j]);
   addTurns(stretches, stiffness, ask == ElementAsk::Projected, turned, terms.hessian);
-  if (match.viscosity > 0.0) addViscosity(gradient, volume, match.viscosity, F, terms.damping);
+  if (match.viscosity > 0.0) setViscosity(gradient, volume, match.viscosity, F, terms.damping);
 }
 
 }  // namespace tumble

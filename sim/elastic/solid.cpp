@@ -9,38 +9,45 @@
 namespace tumble {
 namespace {
 
-/// Adds the modes in which F turns or shears in the plane of two stretches.
-void addPlaneModes(const Mat3& U, const StretchLaw& law, bool projected, double volume,
-                   const std::array<Vec3, 4>& turned, ElementMatrix& H) {
+/// Nine modes of F as its corners move along with them, and what each weighs.
+struct Modes {
+  Eigen::Matrix<double, 12, 9> q;
+  Eigen::Matrix<double, 9, 1> weight;  ///< [Pa]
+};
+
+/// The three modes of the stretches themselves.
+void findStretchModes(const Mat3& U, const StretchLaw& law, const std::array<Vec3, 4>& turned,
+                      Modes& modes) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> own(law.curvature);
+  for (int m = 0; m < 3; ++m) {
+    modes.weight[m] = own.eigenvalues()[m];
+    modes.q.col(m) = cornersOf(own.eigenvectors().col(m).asDiagonal(), U, turned);
+  }
+}
+
+/// Those in which F turns or shears in the plane of two stretches.
+void findPlaneModes(const Mat3& U, const StretchLaw& law, const std::array<Vec3, 4>& turned,
+                    Modes& modes) {
   const double half = std::sqrt(0.5);
   for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    for (const double sign : {-1.0, 1.0}) {
-      double value = sign < 0.0 ? law.twist[k] : law.flip[k];
-      if (projected) value = std::max(value, 0.0);
-      if (value == 0.0) continue;
-      Mat3 mode = Mat3::Zero();
-      mode(i, j) = half;
-      mode(j, i) = sign * half;
-      const FewVector q = cornersOf(mode, U, turned);
-      H.topLeftCorner<12, 12>().noalias() += volume * value * q * q.transpose();
+    const int i = (k + 1) % 3, j = (k + 2) % 3, twist = 3 + 2 * k, flip = twist + 1;
+    modes.weight[twist] = law.twist[k];
+    modes.weight[flip] = law.flip[k];
+    for (int c = 0; c < 4; ++c) {
+      const Vec3 up = half * turned[c][j] * U.col(i), down = half * turned[c][i] * U.col(j);
+      modes.q.col(twist).segment<3>(3 * c) = up - down;
+      modes.q.col(flip).segment<3>(3 * c) = up + down;
     }
   }
 }
 
-/// Adds the three modes of the stretches themselves.
-void addStretchModes(const Mat3& U, const StretchLaw& law, bool projected, double volume,
-                     const std::array<Vec3, 4>& turned, ElementMatrix& H) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> own(law.curvature);
-  for (int m = 0; m < 3; ++m) {
-    const double value = projected ? std::max(own.eigenvalues()[m], 0.0) : own.eigenvalues()[m];
-    const Mat3 mode = own.eigenvectors().col(m).asDiagonal();
-    const FewVector q = cornersOf(mode, U, turned);
-    H.topLeftCorner<12, 12>().noalias() += volume * value * q * q.transpose();
-  }
-}
-
 }  // namespace
+
+Vec3 stretchesAloneOf(const Mat3& F) {
+  Vec3 sigma = Eigen::JacobiSVD<Mat3>(F).singularValues();
+  if (F.determinant() < 0.0) sigma[2] *= -1.0;
+  return sigma;
+}
 
 Stretches stretchesOf(const Mat3& F) {
   const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -54,6 +61,11 @@ Stretches stretchesOf(const Mat3& F) {
     s.sigma[2] *= -1.0;
   }
   return s;
+}
+
+Stretches stretchesFor(ElementAsk ask, const Mat3& F) {
+  if (ask != ElementAsk::Energy) return stretchesOf(F);
+  return {Mat3::Identity(), Mat3::Identity(), stretchesAloneOf(F)};
 }
 
 Cell cellOf(const std::array<Vec3, 4>& x) {
@@ -93,10 +105,13 @@ void differentiateSolid(const Cell& cell, double viscosity, const Mat3& F,
   // P = U diag(ψ) Vᵀ.
   terms.gradient.head<12>() = cell.volume * cornersOf(law.slope.asDiagonal(), stretches.U, turned);
   if (ask == ElementAsk::Forces) return;
-  const bool projected = ask == ElementAsk::Projected;
-  addStretchModes(stretches.U, law, projected, cell.volume, turned, terms.hessian);
-  addPlaneModes(stretches.U, law, projected, cell.volume, turned, terms.hessian);
-  if (viscosity > 0.0) addViscosity(cell.gradient, cell.volume, viscosity, F, terms.damping);
+  Modes modes;
+  findStretchModes(stretches.U, law, turned, modes);
+  findPlaneModes(stretches.U, law, turned, modes);
+  if (ask == ElementAsk::Projected) modes.weight = modes.weight.cwiseMax(0.0);
+  modes.weight *= cell.volume;
+  setSquares(modes.q, modes.weight, terms.hessian);
+  if (viscosity > 0.0) setViscosity(cell.gradient, cell.volume, viscosity, F, terms.damping);
 }
 
 }  // namespace tumble

@@ -12,6 +12,10 @@ struct Stretches {
   Vec3 sigma;
 };
 Stretches stretchesOf(const Mat3& F);
+/// σ by itself, for half the work.
+Vec3 stretchesAloneOf(const Mat3& F);
+/// U and V where more than an energy is asked for.
+Stretches stretchesFor(ElementAsk ask, const Mat3& F);
 
 /// Ψ(σ) [Pa] and what it takes to differentiate it by F. With the pairs (i, j) = (1,2), (2,0),
 /// (0,1) of `twist[k]`, k the third:
@@ -39,21 +43,30 @@ Eigen::Matrix<double, 3 * static_cast<int>(N), 1> cornersOf(const Mat3& mode, co
   return q;
 }
 
-/// Adds D of a stress 2 η Ė with Ė = ½ d(FᵀF)/dt, which no rigid motion changes.
+/// Σ w_m q_m q_mᵀ, in the first rows and columns of A.
+template <int N, int M>
+void setSquares(const Eigen::Matrix<double, N, M>& q, const Eigen::Matrix<double, M, 1>& weight,
+                ElementMatrix& A) {
+  const Eigen::Matrix<double, N, M> weighed = q * weight.asDiagonal();
+  A.topLeftCorner<N, N>() = weighed.lazyProduct(q.transpose());
+}
+
+/// D of a stress 2 η Ė with Ė = ½ d(FᵀF)/dt, which no rigid motion changes.
 /// @param gradient  [1/m] per corner
 template <std::size_t N>
-void addViscosity(const std::array<Vec3, N>& gradient, double volume, double viscosity,
+void setViscosity(const std::array<Vec3, N>& gradient, double volume, double viscosity,
                   const Mat3& F, ElementMatrix& D) {
-  constexpr int n = 3 * static_cast<int>(N);
+  Eigen::Matrix<double, 3 * static_cast<int>(N), 6> rates;  // of Ė_ab by the corners' velocities
+  Eigen::Matrix<double, 6, 1> weights;
+  int m = 0;
   for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b) {
-      Eigen::Matrix<double, n, 1> rate;  // of Ė_ab by the corners' velocities
+    for (int b = a; b < 3; ++b, ++m) {
       for (std::size_t i = 0; i < N; ++i)
-        rate.template segment<3>(3 * i) =
+        rates.col(m).template segment<3>(3 * i) =
             0.5 * (F.col(a) * gradient[i][b] + F.col(b) * gradient[i][a]);
-      const double weight = 2.0 * viscosity * volume * (a == b ? 1.0 : 2.0);
-      D.topLeftCorner<n, n>().noalias() += weight * rate * rate.transpose();
+      weights[m] = 2.0 * viscosity * volume * (a == b ? 1.0 : 2.0);
     }
+  setSquares(rates, weights, D);
 }
 
 /// The terms of a cell whose energy density is that law at these stretches.

@@ -22,7 +22,7 @@ double strain(const ClothStretch& cloth, const ElementPlaces& x) {
 }
 
 double solidStrain(const Mat3& F) {
-  return (stretchesOf(F).sigma - Vec3::Ones()).lpNorm<Eigen::Infinity>();
+  return (stretchesAloneOf(F) - Vec3::Ones()).lpNorm<Eigen::Infinity>();
 }
 
 double strain(const Corotated& solid, const ElementPlaces& x) {

@@ -7,7 +7,7 @@ namespace tumble {
 
 void differentiate(const StrandBend& strand, const ElementPlaces& x, ElementAsk ask,
                    ElementTerms& terms) {
-  terms.clear(ask);
+  terms.clear<3>(ask);
   const Vec3 e0 = x[1] - x[0], e1 = x[2] - x[1];
   const double l0 = e0.norm(), l1 = e1.norm(), k = strand.stiffness / strand.length;
   if (l0 == 0.0 || l1 == 0.0) return;  // a piece without length has no direction
@@ -39,12 +39,10 @@ void differentiate(const StrandBend& strand, const ElementPlaces& x, ElementAsk 
   H.block<3, 3>(0, 3) = -k / (l0 * l1) * P0 * P1;
   H.block<3, 3>(3, 0) = H.block<3, 3>(0, 3).transpose();
   // From pieces to points: e₀ = x₁ − x₀, e₁ = x₂ − x₁.
-  Eigen::Matrix<double, 6, 9> pieces = Eigen::Matrix<double, 6, 9>::Zero();
-  for (int p = 0; p < 2; ++p) {
-    pieces.block<3, 3>(3 * p, 3 * p) = -Mat3::Identity();
-    pieces.block<3, 3>(3 * p, 3 * p + 3) = Mat3::Identity();
-  }
-  terms.hessian.topLeftCorner<9, 9>() = pieces.transpose() * H * pieces;
+  Eigen::Matrix<double, 9, 6> half;
+  half << -H.topRows<3>(), H.topRows<3>() - H.bottomRows<3>(), H.bottomRows<3>();
+  const auto first = half.leftCols<3>(), second = half.rightCols<3>();
+  terms.hessian.topLeftCorner<9, 9>() << -first, first - second, second;
 }
 
 }  // namespace tumble

@@ -5,7 +5,7 @@ namespace tumble {
 
 void differentiate(const StretchSpring& spring, const ElementPlaces& x, ElementAsk ask,
                    ElementTerms& terms) {
-  terms.clear(ask);
+  terms.clear<2>(ask);
   const Vec3 span = x[0] - x[1];
   const double length = span.norm(), stretch = length - spring.rest;
   terms.energy = 0.5 * spring.stiffness * stretch * stretch;
