@@ -195,6 +195,24 @@ bool Stepping::gains(double h) {
                      [](const BentBooks& books) { return books.gained(); });
 }
 
+/// Whether the step is to be taken in halves: however often linear forces were found anew, they
+/// give more than contacts take.
+bool Stepping::gainsStill(double h) {
+  constexpr double kGiven = 1e-6;        // of the energies at both ends
+  constexpr double kLeast = 1.0 / 64.0;  // of a step: shorter ones are taken as they are
+  if (!gains(h)) return false;
+  double taken = 0.0, size = 0.0;
+  for (const BentBooks& books : bentBooks_) {
+    taken += books.taken;
+    size += books.size;
+  }
+  for (const int head : work_.heads) {
+    const IslandBooks& books = memory_.islands[head].books;
+    taken += books.lostImpact + books.lostFriction;
+  }
+  return taken < -kGiven * size && h > kLeast * model_.def.stepping.step;
+}
+
 void Stepping::bookBent() {
   for (const BentBooks& books : bentBooks_) {
     state_.externalImpulse += books.external;

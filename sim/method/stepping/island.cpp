@@ -37,6 +37,7 @@ void Stepping::solveSteadily(double h) {
     if (!(again || all) || !bendFurther(h, all)) break;
     solve();
   }
+  if (bends() && work_.crushed.empty() && !misses_) misses_ = gainsStill(h);
   if (work_.crushed.empty() && !misses_) bookIslands(h);
 }
 

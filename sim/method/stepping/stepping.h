@@ -354,6 +354,7 @@ class Stepping {
   };
   BentBooks booksOf(const BendingPart& part, double h) const;
   bool gains(double h);
+  bool gainsStill(double h);
   /// Gives `act` every part that has a point in the island at hand, once.
   template <class Act>
   void forBent(const Act& act) {
