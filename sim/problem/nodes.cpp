@@ -30,8 +30,11 @@ class Nodes {
   double sweep();
   /// Goes on along the way that the sweeps before went.
   void accelerate();
+  /// Moves all points together, and gives contacts what is left of the points that they push.
+  /// @param least  [m/s] slower slip has no direction yet
+  void settle(double least);
   /// Whether what is left of the balance of momentum does no more than its share of work.
-  bool closes(const Problem& problem, const SweepSettings& settings) const;
+  bool closes(const SweepSettings& settings) const;
   void write(const Problem& problem, Solution& solution) const;
 
  private:
@@ -43,6 +46,15 @@ class Nodes {
   Vec3 openOf(int node) const { return restOf(node) - A_.own[node].lazyProduct(v_[node]); }
   void visit(int node);
   void correct();
+  void findFree();
+  void findOpen();
+  Eigen::Vector2d slipOf(const Touching& touch) const {
+    return touch.J.bottomRows<2>() * v_[touch.node] + touch.bias.tail<2>();
+  }
+  Mat3 letSlide(double least);
+  Mat3 factorTogether(const Mat3& turning);
+  void keepOut(int node);
+  void takeOpen(int node, double least);
 
   std::vector<int> nodeOf_, bodyOf_;
   NodeMatrix A_;
@@ -50,6 +62,7 @@ class Nodes {
   std::vector<Touching> touches_;  ///< by node
   std::vector<int> touchBegin_;    ///< per node
   std::vector<int> coneOf_;        ///< per touch
+  std::vector<double> mass_;
   std::vector<Vec3> side_, v_, before_, way_, open_;
   Aggregates aggregates_;
   std::vector<Freedom> free_;
@@ -121,13 +134,15 @@ void Nodes::read(const Problem& problem, std::span<const Vec3> side, const Solut
   nodeOf_.assign(problem.invM.size(), -1);
   bodyOf_.clear();
   A_.own.clear();
+  mass_.clear();
   side_.clear();
   v_.clear();
   for (std::size_t i = 0; i < problem.invM.size(); ++i) {
     if (!(problem.invM[i] > 0.0)) continue;
     nodeOf_[i] = static_cast<int>(bodyOf_.size());
     bodyOf_.push_back(static_cast<int>(i));
-    A_.own.push_back(Mat3(Vec3::Constant(1.0 / problem.invM[i]).asDiagonal()));
+    mass_.push_back(1.0 / problem.invM[i]);
+    A_.own.push_back(Mat3(Vec3::Constant(mass_.back()).asDiagonal()));
     side_.push_back(side[i]);
     v_.push_back(start.v[i].head<3>());
   }
@@ -171,15 +186,20 @@ Vec3 Nodes::restOf(int node) const {
   }
 }
 
+/// Whether a point that is pushed has all the friction that there can be.
+bool slides(const Touching& touch) {
+  constexpr double kSticks = 1.0 - 1e-9;  // of its limit: friction that has not reached it
+  const double limit = touch.mu * touch.lambda[0];
+  return limit > 0.0 && touch.lambda.tail<2>().norm() >= kSticks * limit;
+}
+
 /// A point that is pushed slides: without friction in a plane, with it along what rubs, as across
 /// that its friction turns. One that sticks, or is pushed twice, stays.
 void bind(const Touching& touch, Freedom& free) {
-  constexpr double kSticks = 1.0 - 1e-9;  // of its limit: friction that has not reached it
   const Vec3 n = touch.J.row(0).normalized();
   const Vec3 rubs = touch.J.bottomRows<2>().transpose() * touch.lambda.tail<2>();
   const bool rough = touch.kind == ConeKind::Friction && touch.mu > 0.0;
-  const bool sticks = rough && rubs.norm() < kSticks * touch.mu * touch.lambda[0];
-  if (sticks || free.kind != Freedom::Kind::All)
+  if ((rough && !slides(touch)) || free.kind != Freedom::Kind::All)
     free = {Freedom::Kind::None, Mat3::Zero()};
   else if (rough)
     free = {Freedom::Kind::Some, rubs.normalized() * rubs.normalized().transpose()};
@@ -192,14 +212,120 @@ void bind(const Touching& touch, Freedom& free) {
   constexpr int kRenewed = 10;  // sweeps in which other points come to be pushed
   if (sweeps_ == 1) aggregates_.gather(A_);
   if (sweeps_ % kRenewed == 1) {
-    free_.assign(v_.size(), {});
-    for (const Touching& touch : touches_)
-      if (touch.lambda[0] > 0.0) bind(touch, free_[touch.node]);
+    findFree();
     aggregates_.factor(A_, free_);
   }
+  findOpen();
+  aggregates_.correct(open_, v_);
+}
+
+void Nodes::findFree() {
+  free_.assign(v_.size(), {});
+  for (const Touching& touch : touches_)
+    if (touch.lambda[0] > 0.0) bind(touch, free_[touch.node]);
+}
+
+void Nodes::findOpen() {
   open_.resize(v_.size());
   for (int i = 0; i < A_.count(); ++i) open_[i] = openOf(i);
-  aggregates_.correct(open_, v_);
+}
+
+/// What is left of single points would be momentum of the whole that nothing gave. Once all points
+/// have moved together, as far as they are free, none of it is along that: what is across is what
+/// contacts did not give yet. Friction follows, and so again.
+void Nodes::settle(double least) {
+  constexpr int kRounds = 12;
+  constexpr double kClosed = 1e-12;  // of the momenta of all points
+  double momentum = 0.0;
+  for (std::size_t i = 0; i < v_.size(); ++i) momentum += mass_[i] * v_[i].norm();
+  findOpen();
+  for (int round = 0; round < kRounds; ++round) {
+    Vec3 sum = Vec3::Zero(), free = Vec3::Zero();
+    for (const Vec3& open : open_) sum += open;
+    if (sum.norm() <= kClosed * momentum) return;
+    findFree();
+    const Mat3 together = factorTogether(letSlide(least));
+    for (int i = 0; i < A_.count(); ++i) free += free_[i].along * open_[i];
+    const Vec3 d = together.transpose() * (together * free);
+    for (int i = 0; i < A_.count(); ++i) {
+      v_[i] += free_[i].along * d;
+      keepOut(i);
+    }
+    findOpen();
+    for (int i = 0; i < A_.count(); ++i) takeOpen(i, least);
+  }
+}
+
+/// What slips is free along its whole plane, against friction that turns with it.
+/// @return Σ mu λ_n/|u_t| across what slips: the change of friction by a common velocity
+Mat3 Nodes::letSlide(double least) {
+  Mat3 turning = Mat3::Zero();
+  for (const Touching& touch : touches_) {
+    if (free_[touch.node].kind != Freedom::Kind::Some || !slides(touch)) continue;
+    const Eigen::Vector2d slip = slipOf(touch);
+    const double size = slip.norm();
+    if (!(size > least)) continue;
+    const Vec3 along = touch.J.row(1) * slip[0] + touch.J.row(2) * slip[1];
+    const Vec3 n = touch.J.row(0).normalized(), across = n.cross(along) / size;
+    free_[touch.node].along = Mat3::Identity() - n * n.transpose();
+    turning += touch.mu * touch.lambda[0] / size * across * across.transpose();
+  }
+  return turning;
+}
+
+/// The factor, as of invertFactor, of H in  Σ F (r − A F d) = H d  less what turns.
+[[gnu::flatten]] Mat3 Nodes::factorTogether(const Mat3& turning) {
+  constexpr double kAcross = 1e-10;  // of the trace: along what no point is free
+  Mat3 H = turning;
+  for (int i = 0; i < A_.count(); ++i) {
+    if (free_[i].kind == Freedom::Kind::None) continue;
+    Mat3 row = Mat3::Zero();
+    const auto add = [&](const Mat3& block, const Freedom& free) {
+      if (free.kind == Freedom::Kind::All)
+        row += block;
+      else if (free.kind == Freedom::Kind::Some)
+        row.noalias() += block.lazyProduct(free.along);
+    };
+    add(A_.own[i], free_[i]);
+    for (int k = A_.begin[i]; k < A_.begin[i + 1]; ++k)
+      add(A_.near[k].block, free_[A_.near[k].node]);
+    H.noalias() += free_[i].along.lazyProduct(row);
+  }
+  H.diagonal().array() += kAcross * H.trace();
+  if (!invertFactor(H)) H.setZero();
+  return H;
+}
+
+/// No point goes below the skin with the others.
+void Nodes::keepOut(int node) {
+  for (int c = touchBegin_[node]; c < touchBegin_[node + 1]; ++c) {
+    const Vec3 n = touches_[c].J.row(0);
+    const double u = n.dot(v_[node]) + touches_[c].bias[0];
+    if (u < 0.0) v_[node] -= u / n.squaredNorm() * n;
+  }
+}
+
+/// Contacts take what is open in the point that they push, within their cones: what slides goes on
+/// to have all the friction that there can be.
+void Nodes::takeOpen(int node, double least) {
+  for (int c = touchBegin_[node]; c < touchBegin_[node + 1]; ++c) {
+    Touching& touch = touches_[c];
+    const double u = touch.J.row(0).dot(v_[node]) + touch.bias[0];
+    if (touch.lambda[0] == 0.0 && u > 0.0) continue;
+    const Vec3 before = touch.lambda, more = -touch.J.lazyProduct(open_[node]);
+    touch.lambda[0] = std::max(before[0] + more[0], 0.0);
+    if (touch.kind == ConeKind::Friction) {
+      const double limit = touch.mu * touch.lambda[0];
+      const Eigen::Vector2d slip = slipOf(touch);
+      Eigen::Vector2d rubs = before.tail<2>() + more.tail<2>();
+      if (slip.norm() > least)
+        rubs = -limit / slip.norm() * slip;
+      else if (rubs.norm() > limit)
+        rubs *= limit / rubs.norm();
+      touch.lambda.tail<2>() = rubs;
+    }
+    open_[node] += touch.J.transpose() * (touch.lambda - before);
+  }
 }
 
 double Nodes::sweep() {
@@ -232,12 +358,12 @@ void Nodes::accelerate() {
   }
 }
 
-bool Nodes::closes(const Problem& problem, const SweepSettings& settings) const {
+bool Nodes::closes(const SweepSettings& settings) const {
   double work = 0.0, energy = 0.0;
   for (int i = 0; i < A_.count(); ++i) {
     const double speed = std::max(v_[i].norm(), settings.still);
     work += v_[i].dot(openOf(i));
-    energy += 0.5 * speed * speed / problem.invM[bodyOf_[i]];
+    energy += 0.5 * mass_[i] * speed * speed;
   }
   return std::abs(work) <= settings.open * energy;
 }
@@ -266,10 +392,11 @@ SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
     const double change = nodes.sweep();
     ++report.iterations;
     report.residual = change / report.scale;
-    if (!(change <= settings.enough) || !nodes.closes(problem, settings)) continue;
+    if (!(change <= settings.enough) || !nodes.closes(settings)) continue;
     report.status = SolveStatus::Solved;
     break;
   }
+  nodes.settle(settings.enough);
   nodes.write(problem, solution);
   return report;
 }

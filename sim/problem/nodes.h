@@ -25,8 +25,8 @@ struct SweepSettings {
 /// a method of conjugate gradients (Silcowitz, Niebe & Erleben, A nonsmooth nonlinear conjugate
 /// gradient method for interactive contact force problems, 2010, §3; departure: it goes in v, not
 /// in λ, and with the change that a sweep makes, measured by the blocks of A, for the gradient). It
-/// needs no factor. Cones are satisfied to rounding however early it ends: what is left is in the
-/// balance of momentum of single points.
+/// needs no factor. Cones are satisfied however early it ends, and all points together have the
+/// momentum that b and λ give them: what is left is in the balance of single points.
 /// @param problem   Push and Friction cones, each between a body that moves and one that does not
 /// @param side      [N s] b, per body
 /// @param solution  v and λ to start from
