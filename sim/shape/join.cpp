@@ -3,15 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "sim/shape/convex_hull.h"
-#include "sim/shape/shape.h"
 
 namespace tumble {
 namespace {
+
+std::vector<HalfSpace> facesOf(const Polyhedron& solid) {
+  std::vector<HalfSpace> planes;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    const Vec3& foot = solid.points[static_cast<std::size_t>(solid.faces[f][0])];
+    planes.push_back({solid.normals[f], solid.normals[f].dot(foot)});
+  }
+  return planes;
+}
 
 Aabb boxOf(const Polyhedron& solid, double slack) {
   Aabb box{solid.points[0], solid.points[0]};
@@ -20,38 +27,60 @@ Aabb boxOf(const Polyhedron& solid, double slack) {
   return {box.lo - more, box.hi + more};
 }
 
+/// A convex solid, and how far [m] it reaches out of what it was joined from.
+struct Joined {
+  Polyhedron solid;
+  double reach = 0.0;
+  int number = 0;  ///< a new one for each that is joined
+};
+
+/// The planes of those faces of a solid that another one does not lie beyond.
+void addFacesBeside(const Polyhedron& solid, const Polyhedron& other, double slack,
+                    std::vector<HalfSpace>& planes) {
+  for (const HalfSpace& plane : facesOf(solid))
+    if (std::any_of(other.points.begin(), other.points.end(),
+                    [&](const Vec3& p) { return plane.n.dot(p) < plane.d - slack; }))
+      planes.push_back(plane);
+}
+
 /// The convex union of two solids, if it is one; none if both are flatter than numbers can tell.
-bool join(Polyhedron& a, const Polyhedron& b, double thin) {
-  std::vector<Vec3> corners = a.points;
-  corners.insert(corners.end(), b.points.begin(), b.points.end());
+bool join(Joined& a, const Joined& b, const Joining& joint) {
+  std::vector<Vec3> corners = a.solid.points;
+  corners.insert(corners.end(), b.solid.points.begin(), b.solid.points.end());
   Polyhedron both;
   try {
     both = hullInFrame(corners);
   } catch (const NotASolid&) {
     return false;
   }
-  if (std::abs(volumeOf(both) - volumeOf(a) - volumeOf(b)) > thin * areaOf(both)) return false;
-  a = std::move(both);
+  const double more = std::abs(volumeOf(both) - volumeOf(a.solid) - volumeOf(b.solid));
+  if (more > joint.thin * areaOf(both)) return false;
+  // What is in front of no face of either but those between them is in one of them.
+  std::vector<HalfSpace> planes;
+  addFacesBeside(a.solid, b.solid, joint.slack, planes);
+  addFacesBeside(b.solid, a.solid, joint.slack, planes);
+  const double reach = std::max(a.reach, b.reach) + reachOver(both, std::move(planes));
+  if (reach > joint.reach) return false;
+  a.solid = std::move(both);
+  a.reach = reach;
   return true;
 }
 
-/// Numbers of two solids that make no convex one; what is joined has a new number.
+/// Numbers of two solids that make no convex one.
 using Apart = std::set<std::pair<int, int>>;
 
 /// Joins the first two that make a convex one.
-bool joinOne(std::vector<Polyhedron>& solids, double thin, double slack, std::vector<int>& number,
-             Apart& apart) {
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t j = i + 1; j < solids.size(); ++j) {
-      if (apart.count({number[i], number[j]}) > 0) continue;
-      if (!boxOf(solids[i], slack).overlaps(boxOf(solids[j], slack)) ||
-          !join(solids[i], solids[j], thin)) {
-        apart.emplace(number[i], number[j]);
+bool joinOne(std::vector<Joined>& list, const Joining& joint, int& next, Apart& apart) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (std::size_t j = i + 1; j < list.size(); ++j) {
+      if (apart.count({list[i].number, list[j].number}) > 0) continue;
+      if (!boxOf(list[i].solid, joint.slack).overlaps(boxOf(list[j].solid, joint.slack)) ||
+          !join(list[i], list[j], joint)) {
+        apart.emplace(list[i].number, list[j].number);
         continue;
       }
-      number[i] = 1 + *std::max_element(number.begin(), number.end());
-      solids.erase(solids.begin() + static_cast<std::ptrdiff_t>(j));
-      number.erase(number.begin() + static_cast<std::ptrdiff_t>(j));
+      list[i].number = next++;
+      list.erase(list.begin() + static_cast<std::ptrdiff_t>(j));
       return true;
     }
   return false;
@@ -82,31 +111,50 @@ double areaOf(const Polyhedron& solid) {
   return sum;
 }
 
-double depthUnder(const Polyhedron& solid, const Vec3& a, const Vec3& b, const Vec3& c,
-                  double area) {
-  constexpr double kFacing = 0.1;  // cosine: faces turned further away tell nothing
-  const Vec3 product = (b - a).cross(c - a);
-  if (!(product.norm() > area)) return 0.0;
-  const Vec3 m = product.normalized();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
-    const Vec3& n = solid.normals[f];
-    const double slope = n.dot(m);
-    if (slope < kFacing) continue;
-    const double top = n.dot(solid.points[static_cast<std::size_t>(solid.faces[f][0])]);
-    const double low = std::min({n.dot(a), n.dot(b), n.dot(c)});
-    least = std::min(least, std::max(0.0, top - low) / slope);
+double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes) {
+  for (const HalfSpace& face : facesOf(convex)) planes.push_back(face);
+  const auto height = [](const HalfSpace& plane, const Vec3& p) {
+    return plane.n.dot(p) - plane.d;
+  };
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : convex.points) middle += p / static_cast<double>(convex.points.size());
+  for (const HalfSpace& plane : planes)
+    if (!(height(plane, middle) < 0.0)) return std::numeric_limits<double>::infinity();
+  double reach = 0.0;
+  for (const Vec3& corner : convex.points) {
+    // Into K by one plane after the other, then towards the middle for what is left.
+    constexpr int kRounds = 16;
+    Vec3 p = corner;
+    bool inside = false;
+    for (int round = 0; round < kRounds && !inside; ++round) {
+      inside = true;
+      for (const HalfSpace& plane : planes)
+        if (const double h = height(plane, p); h > 0.0) p -= h * plane.n, inside = false;
+    }
+    double share = 0.0;
+    for (const HalfSpace& plane : planes)
+      if (const double h = height(plane, p); h > 0.0)
+        share = std::max(share, h / (h - height(plane, middle)));
+    reach = std::max(reach, (p + share * (middle - p) - corner).norm());
   }
-  return least;
+  return reach;
 }
 
-void joinConvex(std::vector<Polyhedron>& solids, double thin, double slack) {
-  std::erase_if(solids, [](const Polyhedron& solid) { return solid.points.empty(); });
-  std::vector<int> number(solids.size());
-  std::iota(number.begin(), number.end(), 0);
+double joinConvex(std::vector<Polyhedron>& solids, const Joining& joint) {
+  std::vector<Joined> list;
+  int next = 0;
+  for (Polyhedron& solid : solids)
+    if (!solid.points.empty()) list.push_back({std::move(solid), 0.0, next++});
   Apart apart;
-  while (joinOne(solids, thin, slack, number, apart)) {
+  while (joinOne(list, joint, next, apart)) {
   }
+  solids.clear();
+  double reach = 0.0;
+  for (Joined& joined : list) {
+    reach = std::max(reach, joined.reach);
+    solids.push_back(std::move(joined.solid));
+  }
+  return reach;
 }
 
 }  // namespace tumble

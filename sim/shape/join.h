@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/shape/polyhedron.h"
+#include "sim/shape/shape.h"
 
 namespace tumble {
 
@@ -14,15 +15,22 @@ Polyhedron hullInFrame(const std::vector<Vec3>& corners);
 double volumeOf(const Polyhedron& solid);
 double areaOf(const Polyhedron& solid);
 
-/// How far [m] a triangle lies under the surface of a convex solid around it, along its own normal,
-/// at most; 0 of one with less than that area [m²].
-double depthUnder(const Polyhedron& solid, const Vec3& a, const Vec3& b, const Vec3& c,
-                  double area);
+/// How far [m] points of a convex solid are from the solid K below these planes and its own faces,
+/// at most. K is convex, so that a corner is farthest. Infinite if the middle of the corners is not
+/// in K.
+double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes);
+
+/// How two solids may be joined.
+struct Joining {
+  double thin = 0.0;   ///< [m] all over the surface of the hull of both: what volume may differ by
+  double slack = 0.0;  ///< [m] solids whose boxes are no further apart may touch
+  double reach = 0.0;  ///< [m] that what is joined may reach out of all that it is made of
+};
 
 /// Joins convex solids that share no volume wherever two of them make a convex one: the hull of
-/// both has no more volume than they have together, to `thin` [m] all over its surface. Solids
-/// without corners are left out.
-/// @param slack  [m] solids whose boxes are no further apart may touch
-void joinConvex(std::vector<Polyhedron>& solids, double thin, double slack);
+/// both has no more volume than they have together, and reaches out of them no further than is
+/// allowed. Solids without corners are left out.
+/// @return [m] how far any of them reaches out of what it is made of, at most
+double joinConvex(std::vector<Polyhedron>& solids, const Joining& joint);
 
 }  // namespace tumble

@@ -33,6 +33,9 @@ class Notches {
 
   std::vector<Notch> of(const Surface& piece) const;
 
+  /// The plane of a triangle of the mesh.
+  CutPlane planeOf(int triangle) const;
+
   /// The planes worth a look at a notch: along its faces, between them, and through a neighbour.
   std::vector<CutPlane> planesAt(const Notch& notch, const std::vector<Notch>& others) const;
 
@@ -42,7 +45,6 @@ class Notches {
  private:
   using Edge = std::pair<int, int>;
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
-  CutPlane planeOf(int triangle) const;
   CutPlane spread(CutPlane plane, const std::vector<Notch>& notches) const;
 
   const Points& points_;

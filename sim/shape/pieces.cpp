@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "sim/shape/coarse_cuts.h"
 #include "sim/shape/convex_hull.h"
@@ -23,6 +24,7 @@ using cut::Triangle;
 
 constexpr double kSnap = 2e-6;              // of the size: corners no further from a cut are on it
 constexpr long kMostWork = 20'000'000;      // triangles looked at, in all surfaces together
+constexpr long kTrialWork = 2'000'000;      // to see whether cuts at notches alone are fewer
 constexpr long kMostCoarse = 200'000'000;   // where cuts may be anywhere
 constexpr long kHullWork = 250;             // of these cost as much as a corner of a hull
 constexpr long kStirredWork = 50;           // as much as one of a hull of stirred corners
@@ -32,16 +34,22 @@ constexpr double kCoarse = 1e-3;       // of the size: from this tolerance on, c
 constexpr std::size_t kMostExact = 4;  // cuts through notches that are tried beside those
 constexpr int kSlices = 4;
 
-/// The convex hull of a piece, and how far the mesh lies under it.
+/// The convex hull of a piece, and how far it reaches out of the mesh.
 struct Wrapping {
   Polyhedron hull;
   double excess = 0.0;  ///< [m]
 };
 
+/// Where cuts may be, and how many triangles may be looked at for them.
+struct Means {
+  bool anywhere = false;
+  long work = kMostWork;
+};
+
 class Decomposer {
  public:
-  Decomposer(const Polyhedron& solid, double tolerance)
-      : given_(static_cast<int>(solid.points.size())), tolerance_(tolerance) {
+  Decomposer(const Polyhedron& solid, double tolerance, const Means& means)
+      : given_(static_cast<int>(solid.points.size())), tolerance_(tolerance), most_(means.work) {
     points_.at = solid.points;
     points_.exact.resize(solid.points.size());
     for (const std::vector<int>& face : solid.faces) {
@@ -55,7 +63,7 @@ class Decomposer {
     for (const Vec3& p : solid.points) size_ = std::max(size_, (p - solid.points[0]).norm());
     snap_ = std::min(tolerance, kSnap * size_);
     notches_.emplace(points_, whole_, cut::OnPlane{.slack = slack(), .snap = snap_});
-    if (tolerance >= kCoarse * size_) distance_.emplace(solid);
+    if (means.anywhere) distance_.emplace(solid);
   }
 
   Pieces good() {
@@ -78,7 +86,10 @@ class Decomposer {
     std::reverse(done.begin(), done.end());
     constexpr double kGrain = 1e-15;  // of the size: rounding of a corner
     constexpr double kConvex = 0.02;  // of what a cut takes for on it
-    joinConvex(done, std::max(kConvex * snap_, kGrain * size_), slack());
+    const double joined = joinConvex(done, {.thin = std::max(kConvex * snap_, kGrain * size_),
+                                            .slack = std::max(snap_, kRounding * size_),
+                                            .reach = std::max(0.0, slack() - excess_)});
+    if (tolerance_ > 0.0) excess_ += joined;
     checkVolume(done);
     return collected(std::move(done));
   }
@@ -112,7 +123,7 @@ class Decomposer {
 
  private:
   /// A question that takes whole numbers costs as much as looking at a hundred triangles.
-  bool spent() const { return work_ + 100 * points_.looks > (distance_ ? kMostCoarse : kMostWork); }
+  bool spent() const { return work_ + 100 * points_.looks > most_; }
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
   double slack() const { return std::max(tolerance_, kRounding * size_); }
 
@@ -157,12 +168,9 @@ class Decomposer {
                  ? std::optional(whole)
                  : std::nullopt;
     whole.hull = *hull;
-    if (notches.empty()) return whole;
-    const double along = depthOf(piece, whole.hull, distance_ ? snap_ : slack());
-    if (std::isfinite(along)) {
-      whole.excess = along;
-      return whole;
-    }
+    if (tolerance_ == 0.0) return whole;
+    whole.excess = reachOf(piece, whole.hull);
+    if (notches.empty() || whole.excess <= (distance_ ? snap_ : slack())) return whole;
     if (!distance_) return {};
     const Excess out = excessOf(whole.hull, *distance_, tolerance_);
     over_ = out.where;
@@ -170,16 +178,17 @@ class Decomposer {
     return out.bound <= tolerance_ ? std::optional(whole) : std::nullopt;
   }
 
-  /// How far faces of the mesh lie under a hull, each along its normal; infinite if over `most`.
-  double depthOf(const Surface& piece, const Polyhedron& hull, double most) const {
-    double depth = 0.0;
-    for (const Triangle& t : piece) {
-      if (t.face < 0) continue;
-      depth = std::max(depth, depthUnder(hull, at(t.corner[0]), at(t.corner[1]), at(t.corner[2]),
-                                         kRounding * size_ * size_));
-      if (depth > most) return std::numeric_limits<double>::infinity();
-    }
-    return depth;
+  /// How far a hull reaches out of the mesh at most: what is in front of no face of a piece sees
+  /// all its surface from within, and so is in the piece.
+  double reachOf(const Surface& piece, const Polyhedron& hull) const {
+    std::vector<HalfSpace> planes;
+    std::set<int> faces;
+    for (const Triangle& t : piece)
+      if (t.face >= 0 && faces.insert(t.face).second) {
+        const CutPlane plane = notches_->planeOf(t.face);
+        planes.push_back({plane.n, plane.d});
+      }
+    return reachOver(hull, std::move(planes));
   }
 
   /// A plane and what it is worth.
@@ -346,12 +355,24 @@ class Decomposer {
   Surface whole_;
   std::vector<int> faceOf_;  ///< per triangle of `whole_`: the face of the polyhedron
   std::optional<Notches> notches_;
-  std::optional<MeshDistance> distance_;  ///< where the tolerance is coarse
+  std::optional<MeshDistance> distance_;  ///< where cuts may be anywhere
   Vec3 over_ = Vec3::Zero();              ///< a point over a dent of the piece that was looked at
   double tolerance_, snap_ = 0.0;         ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
-  long work_ = 0;
+  long work_ = 0, most_;
 };
+
+/// By cuts anywhere, or at notches alone if these leave no more pieces, as of what is made of
+/// planes.
+Pieces fewest(const Polyhedron& solid, double tolerance) {
+  Pieces pieces = Decomposer(solid, tolerance, {true, kMostCoarse}).good();
+  try {
+    Pieces few = Decomposer(solid, tolerance, {false, kTrialWork}).good();
+    if (few.hulls.size() <= pieces.hulls.size()) return few;
+  } catch (const NoPieces&) {
+  }
+  return pieces;
+}
 
 }  // namespace
 
@@ -367,7 +388,11 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
                        std::to_string(kMostFaces) +
                        " are taken apart; simplify it, or take pieces = \"hull\"",
                    -1);
-  Decomposer decomposer(solid, tolerance);
+  double size = 0.0;
+  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
+  const bool coarse = tolerance >= kCoarse * size;
+  if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance);
+  Decomposer decomposer(solid, tolerance, {coarse, coarse ? kMostCoarse : kMostWork});
   return kind == PieceKind::Good ? decomposer.good() : decomposer.slivers();
 }
 

@@ -12,8 +12,9 @@ namespace tumble {
 /// The convex pieces that carry the contacts of a mesh, in the frame of its polyhedron.
 struct Pieces {
   std::vector<Hull> hulls;
-  double excess = 0.0;  ///< [m] no point of a piece is further from the mesh (see `piecesOf`)
-  double slack = 0.0;   ///< [m] pieces that touch overlap, or gape, by no more
+  double excess =
+      0.0;  ///< [m] no point of a piece is further from the mesh; with a tolerance of 0: 0
+  double slack = 0.0;  ///< [m] pieces that touch overlap, or gape, by no more
 };
 
 /// How a mesh is taken apart.
@@ -44,9 +45,7 @@ class NoPieces : public std::runtime_error {
 ///   Chazelle, "Convex Partitions of Polyhedra", SIAM J. Comput. 13, 1984. Departure: one plane
 ///   takes several notches, and notches shallower than the tolerance stay.
 /// From a tolerance of a thousandth of the size on, as scans need it, planes into dents and across
-/// the piece are tried beside these, and that one is taken whose parts fill their hulls best. There
-/// the excess is a bound on the distance of any point of a piece from the mesh (`excessOf`); below,
-/// on how deep a face of the mesh lies under its piece, along its normal.
+/// the piece are tried beside these, and that one is taken whose parts fill their hulls best.
 /// @param tolerance  [m] that a piece may stand out of the mesh; 0: the union of the pieces is the
 ///                   mesh, their corners rounded once
 /// @throws NoPieces  for more than kMostPieces, or too much work to find them

@@ -98,6 +98,15 @@ inline Raw bunny(int n) {
   });
 }
 
+/// A ball with six spikes.
+inline Raw spikes(int n) {
+  return around(n, [](int, int, const Vec3& way) {
+    double r = 0.3;
+    for (int k = 0; k < 3; ++k) r += 2.0 * std::pow(way[k], 20);
+    return r;
+  });
+}
+
 /// A ring of 2 n m triangles about z, its inner radius not everywhere the same.
 inline Raw roughRing(int n, int m, double rough) {
   constexpr double kTurn = 2.0 * 3.14159265358979323846;
