@@ -34,7 +34,7 @@ int exportRun(int argc, char** argv) {
         fmt::format("-o {}: expected a name that ends in .glb or .json; `tumble render` draws "
                     "images, pages and films",
                     path));
-  if (!file.parent_path().empty()) makeFolder(file.parent_path().string());
+  prepareFile(path);
   if (file.extension() == ".json") {
     makeWorld(scene);
     writeFile(path, sceneJson(scene));

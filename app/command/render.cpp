@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "app/command/command.h"
 #include "app/command/options.h"
@@ -116,6 +115,8 @@ int render(int argc, char** argv) {
   if (single && (options.jobs > 1 || !options.shard.empty()))
     throw UsageError("--jobs and --shard divide a sequence; leave them out or the single pictures");
   const std::vector<int> images = imagesOf(options, sampleCount(scene, scene.image.rate));
+  for (const std::string& path : {options.video, options.html})
+    if (!path.empty()) prepareFile(path);
   Studio studio;
   // Processes that draw open OpenGL themselves: its threads would not live on in them.
   const bool pageAlone = !options.html.empty() && !options.still && !options.strobe &&
@@ -132,14 +133,10 @@ int render(int argc, char** argv) {
   if (options.panels)
     for (const std::string& path : shoot.panels()) written.push_back(path);
   if (!options.video.empty()) {
-    const std::filesystem::path parent = std::filesystem::path(options.video).parent_path();
-    if (!parent.empty()) makeFolder(parent.string());
     shoot.video(options.video, {images.front(), images.back() + 1});
     written.push_back(options.video);
   }
   if (!options.html.empty()) {
-    const std::filesystem::path parent = std::filesystem::path(options.html).parent_path();
-    if (!parent.empty()) makeFolder(parent.string());
     shoot.page(options.html);
     written.push_back(options.html);
   }

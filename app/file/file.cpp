@@ -83,6 +83,13 @@ void writeFile(const std::string& path, const std::string& content) {
   file.finish();
 }
 
+void prepareFile(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) makeFolder(folder.string());
+  if (std::filesystem::is_directory(path)) fail("write", path, EISDIR);
+  FileWriter opens(path);
+}
+
 std::string readFile(const std::string& path) {
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) fail("read", path, errno);

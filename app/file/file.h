@@ -48,6 +48,10 @@ class FileWriter {
 /// @throws FileError; nothing half-written is left.
 void writeFile(const std::string& path, const std::string& content);
 
+/// Finds out before long work whether a file of this path can be written; makes its folder.
+/// @throws FileError
+void prepareFile(const std::string& path);
+
 /// @throws FileError
 std::string readFile(const std::string& path);
 

@@ -106,11 +106,12 @@ size = [64, 36]
     CHECK(outcome.code == 0);
     CHECK(std::filesystem::exists(scratch.path / file));
   }
-  for (const char* line : {"render drop.toml -q --html drop.toml/drop.html",
-                           "export drop.toml -q -o drop.toml/drop.json"}) {
+  for (const char* line :
+       {"render drop.toml -q --html drop.toml/drop.html", "render drop.toml -q --html c/one",
+        "render drop.toml -q --video c", "export drop.toml -q -o drop.toml/drop.json"}) {
     const Outcome outcome = tumbleRun(scratch, line);
     CAPTURE(line, outcome.err);
     CHECK(outcome.code == 5);
-    CHECK(outcome.err.find("drop.toml") != std::string::npos);
+    CHECK(outcome.err.find("cannot") != std::string::npos);
   }
 }
