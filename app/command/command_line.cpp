@@ -93,6 +93,19 @@ std::string hintOfOption(const CLI::App& app, const std::vector<std::string>& un
   return "";
 }
 
+// A value that is none of its kind, told as other refusals are: CLI11 says "Could not convert:
+// --still = -o".
+std::string worded(const CLI::App& app, const std::string& what) {
+  const std::string head = "Could not convert: ";
+  const std::size_t equals = what.find(" = ");
+  if (!what.starts_with(head) || equals == std::string::npos) return what;
+  const std::string name = what.substr(head.size(), equals - head.size());
+  const CLI::Option* option = app.get_option_no_throw(name);
+  if (!option) return what;
+  return fmt::format("{}: expected {}, found '{}'", name, option->get_type_name(),
+                     what.substr(equals + 3));
+}
+
 }  // namespace
 
 bool CommandLine::read(int argc, char** argv) {
@@ -110,7 +123,7 @@ bool CommandLine::read(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    throw UsageError(fmt::format("{}{}; `{} --help` shows how", what,
+    throw UsageError(fmt::format("{}{}; `{} --help` shows how", worded(parser_->app, what),
                                  hintOfOption(parser_->app, parser_->app.remaining()),
                                  parser_->app.get_name()));
   }

@@ -138,6 +138,7 @@ TEST_CASE("a command line that makes no sense ends with 2 and one line") {
       Slip{"simulate scene.toml --rate nan", "--rate"},
       Slip{"render scene.toml --rate inf", "--rate"},
       Slip{"render scene.toml --still nan", "--still"},
+      Slip{"render scene.toml --still --sheet", "--still: expected SECONDS, found '--sheet'"},
       Slip{"report scene.toml --budget nan", "--budget"},
       Slip{"report scene.toml --budget inf", "--budget"},
       Slip{"golden no-such-demo", "no-such-demo"});
