@@ -24,15 +24,21 @@ bits() {
   tests/house/bits.sh "$clang/tumble"
 }
 
-# fuzz NAME CORPUS options…: a minute of it.
-fuzz() {
+# fuzzed NAME CORPUS options…: a minute of it.
+fuzzed() {
   local found=$root/found-$1
   mkdir -p "$found"
   "$clang/tests/fuzz/$1_fuzz" -seed=1 -max_total_time=60 -timeout=20 -error_exitcode=1 -rss_limit_mb=2048 -max_len=8192 \
     -print_final_stats=1 "${@:3}" -artifact_prefix="$found/" "$found" "$2"
 }
-fuzz_scenes() { fuzz scene tests/fuzz/corpus -dict=tests/fuzz/scene.dict; }
-fuzz_meshes() { fuzz mesh assets/meshes; }
+# Both readers at once.
+fuzz() {
+  local status=0
+  fuzzed scene tests/fuzz/corpus -dict=tests/fuzz/scene.dict &
+  fuzzed mesh assets/meshes || status=1
+  wait $! || status=1
+  return $status
+}
 
 # The physics by clang with address and undefined-behaviour checks, each file alone with its own
 # includes. The readers are under the same checks in the fuzzers.
@@ -132,8 +138,7 @@ spent=0
 steps=(
   "warnings:clang builds program and fuzzers without a warning"
   "bits:clang's program has the same bits in every demo"
-  "fuzz_scenes:scene files survive a minute of fuzzing"
-  "fuzz_meshes:mesh files survive a minute of fuzzing"
+  "fuzz:scene and mesh files survive a minute of fuzzing"
   "sanitized_build:each file alone, with sanitizers, without a warning"
   "sanitized_run:quick tests of physics under sanitizers"
   "oracle:references in many digits"
