@@ -146,7 +146,7 @@ void Audit::addLoads() {
   impulse_.assign(n, Vec3::Zero());
   moment_.assign(n, Vec3::Zero());
   work_.assign(n, 0.0);
-  if (model_.def.forces.empty() || h_ == 0.0) return;
+  if (alone_.empty() || h_ == 0.0) return;  // what bends is a potential, as gravity is
   if (many_ && !winds_) {
     for (std::size_t i = 0; i < n; ++i)
       if (moves(i)) work_[i] = sameWorkOf(i);

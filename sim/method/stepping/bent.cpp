@@ -149,7 +149,8 @@ void Stepping::coupleBent() {
 /// along take −p from who leads them. On their way out of a solid, points move against p and
 /// gravity.
 Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
-  std::vector<Vec3> v, pull;
+  thread_local std::vector<Vec3> v, pull;  // keep their storage from call to call
+  v.clear();
   for (const int i : part.bodies) v.push_back(work_.after[i].head<3>());
   part.timesK(v, pull);
   BentBooks books;

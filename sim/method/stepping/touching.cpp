@@ -13,6 +13,12 @@ bool isAt(const Pose& pose, const RigidBody& body, double rounding) {
          (pose.q.coeffs() - body.q.coeffs()).lpNorm<Eigen::Infinity>() <= kPoseRounding;
 }
 
+/// The least power of two that is no less.
+double powerAbove(double x) {
+  const double below = std::ldexp(1.0, std::ilogb(x));
+  return below < x ? 2.0 * below : below;
+}
+
 /// Whether two levers are one but for rounding.
 bool isSame(const Lever& p, const Lever& q, double rounding) {
   const auto near = [](const Vec3& x, const Vec3& y, double within) {
@@ -85,14 +91,12 @@ bool Stepping::takePairs() {
   double speed = (a.v - b.v).norm();
   for (int i : {ib, ia})
     if (std::isfinite(model_.radius[i])) speed += state_.bodies[i].omega.norm() * model_.radius[i];
-  return marginFor(speed, h);
+  return powerAbove(marginFor(speed, h));
 }
 
 double Stepping::marginFor(double speed, double h) const {
   constexpr double kNeighbour = 1e-4;
-  const double margin = std::max(kNeighbour, h * speed + 2.0 * gravity_ * h * h + tolerance_.touch);
-  const double below = std::ldexp(1.0, std::ilogb(margin));
-  return below < margin ? 2.0 * below : below;
+  return std::max(kNeighbour, h * speed + 2.0 * gravity_ * h * h + tolerance_.touch);
 }
 
 bool Stepping::growBoxes(double h, bool fall) {
@@ -128,10 +132,9 @@ bool Stepping::lookFurther(std::size_t k, double h) {
     if (std::isfinite(model_.radius[i]))
       speed += work_.after[i].tail<3>().norm() * model_.radius[i];
   PairMemory& memory = memory_.pairs[k];
-  const double margin = marginFor(speed, h);
-  if (margin > memory.margin) {
+  if (const double margin = marginFor(speed, h); margin > memory.margin) {
     const long before = memory.form;
-    look(k, margin);
+    look(k, powerAbove(margin));
     if (memory.form != before) return !memory.touches.empty();
   }
   bool meets = false;
