@@ -124,7 +124,7 @@ void readImage(Section& root, ImageFormat& image) {
   if (!node) return;
   Section section(*node, "image", root.findings());
   double size[2] = {static_cast<double>(image.width), static_cast<double>(image.height)};
-  section.read("size", size, 2, {16.0, 16384.0, false, "pixels"});
+  section.read("size", size, 2, {16.0, 8192.0, false, "pixels"});
   image.width = static_cast<int>(size[0]);
   image.height = static_cast<int>(size[1]);
   if (image.width != size[0] || image.height != size[1])
