@@ -34,7 +34,7 @@ class Nodes {
   /// @param least  [m/s] slower slip has no direction yet
   void settle(double least);
   /// Whether what is left of the balance of momentum does no more than its share of work.
-  bool closes(const SweepSettings& settings) const;
+  bool closes(double open, double still) const;
   void write(const Problem& problem, Solution& solution) const;
 
  private:
@@ -358,14 +358,14 @@ void Nodes::accelerate() {
   }
 }
 
-bool Nodes::closes(const SweepSettings& settings) const {
+bool Nodes::closes(double open, double still) const {
   double work = 0.0, energy = 0.0;
   for (int i = 0; i < A_.count(); ++i) {
-    const double speed = std::max(v_[i].norm(), settings.still);
+    const double speed = std::max(v_[i].norm(), still);
     work += v_[i].dot(openOf(i));
     energy += 0.5 * mass_[i] * speed * speed;
   }
-  return std::abs(work) <= settings.open * energy;
+  return std::abs(work) <= open * energy;
 }
 
 void Nodes::write(const Problem& problem, Solution& solution) const {
@@ -392,11 +392,14 @@ SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
     const double change = nodes.sweep();
     ++report.iterations;
     report.residual = change / report.scale;
-    if (!(change <= settings.enough) || !nodes.closes(settings)) continue;
+    if (!(change <= settings.enough) || !nodes.closes(settings.open, settings.still)) continue;
     report.status = SolveStatus::Solved;
     break;
   }
   nodes.settle(settings.enough);
+  constexpr double kFar =
+      1.0;  // of the energies: contacts took what stiff points hold for each other
+  if (!nodes.closes(kFar, settings.still)) report.status = SolveStatus::NotConverged;
   nodes.write(problem, solution);
   return report;
 }
