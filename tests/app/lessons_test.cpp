@@ -124,7 +124,7 @@ TEST_CASE("the flow chart is lit where the instant is: flight, impact, rest") {
     const Recording recording = record(changed, 60.0);
     std::string bold;
     for (const Label& label : Presenter(changed, recording).still(t).labels)
-      if (label.bold) bold += label.text;
+      if (label.bold) bold += (bold.empty() ? "" : " ") + label.text;
     return bold;
   };
   CHECK(lit(0.1) == "update the state");
