@@ -12,10 +12,11 @@ using namespace tumble::scenes;
 
 namespace {
 
-/// A floor with a kerb 1.5 mm high at x = 0.5, and a groove of 0.9 mm along its underside.
+/// A floor with a kerb 1.5 mm high at x = 0.5, whose underside is hollow by 0.45 mm: a piece that
+/// fills the hollow reaches, by its bound, out by twice that.
 solids::Raw floorWithKerb(bool mirrored) {
-  std::vector<Vec3> outline{{-3.0, -0.5, 0},  {-2.0, -0.4991, 0}, {-1.0, -0.5, 0}, {3.0, -0.5, 0},
-                            {3.0, 0.0015, 0}, {0.5, 0.0015, 0},   {0.5, 0.0, 0},   {-3.0, 0.0, 0}};
+  std::vector<Vec3> outline{{-3.0, -0.5, 0},  {0.0, -0.49955, 0}, {3.0, -0.5, 0}, {3.0, 0.0015, 0},
+                            {0.5, 0.0015, 0}, {0.5, 0.0, 0},      {-3.0, 0.0, 0}};
   if (mirrored) {
     std::reverse(outline.begin(), outline.end());
     for (Vec3& p : outline) p.x() = -p.x();
