@@ -170,7 +170,7 @@ class Decomposer {
     whole.hull = *hull;
     if (tolerance_ == 0.0) return whole;
     whole.excess = reachOf(piece, whole.hull);
-    if (notches.empty() || whole.excess <= (distance_ ? snap_ : slack())) return whole;
+    if (whole.excess <= (distance_ ? snap_ : slack())) return whole;
     if (!distance_) return {};
     const Excess out = excessOf(whole.hull, *distance_, tolerance_);
     over_ = out.where;
