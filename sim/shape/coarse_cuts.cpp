@@ -2,8 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "sim/math/rotation.h"
 
 namespace tumble::cut {
 namespace {
@@ -38,8 +40,9 @@ std::vector<CutPlane> planesInto(const Vec3& over, const Vec3& ground, double si
   const Vec3 u = down.unitOrthogonal(), v = down.cross(u);
   std::vector<CutPlane> planes;
   for (int k = 0; k < kTurns; ++k) {
-    const double angle = 3.14159265358979323846 * k / kTurns;
-    planes.push_back(square(over, std::cos(angle) * u + std::sin(angle) * v, size));
+    double sine, cosine;
+    sinCos(std::numbers::pi * k / kTurns, sine, cosine);
+    planes.push_back(square(over, cosine * u + sine * v, size));
   }
   return planes;
 }
