@@ -1,3 +1,4 @@
+// Sweeps over points that something bends between; one class, and so long.
 #include "sim/problem/nodes.h"
 
 #include <algorithm>
