@@ -15,10 +15,33 @@
 
 namespace tumble {
 
-void Stepping::bindGroups(double h) {
+/// Tells what something holds, which groups are stiff, and which chains nothing touches.
+void Stepping::findHolds(double h) {
   constexpr double kStiff =
       4.0;                       // [rad] in a step; below, some hundred evaluations follow a spring
   constexpr double kSoft = 0.5;  // [rad] in a part: what is faster is followed by rows
+  Drives& drives = *memory_.drives;
+  for (Chain& chain : drives.chains) chain.halved = !chain.limited;
+  work_.joined.assign(state_.bodies.size() + 1, 0);
+  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+    const std::vector<Touch>& touches = memory_.pairs[k].touches;
+    if (std::all_of(touches.begin(), touches.end(),
+                    [&](const Touch& touch) { return flies(touch, h); }))
+      continue;
+    for (const int i : {state_.near[k].first, state_.near[k].second}) {
+      work_.joined[i] = 1;
+      if (const int chain = drives.chainOf[i]; chain >= 0) drives.chains[chain].halved = false;
+    }
+  }
+  for (const Joint& joint : model_.joints) work_.joined[joint.a] = work_.joined[joint.b] = 1;
+  for (DrivenGroup& group : drives.groups) {
+    const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
+    group.stiff = fastest * model_.def.stepping.step > kStiff;
+    if (fastest * h > kSoft) drives.chains[group.chain].halved = false;
+  }
+}
+
+void Stepping::bindGroups(double h) {
   Drives& drives = *memory_.drives;
   if (work_.flown.empty() || (tiesRun() && !drives.groups.empty()))
     work_.flown.assign(state_.bodies.size(), 0);
@@ -27,24 +50,7 @@ void Stepping::bindGroups(double h) {
   for (const Drag& drag : drives.drags)
     work_.drags.push_back(dragStep(drag, state_.bodies[drag.body], h));
   if (drives.groups.empty()) return;
-  for (Chain& chain : drives.chains) chain.halved = !chain.limited;
-  const auto touches = [&](int i) {
-    work_.joined[i] = 1;
-    if (drives.chainOf[i] >= 0) drives.chains[drives.chainOf[i]].halved = false;
-  };
-  work_.joined.assign(state_.bodies.size() + 1, 0);
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    for (const Touch& touch : memory_.pairs[k].touches)
-      if (!flies(touch, h)) {
-        touches(state_.near[k].first);
-        touches(state_.near[k].second);
-      }
-  for (const Joint& joint : model_.joints) work_.joined[joint.a] = work_.joined[joint.b] = 1;
-  for (DrivenGroup& group : drives.groups) {
-    const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
-    group.stiff = fastest * model_.def.stepping.step > kStiff;
-    if (fastest * h > kSoft) drives.chains[group.chain].halved = false;
-  }
+  findHolds(h);
   for (DrivenGroup& group : drives.groups) {
     const auto held = [&](int i) { return !model_.fixed(i) && work_.joined[i]; };
     group.bound = group.stiff || std::any_of(group.bodies.begin(), group.bodies.end(), held);

@@ -159,8 +159,7 @@ void Stepping::fallAsOne(std::span<const Link> links, double h) {
   if (work_.movers.empty()) return;
   work_.heads.push_back(work_.movers.front());
   const bool bent = anyBends();
-  if (!bent && isBonded(links)) swing(links, h);
-  if (!bent && !isBonded(links)) fallAsOne(links, h);
+  if (!bent) isBonded(links) ? swing(links, h) : fallAsOne(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
   const bool stretches = !bent && rests(memory, links, h);
   memory.kept = stretches || (!bent && keeps(memory, links));

@@ -250,6 +250,7 @@ class Stepping {
   void solveIsland(std::span<const Link> links, double h);
   void collectBodies(std::span<const Link> links);
   void swing(std::span<const Link> links, double h);
+  /// Of an island that nothing holds, under gravity alone: it falls on a parabola.
   void fallAsOne(std::span<const Link> links, double h);
   bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
@@ -314,12 +315,15 @@ class Stepping {
   }
   /// Decides which driven groups are free in this step; the springs of others leave the forces.
   void bindGroups(double h);
+  void findHolds(double h);
   /// Whether forces on a body act in halves.
   bool isHalved(int body) const {
     const int group = memory_.drives->groupOf[body];
     return group >= 0 && memory_.drives->groups[group].halved;
   }
+  /// The second half of what forces on them give, where they now are.
   void pushAgain(double h);
+  /// What forces without a potential did in both halves.
   void bookHalves(double h);
   /// Rows of the springs of bound groups.
   void addSprings(double h);
