@@ -45,6 +45,42 @@ bool cross(const Polyhedron& solid, const Corners& s, const Corners& t, double t
   return false;
 }
 
+/// Whether the edges of a face from its corners i and k cross, seen along an axis: exactly, and by
+/// more than touching.
+bool outlineCrosses(const std::vector<Vec3>& seen, std::size_t i, std::size_t k, int axis,
+                    double touch) {
+  const std::size_t count = seen.size();
+  const Vec3 &a = seen[i], &b = seen[(i + 1) % count], &c = seen[k], &d = seen[(k + 1) % count];
+  if (!Aabb{a.cwiseMin(b), a.cwiseMax(b)}.overlaps({c.cwiseMin(d), c.cwiseMax(d)})) return false;
+  const Vec3 up = Vec3::Unit(axis);
+  const auto parts = [&](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+    const Vec3 across = up.cross(q - p).normalized();
+    return orientation(p, q, p + up, r) * orientation(p, q, p + up, s) < 0 &&
+           std::min(std::abs(across.dot(r - p)), std::abs(across.dot(s - p))) > touch;
+  };
+  return parts(a, b, c, d) && parts(c, d, a, b);
+}
+
+/// The outline of a face bounds one area, on its left, seen along the axis that is nearest to its
+/// normal.
+void checkOutline(const Polyhedron& solid, std::size_t f, double touch) {
+  const std::vector<int>& face = solid.faces[f];
+  int axis = 0;
+  areaVector(solid, face).cwiseAbs().maxCoeff(&axis);
+  std::vector<Vec3> seen;
+  for (const int i : face) seen.push_back(at(solid, i)), seen.back()[axis] = 0.0;
+  const auto edge = [&](std::size_t k) {
+    return std::to_string(face[k] + 1) + " to " + std::to_string(face[(k + 1) % face.size()] + 1);
+  };
+  for (std::size_t i = 0; i < face.size(); ++i)
+    for (std::size_t k = i + 2; k < face.size(); ++k)
+      if (outlineCrosses(seen, i, k, axis, touch))
+        throw NotASolid("the outline of face " + std::to_string(f + 1) +
+                            " crosses itself, where the edge from point " + edge(i) +
+                            " passes that from point " + edge(k),
+                        static_cast<int>(f));
+}
+
 }  // namespace
 
 void checkCrossings(const Polyhedron& solid) {
@@ -61,6 +97,7 @@ void checkCrossings(const Polyhedron& solid) {
   const BoxTree tree(boxes);
   const double touch = kTouch * (tree.nodes()[0].box.hi - tree.nodes()[0].box.lo).norm();
   std::pair<int, int> first{-1, -1};
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) checkOutline(solid, f, touch);
   const double reach = 0.0;
   forNear(tree, tree, Seat{}, reach, [&](int i, int j) {
     const std::pair faces(face[static_cast<std::size_t>(i)], face[static_cast<std::size_t>(j)]);

@@ -5,10 +5,10 @@
 
 namespace tumble {
 
-/// Refuses a surface of which an edge passes through the inside of a face, decided exactly
-/// (`orientation`). Faces that touch do not cross; nor are those found whose edges meet just on
-/// each other.
-/// @throws NotASolid with one of the two faces
+/// Refuses a surface of which an edge passes through the inside of a face, or through another edge
+/// of the same face, decided exactly (`orientation`). Faces that touch do not cross; nor are those
+/// found whose edges meet just on each other.
+/// @throws NotASolid with the face, or one of the two
 void checkCrossings(const Polyhedron& solid);
 
 }  // namespace tumble

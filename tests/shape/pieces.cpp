@@ -241,3 +241,19 @@ TEST_CASE("faces that pass through each other are refused by name") {
                                      solids::box({-0.4, -0.4, -2.0}, {0.4, 0.4, 2.0}));
   CHECK_THROWS_AS(cross.made(), NotASolid);
 }
+
+// Oracle: by hand. A corner of a step's ledge moved past the wall behind it: no edge passes through
+// the inside of a face, but the ledge is a bow tie, half of which looks down.
+TEST_CASE("a face whose outline crosses itself is refused by its edges") {
+  solids::Raw step = solids::ell();
+  std::string why;
+  for (Vec3& p : step.points)
+    if (p == Vec3(2, 1, 1)) p.x() = 0.5;
+  try {
+    step.made();
+  } catch (const NotASolid& refusal) {
+    why = refusal.what();
+  }
+  INFO(why);
+  CHECK(why.find("crosses itself, where the edge from point") != std::string::npos);
+}
