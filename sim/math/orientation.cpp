@@ -81,6 +81,19 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return exactOrientation(a, b, c, d);
 }
 
+Vec3 twiceArea(const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kNarrow = 1e-4;  // sine of the angle at a: less, and digits are lost
+  const Vec3 u = b - a, v = c - a, n = u.cross(v);
+  if (n.squaredNorm() > kNarrow * kNarrow * u.squaredNorm() * v.squaredNorm()) return n;
+  Vec3 careful;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    careful[i] =
+        (twoSum(b[j], -a[j]) * twoSum(c[k], -a[k]) - twoSum(b[k], -a[k]) * twoSum(c[j], -a[j])).hi;
+  }
+  return careful;
+}
+
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const int above = orientation(a, b, c, p);
   if (above == 0 || orientation(a, b, c, q) != -above) return false;

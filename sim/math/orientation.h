@@ -14,6 +14,11 @@ namespace tumble {
 /// For coordinates between 1e-60 and 1e90 in size, or 0: no product may leave the range of doubles.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+/// Twice the area vector of the triangle a, b, c:  (b − a) × (c − a). Its direction is right to
+/// 1e-11 even where the three are in line to rounding of their size: there it is found from the
+/// doubles given in twice the digits.
+Vec3 twiceArea(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Whether the edge between p and q passes through the inside of the triangle a, b, c: decided
 /// exactly. What only touches does not.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);

@@ -187,21 +187,18 @@ std::array<int, 4> spanningFour(const std::vector<Vec3>& p) {
   return {a, b, c, d};
 }
 
-}  // namespace
-
-Polyhedron convexHull(const std::vector<Vec3>& given) {
-  for (std::size_t i = 0; i < given.size(); ++i)
-    if (!given[i].allFinite())
+void checkFinite(const std::vector<Vec3>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
       throw NotASolid("point " + std::to_string(i + 1) + " is not finite", -1);
-  if (given.size() < 4)
-    throw NotASolid("a hull takes four points or more, found " + std::to_string(given.size()), -1);
-  std::vector<Vec3> points;
-  double size = 0.0, away = 0.0;
-  for (const Vec3& p : given) {
-    points.push_back(p - given[0]);
-    size = std::max(size, points.back().lpNorm<Eigen::Infinity>());
-    away = std::max(away, p.lpNorm<Eigen::Infinity>());
-  }
+}
+
+/// The hull of points whose faces are flat to `bent` [m] at least.
+Polyhedron hullOf(const std::vector<Vec3>& points, double bent) {
+  if (points.size() < 4)
+    throw NotASolid("a hull takes four points or more, found " + std::to_string(points.size()), -1);
+  double size = 0.0;
+  for (const Vec3& p : points) size = std::max(size, (p - points[0]).lpNorm<Eigen::Infinity>());
   if (!std::isfinite(size)) throw NotASolid("the points are too far apart", -1);
 
   // Grown in units in which the size is about 1, where exact products stay in the range of doubles.
@@ -216,10 +213,27 @@ Polyhedron convexHull(const std::vector<Vec3>& given) {
   Quickhull hull(scaled);
   hull.begin(spanningFour(scaled));
   hull.grow();
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * away;
-  Polyhedron solid = withFlatFaces(hull.surface(points), std::max(kFlat * size, rounding));
+  Polyhedron solid = withFlatFaces(hull.surface(points), std::max(kFlat * size, bent));
   findEdges(solid);
   return solid;
+}
+
+}  // namespace
+
+Polyhedron convexHull(const std::vector<Vec3>& given) {
+  checkFinite(given);
+  std::vector<Vec3> points;
+  double away = 0.0;
+  for (const Vec3& p : given) {
+    points.push_back(p - given[0]);
+    away = std::max(away, p.lpNorm<Eigen::Infinity>());
+  }
+  return hullOf(points, 4.0 * std::numeric_limits<double>::epsilon() * away);
+}
+
+Polyhedron hullInFrame(const std::vector<Vec3>& points) {
+  checkFinite(points);
+  return hullOf(points, 0.0);
 }
 
 }  // namespace tumble

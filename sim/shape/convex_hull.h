@@ -18,4 +18,8 @@ namespace tumble {
 ///                    their size of one point, one line or one plane; the text says which.
 Polyhedron convexHull(const std::vector<Vec3>& points);
 
+/// The same in the frame of the points: corners keep all their digits, and every face is convex to
+/// rounding, however narrow.
+Polyhedron hullInFrame(const std::vector<Vec3>& points);
+
 }  // namespace tumble

@@ -179,7 +179,7 @@ class Splitter {
 
 CutPlane planeThrough(const Vec3& a, const Vec3& b, const Vec3& c) {
   CutPlane plane{a, b, c};
-  plane.n = (b - a).cross(c - a).normalized();
+  plane.n = twiceArea(a, b, c).normalized();
   plane.d = plane.n.dot(a);
   return plane;
 }

@@ -21,10 +21,24 @@ void forEachEdge(const std::vector<int>& face, Action act) {
   for (std::size_t k = 0; k < face.size(); ++k) act(face[k], face[(k + 1) % face.size()]);
 }
 
+// Of the tolerance: what a face may be off its plane at the far end of the solid. The plane of a
+// narrow one turns by what its corners are off over its width.
+constexpr double kTilt = 500.0;
+
+double longestEdge(const Polyhedron& solid, const std::vector<int>& face) {
+  double longest = 0.0;
+  forEachEdge(face, [&](int i, int j) {
+    longest = std::max(longest, (at(solid, j) - at(solid, i)).norm());
+  });
+  return longest;
+}
+
 /// Which triangles make one face: the number of its face for each triangle. The largest triangle
 /// left is the first of a face; it takes what hangs together with it and lies in its plane.
 std::vector<int> groupsOf(const Polyhedron& solid, double tolerance) {
   const std::size_t count = solid.faces.size();
+  double size = 0.0;
+  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
   std::vector<Vec3> area;
   std::map<Edge, int> faceOf;
   for (std::size_t f = 0; f < count; ++f) {
@@ -41,6 +55,8 @@ std::vector<int> groupsOf(const Polyhedron& solid, double tolerance) {
   for (const std::size_t seed : order) {
     if (group[seed] >= 0) continue;
     const Vec3 n = area[seed].normalized(), foot = at(solid, solid.faces[seed][0]);
+    const double width = area[seed].norm() / longestEdge(solid, solid.faces[seed]);
+    const double flatness = tolerance * std::min(1.0, kTilt * width / size);
     std::vector<std::size_t> found = {seed};
     group[seed] = groups;
     for (std::size_t next = 0; next < found.size(); ++next)
@@ -48,7 +64,7 @@ std::vector<int> groupsOf(const Polyhedron& solid, double tolerance) {
         const auto other = static_cast<std::size_t>(faceOf.at({j, i}));
         const std::vector<int>& corners = solid.faces[other];
         const bool flat = std::all_of(corners.begin(), corners.end(), [&](int c) {
-          return std::abs(n.dot(at(solid, c) - foot)) <= tolerance;
+          return std::abs(n.dot(at(solid, c) - foot)) <= flatness;
         });
         if (group[other] >= 0 || !flat) return;
         group[other] = groups;

@@ -88,15 +88,6 @@ bool joinOne(std::vector<Joined>& list, const Joining& joint, int& next, Apart& 
 
 }  // namespace
 
-Polyhedron hullInFrame(const std::vector<Vec3>& corners) {
-  // `convexHull` subtracts the first corner and keeps the order.
-  Polyhedron hull = convexHull(corners);
-  std::size_t k = 0;
-  for (const Vec3& p : corners)
-    if (k < hull.points.size() && p - corners[0] == hull.points[k]) hull.points[k++] = p;
-  return hull;
-}
-
 double volumeOf(const Polyhedron& solid) {
   double sum = 0.0;
   for (const std::vector<int>& face : solid.faces)

@@ -1,4 +1,4 @@
-// Chapter 2, shape: convex hulls measured, and joined where their union is convex.
+// Chapter 2, shape: convex solids measured, and joined where their union is convex.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,6 @@
 #include "sim/shape/shape.h"
 
 namespace tumble {
-
-/// The convex hull of corners, in their own frame to the last bit.
-Polyhedron hullInFrame(const std::vector<Vec3>& corners);
 
 /// Volume [m³] and surface [m²].
 double volumeOf(const Polyhedron& solid);

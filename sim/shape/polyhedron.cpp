@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "sim/math/orientation.h"
 #include "sim/shape/crossings.h"
 #include "sim/shape/shells.h"
 
@@ -119,7 +120,7 @@ Vec3 areaVector(const Polyhedron& solid, const std::vector<int>& face) {
   Vec3 sum = Vec3::Zero();
   const Vec3& p0 = at(solid, face[0]);
   for (std::size_t k = 1; k + 1 < face.size(); ++k)
-    sum += (at(solid, face[k]) - p0).cross(at(solid, face[k + 1]) - p0);
+    sum += twiceArea(p0, at(solid, face[k]), at(solid, face[k + 1]));
   return sum;
 }
 

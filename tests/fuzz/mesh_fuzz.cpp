@@ -24,19 +24,6 @@ double areaOf(const Polyhedron& solid) {
   return area;
 }
 
-// How far [m] the plane of a face may be off at that distance [m]: its normal is known to the
-// rounding of its corners over its width, which of slivers that cuts leave is little.
-double planeRounding(const Polyhedron& piece, const std::vector<int>& face, double size) {
-  double longest = 0.0;
-  for (std::size_t k = 0; k < face.size(); ++k) {
-    const auto at = [&](std::size_t i) {
-      return piece.points[static_cast<std::size_t>(face[i % face.size()])];
-    };
-    longest = std::max(longest, (at(k + 1) - at(k)).norm());
-  }
-  return 1e-15 * size * size * longest / areaVector(piece, face).norm();
-}
-
 // Each piece is convex, and together they are as large as the solid.
 void needPieces(const Polyhedron& solid, const Pieces& pieces, double tolerance) {
   Vec3 lo = solid.points[0], hi = lo;
@@ -50,7 +37,7 @@ void needPieces(const Polyhedron& solid, const Pieces& pieces, double tolerance)
     for (std::size_t f = 0; f < piece.faces.size(); ++f)
       for (const Vec3& p : piece.points)
         need(piece.normals[f].dot(p - piece.points[static_cast<std::size_t>(piece.faces[f][0])]) <=
-             slack + planeRounding(piece, piece.faces[f], size));
+             1e-9 * size);
     volume += integrate(piece).volume;
     area += areaOf(piece);
   }
