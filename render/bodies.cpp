@@ -7,9 +7,9 @@ namespace tumble {
 namespace {
 
 /// Places of the attributes in instance.glsl.
-const std::vector<InstanceAttribute> kAttributes = {
-    {2, 4, 0}, {3, 4, 4}, {4, 4, 8}, {5, 4, 12}, {6, 4, 16}};
-constexpr int kStride = 20;
+const std::vector<InstanceAttribute> kAttributes = {{2, 4, 0},  {3, 4, 4},  {4, 4, 8},
+                                                    {5, 4, 12}, {6, 4, 16}, {7, 1, 20}};
+constexpr int kStride = 21;
 
 /// Balls of at most this radius [px] are discs of 16 and 32 corners, larger ones of 64:
 /// the corners stand out by at most 0.13, 0.15 and, at 200 px, 0.12 px.
@@ -114,6 +114,23 @@ void Bodies::keepSurfaces(const Picture& picture) {
   surfaces_ = std::move(kept);
 }
 
+// Only solids hide, and only they are asked for: ghosts and glass add to each other. With one
+// sample a pixel the rasteriser itself leaves out what stands behind.
+std::vector<Cover::Faces> Bodies::hiddenFaces(const Picture& picture, const Stage& stage) {
+  std::vector<Cover::Faces> hidden(picture.instances.size(), 0);
+  if (stage.samples == 1) return hidden;
+  Cover cover(stage);
+  for (const Instance& body : picture.instances)
+    if (body.form == Form::Box && groupOf(body, stage, picture.floor.visible) == kSolid)
+      cover.add(body);
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    const Instance& body = picture.instances[i];
+    if (body.finish == Finish::Solid && body.form != Form::Facets)
+      hidden[i] = cover.hiddenFaces(body);
+  }
+  return hidden;
+}
+
 void Bodies::load(const Picture& picture, const Stage& stage) {
   // Each facetted surface is a shape of its own, numbered in the order of the picture.
   keepSurfaces(picture);
@@ -129,6 +146,7 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
 
   // Groups and shapes stand together; within them glass goes from far to near, solids go from near
   // to far, so that what is hidden is seldom shaded, and ghosts keep their order.
+  const std::vector<Cover::Faces> hidden = hiddenFaces(picture, stage);
   struct Key {
     int group, shape;
     double nearness;
@@ -138,7 +156,8 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
   for (std::size_t i = 0; i < picture.instances.size(); ++i) {
     const Instance& instance = picture.instances[i];
     if (superseded(picture.instances, i, stage)) continue;
-    const Group group = groupOf(instance, stage, picture.floor.visible);
+    const Group group =
+        hidden[i] == Cover::kAll ? kUnseen : groupOf(instance, stage, picture.floor.visible);
     const double distance = (instance.position - stage.projection.eye()).norm();
     const int shape = instance.form == Form::Facets ? numbers.at(instance.facets.get())
                                                     : shapeOf(instance, stage);
@@ -172,7 +191,8 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
                           {from.colour[0], from.colour[1], from.colour[2]},
                           static_cast<float>(thicknessOf(from)),
                           {back[0], back[1], back[2]},
-                          from.banded ? 1.0f : 0.0f});
+                          from.banded ? 1.0f : 0.0f,
+                          static_cast<float>(hidden[key.index])});
   }
   gl::upload(GL_ARRAY_BUFFER, buffer_, instances_);
 }
@@ -210,6 +230,7 @@ void Bodies::drawMasks() {
 void Bodies::drawFromLight() const {
   draw(kLightUse, kSolid);
   draw(kLightUse, kSunk);
+  draw(kLightUse, kUnseen);
 }
 
 void Bodies::drawFromAbove() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "render/cover.h"
 #include "render/gl.h"
 #include "render/mesh.h"
 #include "render/picture.h"
@@ -31,7 +32,7 @@ class Bodies {
   bool drawsInColour() const { return !instances_.empty(); }
 
  private:
-  enum Group { kSolid, kSunk, kGhost, kGlass, kGroups };
+  enum Group { kSolid, kSunk, kUnseen, kGhost, kGlass, kGroups };
   enum Shape { kBox, kCylinder, kEllipsoid, kSmallBall, kBall, kLargeBall, kShapes };
   enum Use { kSolidUse, kGhostUse, kGlassUse, kDepthUse, kLightUse, kAboveUse, kCastUse, kUses };
   enum Surface {
@@ -50,6 +51,7 @@ class Bodies {
     float half[3], present;
     float colour[3], thickness;
     float back[3], banded;
+    float hidden;
   };
   struct Range {
     int first = 0, count = 0;
@@ -58,6 +60,7 @@ class Bodies {
   static Group groupOf(const Instance& instance, const Stage& stage, bool hasFloor);
   static Shape shapeOf(const Instance& instance, const Stage& stage);
   static Surface surfaceOf(int shape);
+  static std::vector<Cover::Faces> hiddenFaces(const Picture& picture, const Stage& stage);
   void keepSurfaces(const Picture& picture);
   void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
 

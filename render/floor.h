@@ -13,6 +13,9 @@ namespace tumble {
 
 class FloorDisc {
  public:
+  /// Where it has faded, in radii of the scene, as in floor.frag.
+  static constexpr double kFaded = 1.96;
+
   explicit FloorDisc(const std::string& shaders);
   /// Draws into the bound target, premultiplied; needs the map from above on unit 1.
   void draw(const Floor& floor, const Stage& stage) const;

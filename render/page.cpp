@@ -34,7 +34,7 @@ unsigned div255(unsigned v) {
 void cover(Image& page, const Layer& layer) {
   const gl::Rectangle& place = layer.place;
   for (int row = 0; row < place.height; ++row) {
-    const std::uint8_t* from = layer.rgba.data() + 4u * static_cast<std::size_t>(place.width) * row;
+    const std::uint8_t* from = layer.rgba + 4u * static_cast<std::size_t>(place.width) * row;
     const std::size_t y = static_cast<std::size_t>(page.height - 1 - place.y - row);
     std::uint8_t* to = page.rgb.data() + 3u * (y * page.width + place.x);
     for (int x = 0; x < place.width; ++x, from += 4, to += 3) {

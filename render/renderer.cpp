@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "render/arrows.h"
@@ -56,6 +57,19 @@ class Extent {
   Eigen::Vector2d low_ = Eigen::Vector2d::Constant(1e9), high_ = Eigen::Vector2d::Constant(-1e9);
   bool everything_ = false;
 };
+
+/// What the floor can touch.
+gl::Rectangle floorExtent(const Stage& stage) {
+  Extent extent(stage);
+  const int corners = 32;
+  const double around = 2.0 * std::numbers::pi / corners;
+  const double radius = FloorDisc::kFaded * stage.radius / std::cos(0.5 * around);
+  for (int i = 0; i < corners; ++i)
+    extent.add(
+        stage.origin + radius * Eigen::Vector3d(std::cos(i * around), 0.0, std::sin(i * around)),
+        0.0, 0.0);
+  return extent.rectangle();
+}
 
 gl::Rectangle extentOf(const Picture& picture, const Stage& stage) {
   Extent extent(stage);
@@ -129,10 +143,12 @@ void Renderer::Parts::load(const Picture& picture, const Stage& s) {
 
 Layer Renderer::Parts::drawFloor(const Picture& picture, const Stage& s) {
   if (!picture.floor.visible) return {};
-  targets.beginFloor();
+  const gl::Rectangle place = floorExtent(s);
+  if (place.empty()) return {};
+  targets.beginFloor(place);
   glDisable(GL_DEPTH_TEST);
   floor.draw(picture.floor, s);
-  return targets.readFloor();
+  return targets.readFloor(place);
 }
 
 Layer Renderer::Parts::drawBodies(const Picture& picture, const Stage& s) {
@@ -171,7 +187,7 @@ Image Renderer::draw(const Picture& picture, const RenderOptions& options) {
   Parts& parts = *parts_;
   parts.context.makeCurrent();
   const Stage stage(picture, options);
-  parts.targets.resize(stage.width, stage.height, options.antialias == AntiAlias::Msaa4 ? 4 : 1);
+  parts.targets.resize(stage.width, stage.height, stage.samples);
 
   // Maps, floor and bodies by OpenGL.
   parts.load(picture, stage);

@@ -67,6 +67,7 @@ std::array<float, 4> four(const Eigen::Vector3d& v, double w) {
 Stage::Stage(const Picture& picture, const RenderOptions& options)
     : width(options.width * supersampling(options)),
       height(options.height * supersampling(options)),
+      samples(options.antialias == AntiAlias::Msaa4 ? 4 : 1),
       scale(height / options.pageHeight),
       projection(picture.camera, width, height),
       origin(picture.centre.x(), picture.floor.height, picture.centre.z()),

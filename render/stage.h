@@ -18,6 +18,7 @@ struct Stage {
   Stage(const Picture& picture, const RenderOptions& options);
 
   int width, height;       ///< [px] that OpenGL draws: twice the image with 2×2 supersampling
+  int samples;             ///< of each of them
   double scale;            ///< such pixels per pixel of the page
   Projection projection;   ///< of world points onto them
   Eigen::Vector3d origin;  ///< world [m]

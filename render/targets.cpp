@@ -13,11 +13,6 @@ void attach(GLuint renderbuffer, GLenum format, GLenum attachment, int samples, 
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, renderbuffer);
 }
 
-void clear(GLbitfield what) {
-  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  glClear(what);
-}
-
 }  // namespace
 
 void Targets::resize(int width, int height, int samples) {
@@ -41,44 +36,45 @@ void Targets::resize(int width, int height, int samples) {
   width_ = width, height_ = height, samples_ = samples;
 }
 
-void Targets::beginBodies(const gl::Rectangle& place) {
-  glBindFramebuffer(GL_FRAMEBUFFER, bodies_);
+void Targets::begin(GLuint framebuffer, const gl::Rectangle& place) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width_, height_);
   glEnable(GL_SCISSOR_TEST);
   glScissor(place.x, place.y, place.width, place.height);
-  clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
 }
 
-void Targets::beginFloor() {
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_);
-  glViewport(0, 0, width_, height_);
-  glDisable(GL_SCISSOR_TEST);
-  clear(GL_COLOR_BUFFER_BIT);
+void Targets::beginBodies(const gl::Rectangle& place) {
+  begin(bodies_, place);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Targets::beginFloor(const gl::Rectangle& place) {
+  begin(resolved_, place);
+  glClear(GL_COLOR_BUFFER_BIT);
 }
 
 Layer Targets::readBodies(const gl::Rectangle& place) {
   glDisable(GL_SCISSOR_TEST);
-  if (samples_ <= 1) return read(bodies_, place);
+  if (samples_ <= 1) return read(bodies_, place, bodyPixels_);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, bodies_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
   const int right = place.x + place.width, top = place.y + place.height;
   glBlitFramebuffer(place.x, place.y, right, top, place.x, place.y, right, top, GL_COLOR_BUFFER_BIT,
                     GL_NEAREST);
-  return read(resolved_, place);
+  return read(resolved_, place, bodyPixels_);
 }
 
-Layer Targets::readFloor() {
-  return read(resolved_, {0, 0, width_, height_});
+Layer Targets::readFloor(const gl::Rectangle& place) {
+  return read(resolved_, place, floorPixels_);
 }
 
-Layer Targets::read(GLuint framebuffer, const gl::Rectangle& place) const {
-  Layer layer{place,
-              std::vector<std::uint8_t>(4u * static_cast<std::size_t>(place.width) * place.height)};
+Layer Targets::read(GLuint framebuffer, const gl::Rectangle& place, Pixels& into) {
+  into.resize(4u * static_cast<std::size_t>(place.width) * place.height);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(place.x, place.y, place.width, place.height, GL_RGBA, GL_UNSIGNED_BYTE,
-               layer.rgba.data());
-  return layer;
+  glReadPixels(place.x, place.y, place.width, place.height, GL_RGBA, GL_UNSIGNED_BYTE, into.data());
+  return {place, into.data()};
 }
 
 }  // namespace tumble

@@ -80,5 +80,9 @@ void main() {
 #else
   gl_Position = viewProjection * vec4(worldPoint, 1.0);
   gl_Position.z -= layer * float(gl_InstanceID) * gl_Position.w;
+#ifdef BOX
+  int face = int(dot(abs(cornerNormal), vec3(0, 2, 4))) + (cornerNormal.x + cornerNormal.y + cornerNormal.z > 0.0 ? 1 : 0);
+  if ((int(hidden) >> face & 1) == 1) gl_Position = vec4(0, 0, 0, 1);
+#endif
 #endif
 }
