@@ -5,11 +5,13 @@
 // CPU time, not wall time: the rasteriser uses every core, and the figure should not depend on who
 // else does.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
 
 #include "render/image.h"
+#include "render/png_writer.h"
 #include "render/renderer.h"
 #include "tests/render/plates.h"
 
@@ -21,6 +23,11 @@ double cpuMilliseconds() {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double wallMilliseconds() {
+  using namespace std::chrono;
+  return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
 double median(std::vector<double> values) {
@@ -43,6 +50,20 @@ void measure(Renderer& renderer, const char* name, const Picture& picture,
   }
   std::printf("%-16s %4d x %-4d  draw %6.1f  with PNG %6.1f CPU ms\n", name, options.width,
               options.height, median(drawing), median(whole));
+}
+
+/// A sequence as the program draws it, one thread packing what another has drawn. Only an idle
+/// machine lends all its cores.
+void run(Renderer& renderer, const Picture& picture, const std::string& folder) {
+  const int images = 100;
+  const double start = cpuMilliseconds(), begin = wallMilliseconds();
+  PngWriter writer;
+  for (int i = 0; i < images; ++i)
+    writer.write(folder + "/run-" + std::to_string(i % 4) + ".png", renderer.draw(picture, {}), {});
+  writer.finish();
+  const double spent = cpuMilliseconds() - start, lasted = wallMilliseconds() - begin;
+  std::printf("%-16s %4d images  %5.1f CPU ms each, %5.1f ms apart: %.2f cores busy\n",
+              "a run of pile-200", images, spent / images, lasted / images, spent / lasted);
 }
 
 }  // namespace
@@ -79,4 +100,5 @@ int main(int count, char** arguments) {
   fine.antialias = AntiAlias::Ssaa2x2;
   measure(renderer, "pile-200-ssaa", plates::pile(200), fine, folder);
   measure(renderer, "pile-200-small", plates::pile(200), golden, folder);
+  run(renderer, plates::pile(200), folder);
 }
