@@ -1,6 +1,8 @@
 #include "app/panel/variant_run.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/claim/verdict.h"
 #include "app/present/bent.h"
@@ -44,6 +46,25 @@ Framing sharedFraming(const std::deque<VariantRun>& runs, const VariantRun& run)
   framing.fastest = fastest;
   framing.strained = strained;
   return framing;
+}
+
+// How large a metre looks at what the camera is aimed at, but for the size of the image.
+double scaleOf(const Camera& camera) {
+  return (camera.eye - camera.target).norm() * std::tan(camera.fov * std::numbers::pi / 360.0);
+}
+
+// Each run as its camera sees it. What is seen as large stands on the same grid.
+std::vector<Framing> framings(const std::deque<VariantRun>& runs, const Eigen::Vector2d& page) {
+  std::vector<Framing> all;
+  for (const VariantRun& run : runs) {
+    all.push_back(sharedFraming(runs, run));
+    all.back().page = page;
+  }
+  for (Framing& framing : all)
+    for (const Framing& other : all)
+      if (std::abs(scaleOf(other.camera) / scaleOf(framing.camera) - 1.0) < 1e-3)
+        framing.floor = std::max(framing.floor, other.radius);
+  return all;
 }
 
 // The start as it stands, which may be one that no run can begin with.
@@ -96,10 +117,10 @@ std::deque<VariantRun> runPanels(const Scene& scene, const RunDone& done) {
 std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const Eigen::Vector2d& page,
                               const DrawPanel& draw) {
   std::vector<Panel> panels;
-  for (const VariantRun& run : runs) {
-    Framing framing = sharedFraming(runs, run);
-    framing.page = page;
-    const Presenter presenter(run.scene, run.recording, framing);
+  const std::vector<Framing> seen = framings(runs, page);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const VariantRun& run = runs[i];
+    const Presenter presenter(run.scene, run.recording, seen[i]);
     Picture picture = run.picture(presenter);
     picture.title.clear();
     picture.subtitle.clear();

@@ -224,8 +224,8 @@ Picture Presenter::blank(const Framing& framing) const {
   }
   if (scene_.show.speed) picture.bar = barTo("speed / m/s", cividisStops(), fastest_);
   if (strained_ > 0.0) picture.bar = barTo("strain / %", strainStops(), 100.0 * strained_);
-  const double decade = decadeOf(framing.radius, 0.08);
-  const double size = framing.radius / decade;
+  const double reach = framing.floor > 0.0 ? framing.floor : framing.radius;
+  const double decade = decadeOf(reach, 0.08), size = reach / decade;
   picture.floor.grid = decade * (size < 0.8 ? 0.1 : size < 15.0 ? 1.0 : 10.0);
   picture.floor.fineGrid = 0.2 * picture.floor.grid;
   return picture;

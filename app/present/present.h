@@ -20,8 +20,9 @@ struct Framing {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 1.0;                               ///< [m] of all motion about the centre
   Eigen::Vector2d page = {1280.0, 720.0};            ///< [px] that text and flat shapes stand on
-  double strained = 0.0;                             ///< of the last colour; 0: of the run
-  double fastest = 0.0;  ///< [m/s] of the longest velocity and the last colour; 0: of the run
+  double floor = 0.0;     ///< [m] that the grid of the floor is made for; 0: the radius
+  double strained = 0.0;  ///< of the last colour; 0: of the run
+  double fastest = 0.0;   ///< [m/s] of the longest velocity and the last colour; 0: of the run
 };
 
 /// The largest speed [m/s] of the run; 1 if nothing moves.

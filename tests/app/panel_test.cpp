@@ -113,6 +113,53 @@ TEST_CASE("each panel runs its own variant, and what can be compared shares a ca
   CHECK(std::abs(pictures[2].instances[0].position.y() - (1.1 - 0.5 * 9.81 * 0.0625)) < 1e-12);
 }
 
+// One ball falls 0.1 m, the other 10 m: the first alone would stand on lines 0.1 m apart.
+TEST_CASE("panels that are seen from as far stand on the same grid") {
+  const Folder folder;
+  writeFile(folder / "falls.toml", R"(
+title = "Two falls"
+[world]
+duration = 1.4
+[materials.rubber]
+density = 1000.0
+restitution = 0.0
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "low"
+shape = { sphere = 0.1 }
+material = "rubber"
+position = [0, 0.2, 0]
+[[body]]
+name = "high"
+shape = { sphere = 0.1 }
+material = "rubber"
+position = [3, 10.1, 0]
+[[panel]]
+title = "low"
+bodies = ["floor", "low"]
+set = { "camera.eye" = [0, 1, 20], "camera.target" = [0, 1, 0] }
+[[panel]]
+title = "high"
+bodies = ["floor", "high"]
+set = { "camera.eye" = [3, 1, 20], "camera.target" = [3, 1, 0] }
+[[panel]]
+title = "near"
+bodies = ["floor", "low"]
+set = { "camera.eye" = [0, 1, 2], "camera.target" = [0, 1, 0] }
+)");
+  const std::deque<VariantRun> runs = runPanels(readScene(folder / "falls.toml"), [] {});
+  std::vector<double> grids;
+  drawPanels(runs, {800.0, 450.0}, [&](const Picture& picture) {
+    grids.push_back(picture.floor.grid);
+    return Image{1, 1, {0, 0, 0}};
+  });
+  REQUIRE(grids.size() == 3);
+  CHECK(grids[0] == grids[1]);
+  CHECK(grids[2] < grids[0]);
+}
+
 TEST_CASE("a chart holds the largest error of its check against the cost of each run") {
   const Folder folder;
   const Scene scene = bounceIn(folder);
