@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
 
+#include "sim/math/orientation.h"
 #include "sim/shape/coarse_cuts.h"
 #include "sim/shape/convex_hull.h"
 #include "sim/shape/excess.h"
@@ -77,11 +79,19 @@ class Decomposer {
       const std::optional<Polyhedron> hull = hullToAsk(piece, notches);
       if (std::optional<Wrapping> whole = wrapped(piece, notches, hull)) {
         excess_ = std::max(excess_, whole->excess);
+        lookForCrossing(piece, whole->hull);
         done.push_back(std::move(whole->hull));
-      } else {
-        for (Surface& part : parted(piece, notches, hull)) open.push_back(std::move(part));
+      } else if (std::vector<Surface> parts = parted(piece, notches, hull); !parts.empty()) {
+        std::move(parts.begin(), parts.end(), std::back_inserter(open));
+      } else if (!leftOut(piece)) {
+        if (notches.empty())
+          refuseCrossing("no plane parts it where it is not convex", outerOf(piece));
+        refuse("no plane parts the mesh", notches);
       }
-      if (done.size() + open.size() > kMostPieces || spent()) refuse(notches);
+      if (spent()) refuse("the mesh is too intricate to be taken apart exactly", notches);
+      if (done.size() + open.size() > kMostPieces)
+        refuse("the mesh needs more than " + std::to_string(kMostPieces) + " convex pieces",
+               notches);
     }
     std::reverse(done.begin(), done.end());
     constexpr double kGrain = 1e-15;  // of the size: rounding of a corner
@@ -163,10 +173,7 @@ class Decomposer {
                                   const std::optional<Polyhedron>& hull) {
     if (tolerance_ == 0.0 && !notches.empty()) return {};
     Wrapping whole;
-    if (!hull)
-      return cut::sixfoldVolume(points_, piece) <= 6.0 * slack() * size_ * size_
-                 ? std::optional(whole)
-                 : std::nullopt;
+    if (!hull) return leftOut(piece) ? std::optional(whole) : std::nullopt;
     whole.hull = *hull;
     if (tolerance_ == 0.0) return whole;
     whole.excess = reachOf(piece, whole.hull);
@@ -176,6 +183,28 @@ class Decomposer {
     over_ = out.where;
     whole.excess = out.bound;
     return out.bound <= tolerance_ ? std::optional(whole) : std::nullopt;
+  }
+
+  /// Whether a piece is flatter than numbers can tell. Its neighbours gape by it, and it is none.
+  bool leftOut(const Surface& piece) {
+    const std::vector<Vec3> corners = cornersOf(piece);
+    try {
+      hullInFrame(corners);
+      return false;
+    } catch (const NotASolid&) {
+    }
+    Vec3 n = Vec3::Zero();
+    for (const auto& [corner, face] : piece)
+      if (const Vec3 area = twiceArea(at(corner[0]), at(corner[1]), at(corner[2]));
+          area.squaredNorm() > n.squaredNorm())
+        n = area;
+    n.normalize();
+    const auto [lo, hi] =
+        std::minmax_element(corners.begin(), corners.end(),
+                            [&](const Vec3& p, const Vec3& q) { return n.dot(p) < n.dot(q); });
+    gape_ += n.dot(*hi - *lo);
+    flat_ += cut::sixfoldVolume(points_, piece) / 6.0;
+    return true;
   }
 
   /// How far a hull reaches out of the mesh at most: what is in front of no face of a piece sees
@@ -201,6 +230,7 @@ class Decomposer {
     return a.resolved != b.resolved ? a.resolved > b.resolved : a.crossed < b.crossed;
   }
 
+  /// The parts that the best cut leaves; none if there is no cut.
   std::vector<Surface> parted(const Surface& piece, const std::vector<Notch>& notches,
                               const std::optional<Polyhedron>& hull) {
     std::vector<Cut> cuts = cutsOf(piece, hull ? deepest(*hull, notches) : notches);
@@ -215,7 +245,7 @@ class Decomposer {
       for (Surface& part : cut::pieces(points_, halves.above)) parts.push_back(std::move(part));
       return parts;
     }
-    refuse(notches);
+    return {};
   }
 
   /// Cuts through notches and elsewhere, those first whose parts fill their hulls best.
@@ -298,12 +328,44 @@ class Decomposer {
 
   /// The pieces fill the mesh, to what the tolerance may add all over its surface and the cuts.
   void checkVolume(const std::vector<Polyhedron>& hulls) const {
-    double sum = 0.0, area = 0.0;
+    double sum = flat_, area = 0.0;
     for (const Polyhedron& hull : hulls) sum += volumeOf(hull), area += areaOf(hull);
     const double whole = cut::sixfoldVolume(points_, whole_) / 6.0;
+    if (hulls.empty()) throw NoPieces("the mesh is flatter than its corners can tell", -1);
     if (std::abs(sum - whole) <= 2.0 * slack() * area) return;
-    throw NoPieces(
-        "its pieces do not add up to its volume; does the surface touch or cross itself?", -1);
+    refuseCrossing("its pieces do not add up to its volume", crossing_);
+  }
+
+  /// Where a piece does not fill its hull, though by its notches it should, the surface crosses
+  /// itself.
+  void lookForCrossing(const Surface& piece, const Polyhedron& hull) {
+    if (hull.points.empty()) return;
+    const double off = std::abs(volumeOf(hull) - cut::sixfoldVolume(points_, piece) / 6.0);
+    if (off <= std::max(off_, 2.0 * slack() * areaOf(hull))) return;
+    off_ = off;
+    crossing_ = outerOf(piece);
+  }
+
+  /// A triangle of a piece that no cut made, if there is one.
+  static Triangle outerOf(const Surface& piece) {
+    const auto outer =
+        std::find_if(piece.begin(), piece.end(), [](const Triangle& t) { return t.face >= 0; });
+    return outer == piece.end() ? Triangle{{0, 0, 0}} : *outer;
+  }
+
+  [[noreturn]] void refuseCrossing(const std::string& why, const Triangle& near) const {
+    const int face = near.face < 0 ? -1 : faceOf_[static_cast<std::size_t>(near.face)];
+    throw NoPieces(why + "; does the surface touch or cross itself" +
+                       (face < 0 ? "?" : " near " + placeOf(near.corner[0]) + "?"),
+                   face);
+  }
+
+  std::string placeOf(int p) const {
+    if (p < given_) return "point " + std::to_string(p + 1);
+    char buffer[96];
+    std::snprintf(buffer, sizeof buffer, "(%.6g, %.6g, %.6g) off point 1", at(p).x(), at(p).y(),
+                  at(p).z());
+    return buffer;
   }
 
   Surface surfaceOf(const Polyhedron& solid) {
@@ -322,31 +384,21 @@ class Decomposer {
     Pieces pieces;
     pieces.excess = excess_;
     // Hulls of what a plane parts stay on their sides of it, however much they stand out elsewhere.
-    pieces.slack = 2.0 * snap_;
+    pieces.slack = 2.0 * snap_ + gape_;
     for (Polyhedron& hull : hulls)
       pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
     return pieces;
   }
 
-  [[noreturn]] void refuse(const std::vector<Notch>& notches) const {
+  [[noreturn]] void refuse(const std::string& why, const std::vector<Notch>& notches) const {
     std::string where;
     int face = -1;
     if (!notches.empty()) {
-      const auto text = [&](int p) {
-        if (p < given_) return "point " + std::to_string(p + 1);
-        char buffer[96];
-        std::snprintf(buffer, sizeof buffer, "(%.6g, %.6g, %.6g) off point 1", at(p).x(), at(p).y(),
-                      at(p).z());
-        return std::string(buffer);
-      };
       const Notch& notch = notches[0];
       face = faceOf_[static_cast<std::size_t>(notch.left)];
-      where = ", as at the notch from " + text(notch.from) + " to " + text(notch.to);
+      where = ", as at the notch from " + placeOf(notch.from) + " to " + placeOf(notch.to);
     }
-    const std::string many =
-        spent() ? "the mesh is too intricate to be taken apart exactly"
-                : "the mesh needs more than " + std::to_string(kMostPieces) + " convex pieces";
-    throw NoPieces(many + where + "; allow more by pieces_tolerance, or take pieces = \"hull\"",
+    throw NoPieces(why + where + "; allow more by pieces_tolerance, or take pieces = \"hull\"",
                    face);
   }
 
@@ -359,6 +411,9 @@ class Decomposer {
   Vec3 over_ = Vec3::Zero();              ///< a point over a dent of the piece that was looked at
   double tolerance_, snap_ = 0.0;         ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
+  double gape_ = 0.0, flat_ = 0.0;       ///< [m], [m³] of pieces left out
+  Triangle crossing_ = {{0, 0, 0}, -1};  ///< of the piece whose hull holds most too much
+  double off_ = 0.0;                     ///< [m³] of that
   long work_ = 0, most_;
 };
 

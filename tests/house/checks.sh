@@ -24,12 +24,16 @@ bits() {
   tests/house/bits.sh "$clang/tumble"
 }
 
-# fuzzed NAME CORPUS options…: a minute of it.
+# fuzzed NAME CORPUS options…: a minute of it. Of one that finds something, the end of its log: where, and
+# the finding in base64.
 fuzzed() {
-  local found=$root/found-$1
+  local found=$root/found-$1 log=$root/fuzz-$1.log
   mkdir -p "$found"
   "$clang/tests/fuzz/$1_fuzz" -seed=1 -max_total_time=60 -timeout=20 -error_exitcode=1 -rss_limit_mb=2048 -max_len=8192 \
-    -print_final_stats=1 "${@:3}" -artifact_prefix="$found/" "$found" "$2"
+    "${@:3}" -artifact_prefix="$found/" "$found" "$2" >"$log" 2>&1 && return
+  echo "the $1 fuzzer, by its log $log:"
+  tail -n 25 "$log"
+  return 1
 }
 # Both readers at once.
 fuzz() {
@@ -131,7 +135,7 @@ step() {
   cpu=$(awk -F'[ms ]' 'NR == 2 { print int($1 * 60 + $2 + $4 * 60 + $5) }' "$root/times")
   printf '%-58s %5d s %6d CPU s  %s\n' "$1" $((SECONDS - start)) $((cpu - spent)) "$verdict"
   spent=$cpu
-  if [[ $verdict == FAILED* ]]; then tail -n 40 "$log"; fi
+  if [[ $verdict == FAILED* ]]; then tail -n 60 "$log"; fi
 }
 spent=0
 
