@@ -349,6 +349,7 @@ template <int N>
 template <int N>
 void NewtonSystem<N>::write(const Problem& problem, Solution& solution) const {
   solution.lambda.resize(problem.rows.size());
+  solution.pull.reserve(problem.rows.size());  // for answers to come that have them
   solution.pull.resize(pulled_ ? problem.rows.size() : 0);
   solution.v = problem.vStar;
   for (std::size_t c = 0; c < points.size(); ++c)

@@ -1,6 +1,6 @@
 // The contact problem, island by island. Forces are a function of the configuration: an island
-// whose contacts, loads and velocities are those it was solved with keeps its answer, any other one
-// is solved from λ = 0.
+// whose contacts, loads and velocities are those it was solved with keeps its answer, one that goes
+// on as it did keeps its forces, any other one is solved from λ = 0.
 #include <algorithm>
 #include <cmath>
 
@@ -162,7 +162,7 @@ void Stepping::fallAsOne(std::span<const Link> links, double h) {
   if (!bent) isBonded(links) ? swing(links, h) : fallAsOne(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
   const bool stretches = !bent && rests(memory, links, h);
-  memory.kept = stretches || (!bent && keeps(memory, links));
+  memory.kept = stretches || (!bent && (keeps(memory, links) || pushesAlike(memory, links, h)));
   if (stretches) stretch(memory, links, h);
   if (!memory.kept && !(bent && keepsBent(memory, links, h))) {
     allKept_ = false;
@@ -236,8 +236,7 @@ void Stepping::build(std::span<const Link> links, double h) {
   for (const Link link : links) {
     if (isPair(link)) {
       std::vector<Touch>& touches = memory_.pairs[link].touches;
-      const bool allClosed = std::all_of(touches.begin(), touches.end(),
-                                         [&](const Touch& touch) { return closed(touch); });
+      const bool allClosed = areClosed(touches);
       for (Touch& touch : touches)
         if (!flies(touch, h)) addTouch(touch, allClosed, h);
       continue;
@@ -257,6 +256,19 @@ Row& Stepping::addRow(const Row& row) {
   return added;
 }
 
+/// A gap may be closed by the end of the step and no further. Gaps of one face go together: all are
+/// as found, or, where all touch, none is left of them.
+double Stepping::gapRate(const Touch& touch, bool allClosed, double h) const {
+  const double gap = allClosed ? 0.0 : std::max(touch.contact.point.separation, -tolerance_.root);
+  // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
+  return gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
+}
+
+bool Stepping::areClosed(std::span<const Touch> touches) const {
+  return std::all_of(touches.begin(), touches.end(),
+                     [&](const Touch& touch) { return closed(touch); });
+}
+
 /// Adds a point of a pair, of which all points touch or not.
 void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const Contact& contact = touch.contact;
@@ -269,14 +281,9 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
       Cone{.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});
   Row& normal = addAlong(c.n);
 
-  // A gap may be closed by the end of the step and no further. Gaps of one face go together: all
-  // are as found, or, where all touch, none is left of them.
   const double vrel = rowSpeed(normal, work_.before[contact.a], work_.before[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
-  const double gap = allClosed ? 0.0 : std::max(c.separation, -tolerance_.root);
-  // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
-  normal.bias = gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
-
+  normal.bias = gapRate(touch, allClosed, h);
   if (reboundsInStep() && !isAside(touch)) rebound(touch, vrel, h, normal);
   const Vec3 lead = carried(contact, h);
   if (model_.fixed(contact.a) || model_.fixed(contact.b)) normal.bias += c.n.dot(lead);
@@ -290,73 +297,89 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
 void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
-  memory.seen.clear();
-  memory.books = {};
   memory.length = memory.solved = h;
   memory.cones = work_.problem.cones.size();
   memory.step = step_;
+  for (const int i : work_.movers) work_.after[i] = work_.solution.v[work_.local[i]];
+  remember(memory, links);
   std::size_t cone = 0;
   for (const Link link : links) {
     if (!isPair(link)) {
-      memory.seen.push_back({});
       work_.bonds.lambda[link - state_.near.size()] =
           work_.solution.lambda[work_.problem.cones[cone++].row];
       continue;
     }
-    PairMemory& pair = memory_.pairs[link];
-    memory.seen.push_back({.look = pair.look, .form = pair.form});
-    for (Touch& touch : pair.touches)
+    for (Touch& touch : memory_.pairs[link].touches)
       if (!flies(touch, h) && !isAside(touch))
         shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
+  }
+  for (const int i : work_.bodies) work_.local[i] = -1;
+}
+
+/// What an island saw when it found the velocities `after`.
+void Stepping::remember(IslandMemory& memory, std::span<const Link> links) {
+  memory.books = {};
+  memory.seen.clear();
+  for (const Link link : links) {
+    IslandMemory::Seen& seen = memory.seen.emplace_back();
+    if (isPair(link)) seen = {.look = memory_.pairs[link].look, .form = memory_.pairs[link].form};
   }
   memory.movers.clear();
   for (const int i : work_.movers)
     memory.movers.push_back({.body = i,
                              .Iinv = state_.bodies[i].Iinv,
                              .vStar = work_.star[i],
-                             .v = work_.solution.v[work_.local[i]]});
-  for (const int i : work_.bodies) work_.local[i] = -1;
+                             .v = work_.after[i],
+                             .push = work_.after[i] - work_.star[i]});
 }
 
 void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h) {
-  Contact& contact = touch.contact;
-  const bool fixedA = model_.fixed(contact.a), fixedB = model_.fixed(contact.b);
-  const Row& normal = work_.problem.rows[cone.row];
-  // Work over the step is λ times the mean of the velocities before and after.
-  const Vec6 a = 0.5 * (work_.before[contact.a] + work_.solution.v[normal.a]);
-  const Vec6 b = 0.5 * (work_.before[contact.b] + work_.solution.v[normal.b]);
   Vec3 impulse = Vec3::Zero(), pull = Vec3::Zero();
   for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
     const Row& row = work_.problem.rows[r];
-    const double lambda = work_.solution.lambda[r];
-    impulse += lambda * row.linear;
+    impulse += work_.solution.lambda[r] * row.linear;
     if (!work_.solution.pull.empty()) pull += work_.solution.pull[r] * row.linear;
-    const double ofA = row.linear.dot(a.head<3>()) + row.angularA.dot(a.tail<3>());
-    const double ofB = -row.linear.dot(b.head<3>()) + row.angularB.dot(b.tail<3>());
-    (r == cone.row ? books.lostImpact : books.lostFriction) -= lambda * (ofA + ofB);
-    if (fixedA) books.work -= lambda * ofA;
-    if (fixedB) books.work -= lambda * ofB;
   }
-  if (fixedB) books.external += impulse;
-  if (fixedA) books.external -= impulse;
   touch.impulse = impulse;
   touch.pull = work_.solution.pull.empty() ? unknown() : pull;
   touch.length = h;
-  contact.force = impulse / h;
-  contact.sliding = contact.friction > 0.0 && slides(touch, normal);
+  touch.contact.force = impulse / h;
+  bookTouch(touch, books);
+}
+
+/// What the impulse of a touch does by the velocities before the step and after it.
+void Stepping::bookTouch(Touch& touch, IslandBooks& books) const {
+  Contact& contact = touch.contact;
+  const bool fixedA = model_.fixed(contact.a), fixedB = model_.fixed(contact.b);
+  // Work over the step is the impulse times the mean of the two.
+  const auto mean = [&](int i) {
+    return Vec3(0.5 * (speedAt(contact, i, work_.before) + speedAt(contact, i, work_.after)));
+  };
+  const Vec3 ofA = mean(contact.a), ofB = mean(contact.b), rate = ofA - ofB;
+  const double lostImpact = touch.impulse.dot(contact.point.n) * contact.point.n.dot(rate);
+  books.lostImpact -= lostImpact;
+  books.lostFriction -= touch.impulse.dot(rate) - lostImpact;
+  if (fixedA) books.work -= touch.impulse.dot(ofA);
+  if (fixedB) books.work += touch.impulse.dot(ofB);
+  if (fixedB) books.external += touch.impulse;
+  if (fixedA) books.external -= touch.impulse;
+  contact.sliding = contact.friction > 0.0 && slides(touch);
   contact.lasting = !arrives(touch);
 }
 
+/// Of a body at a contact point.
+Vec3 Stepping::speedAt(const Contact& contact, int body, std::span<const Vec6> twists) const {
+  const Vec6& twist = twists[body];
+  return twist.head<3>() + twist.tail<3>().cross(contact.point.p - state_.bodies[body].x);
+}
+
 /// Whether the friction of a touch is all that its cone gives, and its bodies slip.
-bool Stepping::slides(const Touch& touch, const Row& row) const {
+bool Stepping::slides(const Touch& touch) const {
   const Contact& contact = touch.contact;
-  const ContactPoint& c = contact.point;
-  const double j = touch.impulse.dot(c.n);
-  const Vec3 tangential = touch.impulse - j * c.n;
-  const Vec6 &va = work_.solution.v[row.a], &vb = work_.solution.v[row.b];
-  const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[contact.a].x) -
-                    vb.head<3>() - vb.tail<3>().cross(c.p - state_.bodies[contact.b].x);
-  const Vec3 slip = rate - rate.dot(c.n) * c.n;
+  const Vec3& n = contact.point.n;
+  const double j = touch.impulse.dot(n);
+  const Vec3 tangential = touch.impulse - j * n, rate = rateAt(contact, work_.after);
+  const Vec3 slip = rate - rate.dot(n) * n;
   constexpr double kEdge = 1e-9;  // of the cone: nearer is on its edge
   return tangential.norm() >= contact.friction * j * (1.0 - kEdge) &&
          slip.norm() > tolerance_.stick;

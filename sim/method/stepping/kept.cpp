@@ -1,5 +1,6 @@
 // Answers that islands keep: from the step before, or from one of another length.
 #include <algorithm>
+#include <limits>
 
 #include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
@@ -31,6 +32,107 @@ bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) co
   for (const Link link : links)
     for (const Touch& touch : memory_.pairs[link].touches)
       if (touch.arrivalSpeed > 0.0) return false;
+  return true;
+}
+
+/// Whether an island may ask for the forces of the step before: its contacts are those of then. One
+/// contact alone is solved as quickly as asked, and without what rounding would add up; what hardly
+/// moves is solved, to be told to stand.
+bool Stepping::goesOn(const IslandMemory& memory, std::span<const Link> links, double h) const {
+  if (memory.cones < 2 || memory.rough || !ofSame(memory, links)) return false;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!isPair(links[k]) || memory.seen[k].form != memory_.pairs[links[k]].form) return false;
+    for (const Touch& touch : memory_.pairs[links[k]].touches)
+      if (touch.length != h || touch.arrivalSpeed > 0.0 || flies(touch, h)) return false;
+  }
+  return std::any_of(work_.movers.begin(), work_.movers.end(), [&](int i) {
+    const Vec6& v = work_.before[i];
+    return v.head<3>().norm() + model_.radius[i] * v.tail<3>().norm() > tolerance_.rest;
+  });
+}
+
+/// Whether the impulses of the step before, where points are now, change velocities as they did.
+bool Stepping::balances(const IslandMemory& memory, std::span<const Link> links) {
+  constexpr double kBalance = 1e-12, kOpen = 0.01;  // of the change; of the tolerance
+  const double open = std::max(kBalance, kOpen * model_.def.stepping.tolerance);
+  for (const int i : work_.movers) work_.after[i].setZero();
+  for (const Link link : links) {
+    for (const Touch& touch : memory_.pairs[link].touches) {
+      const Contact& c = touch.contact;
+      const auto push = [&](int i, const Vec3& impulse) {
+        if (model_.fixed(i)) return;
+        work_.after[i].head<3>() += impulse;
+        work_.after[i].tail<3>() += (c.point.p - state_.bodies[i].x).cross(impulse);
+      };
+      push(c.a, touch.impulse);
+      push(c.b, -touch.impulse);
+    }
+  }
+  return std::all_of(memory.movers.begin(), memory.movers.end(),
+                     [&](const IslandMemory::Mover& mover) {
+                       const RigidBody& body = state_.bodies[mover.body];
+                       const Vec6& sum = work_.after[mover.body];
+                       Vec6 push;
+                       push << body.invM * sum.head<3>(), body.Iinv * Vec3(sum.tail<3>());
+                       return (push - mover.push).norm() <= open * push.norm();
+                     });
+}
+
+/// How far [m/s] the velocity of a point after the step is from one with which its force obeys the
+/// law of contact: a projection brings no two points further apart, so that this bounds the
+/// residual.
+double Stepping::missedBy(const Touch& touch, bool allClosed, double h) const {
+  constexpr double kEdge = 1e-14;  // of a force: nearer to the edge of its cone is on it
+  const Contact& c = touch.contact;
+  const Vec3& n = c.point.n;
+  Vec3 lead = carried(c, h);
+  if (!model_.fixed(c.a) && !model_.fixed(c.b)) lead -= n.dot(lead) * n;
+  const Vec3 u = rateAt(c, work_.after) + lead;
+  const double along = n.dot(u), j = n.dot(touch.impulse),
+               parts = along + gapRate(touch, allClosed, h);
+  const Vec3 held = touch.impulse - j * n;
+  const double holds = held.norm(), most = c.friction * j, rounding = kEdge * j;
+  if (j < 0.0 || holds > most + rounding) return std::numeric_limits<double>::infinity();
+  if (j == 0.0) return std::max(0.0, -parts);
+  if (c.friction <= 0.0) return std::abs(parts);
+  Vec3 slip = u - along * n;
+  if (holds >= most - rounding)  // then it may slip against what holds it
+    slip -= std::min(0.0, slip.dot(held) / (holds * holds)) * held;
+  return std::abs(parts) + (1.0 + c.friction) * slip.norm();
+}
+
+/// Gives an island the forces of the step before, where they do as well: as to what slides on along
+/// its line, however fast it is by now.
+bool Stepping::pushesAlike(IslandMemory& memory, std::span<const Link> links, double h) {
+  constexpr double kAlike = 0.1;  // of the tolerance
+  if (!goesOn(memory, links, h) || !balances(memory, links)) return false;
+  for (const IslandMemory::Mover& mover : memory.movers)
+    work_.after[mover.body] = work_.star[mover.body] + mover.push;
+  double scale = 0.0, missed = 0.0;
+  for (const Link link : links) {
+    const std::vector<Touch>& touches = memory_.pairs[link].touches;
+    const bool allClosed = areClosed(touches);
+    for (const Touch& touch : touches) {
+      scale = std::max(scale, rateAt(touch.contact, work_.star).norm());
+      missed = std::max(missed, missedBy(touch, allClosed, h));
+    }
+  }
+  if (!(missed <= kAlike * model_.def.stepping.tolerance * scale)) return false;
+
+  allKept_ = false;  // a contact may have come to slip
+  memory.scale = scale;
+  memory.residual = missed / scale;
+  for (IslandMemory::Mover& mover : memory.movers) {
+    mover.vStar = work_.star[mover.body];
+    mover.v = work_.after[mover.body];
+  }
+  memory.books = {};
+  for (const Link link : links) {
+    for (Touch& touch : memory_.pairs[link].touches) {
+      touch.approach = -touch.contact.point.n.dot(rateAt(touch.contact, work_.before));
+      bookTouch(touch, memory.books);
+    }
+  }
   return true;
 }
 

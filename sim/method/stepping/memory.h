@@ -86,7 +86,8 @@ struct IslandMemory {
   struct Mover {
     int body = 0;
     Mat3 Iinv;
-    Vec6 vStar, v;
+    Vec6 vStar, v;  ///< without contacts and with them
+    Vec6 push;      ///< what contacts gave when the island was solved
   };
   struct Seen {
     long look = 0, form = 0;  ///< as of PairMemory; 0 of a joint

@@ -254,19 +254,32 @@ class Stepping {
   void fallAsOne(std::span<const Link> links, double h);
   bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
+  bool goesOn(const IslandMemory& memory, std::span<const Link> links, double h) const;
   bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
+  bool pushesAlike(IslandMemory& memory, std::span<const Link> links, double h);
+  bool balances(const IslandMemory& memory, std::span<const Link> links);
+  double missedBy(const Touch& touch, bool allClosed, double h) const;
   void stand(IslandMemory& memory, bool crowd, double h) const;
   void stretch(IslandMemory& memory, std::span<const Link> links, double h);
   void build(std::span<const Link> links, double h);
   void addTouch(Touch& touch, bool allClosed, double h);
+  bool areClosed(std::span<const Touch> touches) const;
+  double gapRate(const Touch& touch, bool allClosed, double h) const;
   /// What a step adds to the relative velocity of two bodies that turn together: each goes along
   /// its chord, not along its tangent.
   Vec3 carried(const Contact& contact, double h) const;
   bool atStart() const { return partStart_ == 0.0; }
   Row& addRow(const Row& row);
   void share(std::span<const Link> links, IslandMemory& memory, double h);
+  void remember(IslandMemory& memory, std::span<const Link> links);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
-  bool slides(const Touch& touch, const Row& row) const;
+  void bookTouch(Touch& touch, IslandBooks& books) const;
+  Vec3 speedAt(const Contact& contact, int body, std::span<const Vec6> twists) const;
+  /// Of body a against b.
+  Vec3 rateAt(const Contact& contact, std::span<const Vec6> twists) const {
+    return speedAt(contact, contact.a, twists) - speedAt(contact, contact.b, twists);
+  }
+  bool slides(const Touch& touch) const;
   int localOf(int body);
   /// Whether a fixed body that moves takes part.
   bool isLed(std::span<const Link> links) const;
