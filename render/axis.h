@@ -11,6 +11,7 @@ struct ChartAxis {
   std::string caption;  ///< "error", "time / s"
   bool logarithmic = false;
   bool fromZero = false;  ///< 0 has its place on it, so that lengths are as their values
+  bool broken = false;    ///< a mark at its foot says so where it begins above 0
 };
 
 /// A number along an axis; on a logarithmic one the power of ten.
@@ -35,6 +36,7 @@ class Scale {
   /// Difference of labelled ticks, to know how many digits they need; 1 on a logarithmic axis.
   double step() const { return step_; }
   bool logarithmic() const { return logarithmic_; }
+  bool aboveZero() const { return !logarithmic_ && low_ > 0.0; }
 
  private:
   bool logarithmic_;

@@ -148,6 +148,7 @@ class Plot {
     }
     canvas_.stroke({left_, bottom_}, {right_, bottom_}, 1.4, ink::secondary);
     canvas_.stroke({left_, top_}, {left_, bottom_}, 1.4, ink::secondary);
+    if (chart_.y.broken && y_.aboveZero()) drawBreak();
     for (const Tick& tick : x_.ticks()) {
       const double x = x_.at(valueOf(tick, x_));
       canvas_.stroke({x, bottom_}, {x, bottom_ + (tick.labelled ? 5.0 : 3.0)}, 1.2, ink::secondary);
@@ -162,6 +163,14 @@ class Plot {
     }
     canvas_.text({left_ - 32.0, top_ - 16.0}, chart_.y.caption, kCaption);
     canvas_.text({right_, bottom_ + 42.0}, chart_.x.caption, aligned(kCaption, Align::Right));
+  }
+
+  // Two strokes across a gap in the upright axis, between its foot and the first tick above.
+  void drawBreak() {
+    const double middle = bottom_ - 13.0, gap = 3.0;
+    canvas_.fill({left_ - 2.0, middle - gap}, {4.0, 2.0 * gap}, ink::page);
+    for (const double y : {middle - gap, middle + gap})
+      canvas_.stroke({left_ - 6.0, y + 2.5}, {left_ + 6.0, y - 2.5}, 1.4, ink::secondary);
   }
 
   void drawGuide(const Guide& guide) {

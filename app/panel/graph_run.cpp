@@ -186,7 +186,7 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
   const std::string time = holds ? "steps" : "time / s";
   plot.x = {graph.across.empty() ? time : graph.across, false};
   plot.y = {graph.shows == "values" ? graph.axis : captionOf(graph.shows), holds,
-            graph.shows == "energy" && !changesVisibly(series)};
+            graph.shows == "energy" && !changesVisibly(series), graph.shows == "energy"};
   const bool small = graph.shows == "height" && isSmall(series);
   if (small) plot.y.caption = "height / mm";
   for (std::size_t i = 0; i < series.size(); ++i) {

@@ -59,3 +59,15 @@ TEST_CASE("a curve of a chart is one path whose ends stand where its axes say") 
   CHECK(countOf("<text", text) == countOf("</text>", text));
   CHECK(text == svgOf(chart, 640.0, 360.0, fonts()));
 }
+
+TEST_CASE("an axis that may be broken is so where it leaves out 0, and nowhere else") {
+  const auto strokes = [](bool broken, double least) {
+    Chart chart;
+    chart.y.broken = broken;
+    ChartCurve& curve = chart.curves.emplace_back();
+    curve.points = {{0.0, least}, {1.0, 90.0}};
+    return countOf("<path", svgOf(chart, 640.0, 360.0, fonts()));
+  };
+  CHECK(strokes(true, 71.0) == strokes(false, 71.0) + 2);
+  CHECK(strokes(true, 0.0) == strokes(false, 0.0));
+}
