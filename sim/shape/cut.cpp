@@ -205,6 +205,16 @@ double sixfoldVolume(const Points& points, const Surface& surface) {
   return sum;
 }
 
+std::vector<Vec3> cornersOf(const Points& points, const Surface& surface) {
+  std::vector<int> list;
+  for (const auto& [corner, face] : surface) list.insert(list.end(), corner.begin(), corner.end());
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  std::vector<Vec3> corners;
+  for (const int p : list) corners.push_back(at(points, p));
+  return corners;
+}
+
 double turn(const Points& points, int a, int b, int c, int axis, bool exact) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3 &p = at(points, a), &q = at(points, b), &r = at(points, c);

@@ -40,6 +40,9 @@ int sideOf(const Points& points, int p, const CutPlane& plane, double tolerance)
 /// Sixfold volume [m³] of what a surface encloses.
 double sixfoldVolume(const Points& points, const Surface& surface);
 
+/// The corners of a surface, each once.
+std::vector<Vec3> cornersOf(const Points& points, const Surface& surface);
+
 /// What a plane leaves below and above it, each closed along the cut. New corners are the exact
 /// crossings; with a tolerance they are rounded.
 struct Halves {

@@ -13,6 +13,7 @@
 #include "sim/shape/excess.h"
 #include "sim/shape/join.h"
 #include "sim/shape/notches.h"
+#include "sim/shape/slivers.h"
 
 namespace tumble {
 namespace {
@@ -34,7 +35,6 @@ constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for 
 constexpr std::size_t kMostSeeds = 48;      // notches of a piece from which planes are drawn
 constexpr double kCoarse = 1e-3;       // of the size: from this tolerance on, cuts are anywhere
 constexpr std::size_t kMostExact = 4;  // cuts through notches that are tried beside those
-constexpr int kSlices = 4;
 
 /// The convex hull of a piece, and how far it reaches out of the mesh.
 struct Wrapping {
@@ -101,34 +101,11 @@ class Decomposer {
                                             .reach = std::max(0.0, slack() - excess_)});
     if (tolerance_ > 0.0) excess_ += joined;
     checkVolume(done);
-    return collected(std::move(done));
-  }
-
-  Pieces slivers() {
-    const Pieces good = this->good();
-    Vec3 lo = points_.at[0], hi = lo;
-    for (const Vec3& p : points_.at) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
-    int axis = 0;
-    (hi - lo).minCoeff(&axis);
-    std::vector<Polyhedron> slices;
-    for (const Hull& hull : good.hulls) {
-      Surface rest = surfaceOf(*hull.solid);
-      for (int k = 1; k < kSlices && !rest.empty(); ++k) {
-        Vec3 p = lo;
-        p[axis] += k * (hi[axis] - lo[axis]) / kSlices;
-        const Vec3 u = size_ * Vec3::Unit((axis + 1) % 3), v = size_ * Vec3::Unit((axis + 2) % 3);
-        cut::Halves halves =
-            cut::halve(points_, rest, cut::planeThrough(p, p + u, p + v), kRounding * size_);
-        addSlice(halves.below, slices);
-        rest = std::move(halves.above);
-      }
-      addSlice(rest, slices);
-    }
-    if (slices.size() > kMostPieces)
-      throw NoPieces("the mesh makes " + std::to_string(slices.size()) + " slivers, more than " +
-                         std::to_string(kMostPieces) + "; take pieces = \"good\"",
-                     -1);
-    return collected(std::move(slices));
+    // Hulls of what a plane parts stay on their sides of it, however much they stand out elsewhere.
+    Pieces pieces{{}, excess_, 2.0 * snap_ + gape_};
+    for (Polyhedron& hull : done)
+      pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
+    return pieces;
   }
 
  private:
@@ -137,24 +114,7 @@ class Decomposer {
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
   double slack() const { return std::max(tolerance_, kRounding * size_); }
 
-  std::vector<Vec3> cornersOf(const Surface& piece) const {
-    std::vector<int> list;
-    for (const auto& [corner, face] : piece) list.insert(list.end(), corner.begin(), corner.end());
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    std::vector<Vec3> corners;
-    for (const int p : list) corners.push_back(at(p));
-    return corners;
-  }
-
-  /// A slice flatter than numbers can tell is none.
-  void addSlice(const Surface& slice, std::vector<Polyhedron>& slices) const {
-    if (slice.empty()) return;
-    try {
-      slices.push_back(hullInFrame(cornersOf(slice)));
-    } catch (const NotASolid&) {
-    }
-  }
+  std::vector<Vec3> cornersOf(const Surface& piece) const { return cut::cornersOf(points_, piece); }
 
   /// The hull of a piece; none if it is flatter than numbers can tell, or no matter.
   std::optional<Polyhedron> hullToAsk(const Surface& piece, const std::vector<Notch>& notches) {
@@ -368,28 +328,6 @@ class Decomposer {
     return buffer;
   }
 
-  Surface surfaceOf(const Polyhedron& solid) {
-    Surface surface;
-    const int first = static_cast<int>(points_.at.size());
-    points_.at.insert(points_.at.end(), solid.points.begin(), solid.points.end());
-    points_.exact.resize(points_.at.size());
-    std::vector<std::array<int, 3>> triangles;
-    for (const std::vector<int>& face : solid.faces) cutIntoTriangles(solid, face, triangles);
-    for (const auto& [a, b, c] : triangles)
-      surface.push_back({{first + a, first + b, first + c}, -1});
-    return surface;
-  }
-
-  Pieces collected(std::vector<Polyhedron> hulls) const {
-    Pieces pieces;
-    pieces.excess = excess_;
-    // Hulls of what a plane parts stay on their sides of it, however much they stand out elsewhere.
-    pieces.slack = 2.0 * snap_ + gape_;
-    for (Polyhedron& hull : hulls)
-      pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
-    return pieces;
-  }
-
   [[noreturn]] void refuse(const std::string& why, const std::vector<Notch>& notches) const {
     std::string where;
     int face = -1;
@@ -448,7 +386,14 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
   const bool coarse = tolerance >= kCoarse * size;
   if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance);
   Decomposer decomposer(solid, tolerance, {coarse, coarse ? kMostCoarse : kMostWork});
-  return kind == PieceKind::Good ? decomposer.good() : decomposer.slivers();
+  Pieces pieces = decomposer.good();
+  if (kind == PieceKind::Slivers) pieces.hulls = slivered(pieces.hulls, solid);
+  if (pieces.hulls.size() > kMostPieces)
+    throw NoPieces("the mesh makes " + std::to_string(pieces.hulls.size()) +
+                       " slivers, more than " + std::to_string(kMostPieces) +
+                       "; take pieces = \"good\"",
+                   -1);
+  return pieces;
 }
 
 }  // namespace tumble
