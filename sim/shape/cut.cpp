@@ -64,6 +64,8 @@ int signOf(const Whole& x) {
 constexpr double kSure = 1e-9;
 /// Corners in line, each rounded, turn by no more, of their size times the lengths between them.
 constexpr double kNoise = 4e-15;
+/// Of size × area: a volume below it may be rounding alone.
+constexpr double kThin = 1e-12;
 
 const Vec3& at(const Points& points, int p) {
   return points.at[static_cast<std::size_t>(p)];
@@ -105,6 +107,17 @@ int crossing(Points& points, int p, int q, const CutPlane& plane, const WholePla
     points.exact.push_back(std::make_shared<const Fraction3>(x));
   }
   return static_cast<int>(points.at.size()) - 1;
+}
+
+/// Whether a surface is inside out, and not by rounding alone.
+bool isCavity(const Points& points, const Surface& surface) {
+  double area = 0.0, far = 0.0;
+  for (const auto& [corner, face] : surface) {
+    const Vec3 &a = at(points, corner[0]), &b = at(points, corner[1]), &c = at(points, corner[2]);
+    area += twiceArea(a, b, c).norm();
+    far = std::max({far, a.norm(), b.norm(), c.norm()});
+  }
+  return sixfoldVolume(points, surface) < -kThin * far * area;
 }
 
 /// Sorts triangles to the two sides of a plane, and splits those that cross it.
@@ -199,8 +212,8 @@ double sixfoldVolume(const Points& points, const Surface& surface) {
   const Vec3 foot = at(points, surface[0].corner[0]);
   double sum = 0.0;
   for (const auto& [corner, face] : surface) {
-    const Vec3 a = at(points, corner[0]) - foot;
-    sum += a.dot((at(points, corner[1]) - foot).cross(at(points, corner[2]) - foot));
+    const Vec3 &a = at(points, corner[0]), &b = at(points, corner[1]), &c = at(points, corner[2]);
+    sum += (a - foot).dot(twiceArea(a, b, c));
   }
   return sum;
 }
@@ -282,9 +295,8 @@ std::vector<Surface> pieces(const Points& points, const Surface& surface) {
     found[root(static_cast<int>(t))].push_back(surface[t]);
   std::vector<Surface> apart;
   for (auto& [first, piece] : found) apart.push_back(std::move(piece));
-  const bool hollow = std::any_of(apart.begin(), apart.end(), [&](const Surface& piece) {
-    return sixfoldVolume(points, piece) < 0.0;
-  });
+  const bool hollow = std::any_of(apart.begin(), apart.end(),
+                                  [&](const Surface& piece) { return isCavity(points, piece); });
   if (hollow) return {surface};
   return apart;
 }
