@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command/interrupt.h"
+#include "app/command/progress.h"
 #include "app/file/file.h"
 #include "app/record/recording.h"
 #include "app/scene/findings.h"
@@ -54,7 +55,7 @@ int runNamed(std::span<const Command> table, int argc, char** argv) {
 }
 
 int complain(int code, const char* what) {
-  fmt::print(stderr, "tumble: {}\n", what);
+  tell(fmt::format("tumble: {}\n", what));
   return code;
 }
 
@@ -66,8 +67,7 @@ int guarded(const std::function<int()>& work) {
   } catch (const UsageError& error) {
     return complain(kUsage, error.what());
   } catch (const SceneError& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics())
-      fmt::print(stderr, "{}\n", format(diagnostic));
+    for (const Diagnostic& diagnostic : error.diagnostics()) tell(format(diagnostic) + "\n");
     return kScene;
   } catch (const NoContext& error) {
     return complain(kNoContext, error.what());

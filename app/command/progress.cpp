@@ -1,6 +1,6 @@
 #include "app/command/progress.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -26,8 +26,12 @@ void say(const std::string& line) {
   if (!silent) fmt::print("{}\n", line);
 }
 
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
+
 void note(const std::string& line) {
-  if (!silent) fmt::print(stderr, "note: {}\n", line);
+  if (!silent) tell(fmt::format("note: {}\n", line));
 }
 
 Progress::Progress(std::string task)
@@ -37,7 +41,7 @@ Progress::Progress(std::string task)
       last_(start_) {}
 
 Progress::~Progress() {
-  if (terminal_ && !silent) fmt::print(stderr, "\r\033[K");
+  if (terminal_ && !silent) tell("\r\033[K");
 }
 
 void Progress::show(double share) {
@@ -53,15 +57,15 @@ void Progress::show(double share) {
   const int quarter = static_cast<int>(share * 4.0);
   if (quarter <= quarter_ || seconds < 2.0) return;
   quarter_ = quarter;
-  fmt::print(stderr, "{}: {} % after {:.0f} s\n", task_, 25 * quarter, seconds);
+  tell(fmt::format("{}: {} % after {:.0f} s\n", task_, 25 * quarter, seconds));
 }
 
 void Progress::drawBar(double share, double seconds) {
   constexpr int kWidth = 30;
   const int done = static_cast<int>(share * kWidth);
   const double left = share > 0.0 ? seconds * (1.0 - share) / share : 0.0;
-  fmt::print(stderr, "\r\033[K{:<12}[{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s left", task_, "", done, "",
-             kWidth - done, 100.0 * share, std::ceil(left));
+  tell(fmt::format("\r\033[K{:<12}[{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s left", task_, "", done, "",
+                   kWidth - done, 100.0 * share, std::ceil(left)));
   std::fflush(stderr);
 }
 

@@ -13,6 +13,9 @@ bool quiet();
 /// A line on standard output that is not a result, such as the path of a file that was written.
 void say(const std::string& line);
 
+/// Text on standard error; that it cannot be written is no error.
+void tell(const std::string& text);
+
 /// A line on standard error about something that the user may not have meant.
 void note(const std::string& line);
 

@@ -50,7 +50,7 @@ void printCertificate(const Recording& recording) {
 
 int exitOf(const Recording& recording) {
   if (!recording.report.stopped) return kOk;
-  fmt::print(stderr, "tumble: the physics could not go on: {}\n", recording.report.reason);
+  tell(fmt::format("tumble: the physics could not go on: {}\n", recording.report.reason));
   return kPhysics;
 }
 

@@ -35,8 +35,8 @@ int sweep(int argc, char** argv) {
   const SweepResult result = runSweep(scene, folder, part, studio);
   for (const std::string& path : result.files) say(path);
   if (result.failing > 0)
-    fmt::print(stderr, "tumble: claims fail for {} of {} values of {}; the table says which\n",
-               result.failing, result.runs, scene.sweep->parameter);
+    tell(fmt::format("tumble: claims fail for {} of {} values of {}; the table says which\n",
+                     result.failing, result.runs, scene.sweep->parameter));
   return result.code;
 }
 

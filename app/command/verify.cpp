@@ -59,7 +59,7 @@ int verify(int argc, char** argv) {
   if (!whole) std::erase_if(expected.samples, [&](const SampleHash& h) { return h.t > until; });
   const RunHashes actual = runAsFar(scene, expected, whole);
   if (const std::optional<std::string> difference = firstDifference(expected, actual, scene)) {
-    fmt::print(stderr, "tumble: {} parts from {}: {}\n", scene.name, path, *difference);
+    tell(fmt::format("tumble: {} parts from {}: {}\n", scene.name, path, *difference));
     return kFailed;
   }
   say(whole ? fmt::format("{}: {} samples and {} events, the same bits", scene.name,

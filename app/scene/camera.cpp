@@ -10,14 +10,7 @@ namespace {
 
 constexpr std::size_t kMostKeys = 1000;
 
-void readFov(Section& section, double& out) {
-  double fov = out;
-  section.read("fov", fov, any("deg"));
-  if (fov > 1.0 && fov < 170.0)
-    out = fov;
-  else
-    section.complain("fov", "expected an angle [deg] between 1 and 170");
-}
+const Range kFov = {1.0, 170.0, false, "deg"};
 
 void complainOfNoSight(Section& section, const Vec3& eye, const Vec3& target) {
   if ((eye - target).norm() < 1e-9)
@@ -33,7 +26,7 @@ CameraKey readKey(const Node& node, const std::string& key, double fov, Findings
   section.read("target", one.target, any("m"));
   for (const char* needed : {"at", "eye", "target"})
     if (!section.find(needed)) section.complain(needed, "missing");
-  readFov(section, one.fov);
+  section.read("fov", one.fov, kFov);
   if (section.good()) complainOfNoSight(section, one.eye, one.target);
   section.finish();
   return one;
@@ -66,7 +59,7 @@ CameraView readOneCamera(const Node& node, const std::string& key, Section& root
   section.read("target", camera.target, any("m"));
   section.read("azimuth", camera.azimuth, any("deg"));
   section.read("elevation", camera.elevation, {-89.0, 89.0, false, "deg"});
-  readFov(section, camera.fov);
+  section.read("fov", camera.fov, kFov);
   if (camera.eye && camera.target) complainOfNoSight(section, *camera.eye, *camera.target);
   readKeys(section, camera);
   if (!camera.follow.empty()) requireBody(section, "follow", camera.follow, bodies);

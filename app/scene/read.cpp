@@ -175,7 +175,8 @@ Scene parseScene(const std::string& text, const std::string& file,
 Scene readScene(const std::string& path, const std::vector<std::string>& overrides,
                 const Variant* variant) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) throw refusal(path, "is a folder, not a scene file");
+  if (fs::is_directory(path, ignored))
+    throw refusal(path, "is a folder; name a scene file, one that ends in .toml");
   if (!fs::exists(path, ignored)) throw refusal(path, "there is no such file");
   std::ifstream in(path, std::ios::binary);
   std::string text(kLargestFile + 1, '\0');

@@ -1,5 +1,7 @@
 #include "app/scene/settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -128,7 +130,8 @@ void readImage(Section& root, ImageFormat& image) {
   image.width = static_cast<int>(size[0]);
   image.height = static_cast<int>(size[1]);
   if (image.width != size[0] || image.height != size[1])
-    section.complain("size", "expected whole numbers");
+    section.complain("size",
+                     fmt::format("expected whole numbers, found {:g} and {:g}", size[0], size[1]));
   section.read("rate", image.rate, {0.0, 1e5, true, "1/s"});
   section.read("still", image.still, notNegative("s"));
   section.read("antialias", image.antialias, {"none", "msaa4", "ssaa2x2"});

@@ -212,6 +212,11 @@ TEST_CASE("standard output that cannot be written ends with 5") {
   CHECK(outcome.lines() == 1);
 }
 
+TEST_CASE("an error that cannot be told still ends with its own code") {
+  const Scratch scratch;
+  CHECK(tumbleRun(scratch, "render nosuch.toml 2>/dev/full").code == kScene);
+}
+
 TEST_CASE("without an OpenGL context nothing is drawn and the program ends with 4") {
   const Scratch scratch;
   scratch.file("scene.toml", kBall);
