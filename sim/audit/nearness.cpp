@@ -30,8 +30,10 @@ Nearness::Nearness(const Model& model, std::span<const RigidBody> bodies)
     const double radius = boundingRadius(model.shapes[i]);
     radius_.push_back(std::isfinite(radius) ? radius : 0.0);
   }
+  for (const double radius : radius_)
+    if (radius > 0.0 && (least_ == 0.0 || radius < least_)) least_ = radius;
   moved_.assign(radius_.size(), 0.0);
-  reach_ = moved_;
+  reach_ = fat_ = moved_;
   from_.assign(radius_.size(), Vec3::Zero());
 }
 
@@ -41,12 +43,12 @@ double Nearness::smaller(const Known& pair) const {
 }
 
 void Nearness::list(const Part& part) {
-  fat_ = kSpare * least();
-  for (const int i : model_.solid) fat_ = std::max(fat_, 2.0 * reach_[i]);
   listed_ = moved_;
   boxes_.clear();
-  for (const int i : model_.solid)
-    boxes_.push_back(boundingBox(model_.shapes[i], poseOf(part.end[i]), fat_));
+  for (const int i : model_.solid) {
+    fat_[i] = kSpare * least_ + reach_[i];
+    boxes_.push_back(boundingBox(model_.shapes[i], poseOf(part.end[i]), fat_[i]));
+  }
   broadPhase_.update(boxes_, model_.solidBends);
   // What is known of pairs that stay is kept. Both lists are sorted.
   known_.swap(pairs_);
@@ -77,13 +79,6 @@ void Nearness::look(Known& pair, const Part& part) {
   pair.gap = gapOf(pair, poseOf(part.end[pair.a]), poseOf(part.end[pair.b]));
   pair.moved = moved_[pair.a] + moved_[pair.b];
   deepest_ = std::max(deepest_, -pair.gap);
-}
-
-double Nearness::least() const {
-  double least = 0.0;
-  for (const double radius : radius_)
-    if (radius > 0.0 && (least == 0.0 || radius < least)) least = radius;
-  return least;
 }
 
 /// In the midst of a part and, where bodies have parts of their own in it, at the ends of those.
@@ -134,12 +129,12 @@ bool Nearness::glance(std::span<const RigidBody> end) {
 const std::vector<Nearness::Pair>& Nearness::see(const Part& part) {
   touched_.clear();
   before_ = reach_;
-  bool listed = fat_ >= 0.0;
+  bool listed = !listed_.empty();
   for (const int i : model_.solid) {
     moved_[i] += part.net[i];
     from_[i] = part.end[i].x;
     reach_[i] = radius_[i] > 0.0 ? part.reach[i] + kRest * radius_[i] : 0.0;
-    listed = listed && moved_[i] - listed_[i] + reach_[i] < fat_;
+    listed = listed && moved_[i] - listed_[i] + reach_[i] < fat_[i];
   }
   for (Known& pair : pairs_) see(pair, part);
   if (listed) return touched_;

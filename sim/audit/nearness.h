@@ -41,7 +41,7 @@ class Nearness {
 
   double deepest() const { return deepest_; }  ///< [m] at the end of any part
   double between() const { return between_; }  ///< [m] in the midst of any part
-  double least() const;                        ///< [m] radius of the smallest body
+  double least() const { return least_; }      ///< [m] radius of the smallest body
   double radius(int body) const { return radius_[body]; }
 
  private:
@@ -76,7 +76,8 @@ class Nearness {
   std::vector<double> listed_;  ///< [m] the same when pairs were listed
   std::vector<Aabb> boxes_;
   BroadPhase broadPhase_;
-  double fat_ = -1.0;                 ///< [m] what boxes were grown by; < 0: not listed yet
+  std::vector<double> fat_;  ///< [m] per body: what its box was grown by
+  double least_ = 0.0;
   std::vector<Known> pairs_, known_;  ///< and those of the list before
   std::vector<Pair> touched_;
   double deepest_ = 0.0, between_ = 0.0;
