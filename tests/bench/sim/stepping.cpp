@@ -1,5 +1,6 @@
-// What a whole step of stacks costs: at rest, and drifting along on ice, where every step looks
-// anew and islands keep their forces, and pulled along, where every step solves anew.
+// What a whole step costs: of stacks at rest, drifting along on ice, where every step looks anew
+// and islands keep their forces, and pulled along, where they ask whether these still do; of a
+// brick that slides and a ball that rolls.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -50,6 +51,30 @@ void stackPulled(benchmark::State& state) {
   stepsOf(state, 0.1, 1e-3);
 }
 BENCHMARK(stackPulled)->DenseRange(0, 3)->Unit(benchmark::kMicrosecond);
+
+/// A body that goes along a rough floor for a second, from a speed of 5 m/s on.
+void along(benchmark::State& state, BodyDef body) {
+  body.velocity.x() = 5.0;
+  const WorldDef def = scenes::worldOf("stepping", 1.0, {scenes::ground(0.0, 0.5), body});
+  for (auto _ : state) {
+    World world(def);
+    for (int k = 1; k <= 240; ++k) world.advance(k * def.stepping.step);
+  }
+  state.counters["per step"] = benchmark::Counter(
+      240.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void brickSlides(benchmark::State& state) {
+  along(state, scenes::box("brick", {0.3, 0.1, 0.2}, {0.0, 0.05, 0.0}, 0.0, 0.5));
+}
+BENCHMARK(brickSlides)->Unit(benchmark::kMicrosecond);
+
+void ballRolls(benchmark::State& state) {
+  BodyDef ball = scenes::ball("ball", 0.1, {0.0, 0.1, 0.0}, 0.0, 0.5);
+  ball.angularVelocity.z() = -50.0;
+  along(state, ball);
+}
+BENCHMARK(ballRolls)->Unit(benchmark::kMicrosecond);
 
 /// A row of dominoes of which the first has been pushed.
 WorldDef dominoes() {
