@@ -109,16 +109,19 @@ int crossing(Points& points, int p, int q, const CutPlane& plane, const WholePla
   return static_cast<int>(points.at.size()) - 1;
 }
 
-/// Whether a surface is inside out, and not by rounding alone.
-bool isCavity(const Points& points, const Surface& surface) {
+}  // namespace
+
+bool isThin(const Points& points, const Surface& surface, double share) {
   double area = 0.0, far = 0.0;
   for (const auto& [corner, face] : surface) {
     const Vec3 &a = at(points, corner[0]), &b = at(points, corner[1]), &c = at(points, corner[2]);
     area += twiceArea(a, b, c).norm();
     far = std::max({far, a.norm(), b.norm(), c.norm()});
   }
-  return sixfoldVolume(points, surface) < -kThin * far * area;
+  return std::abs(sixfoldVolume(points, surface)) <= share * far * area;
 }
+
+namespace {
 
 /// Sorts triangles to the two sides of a plane, and splits those that cross it.
 class Splitter {
@@ -295,8 +298,9 @@ std::vector<Surface> pieces(const Points& points, const Surface& surface) {
     found[root(static_cast<int>(t))].push_back(surface[t]);
   std::vector<Surface> apart;
   for (auto& [first, piece] : found) apart.push_back(std::move(piece));
-  const bool hollow = std::any_of(apart.begin(), apart.end(),
-                                  [&](const Surface& piece) { return isCavity(points, piece); });
+  const bool hollow = std::any_of(apart.begin(), apart.end(), [&](const Surface& piece) {
+    return sixfoldVolume(points, piece) < 0.0 && !isThin(points, piece, kThin);
+  });
   if (hollow) return {surface};
   return apart;
 }

@@ -40,6 +40,9 @@ int sideOf(const Points& points, int p, const CutPlane& plane, double tolerance)
 /// Sixfold volume [m³] of what a surface encloses.
 double sixfoldVolume(const Points& points, const Surface& surface);
 
+/// Whether a surface encloses no more than a share of its area times its size from the origin.
+bool isThin(const Points& points, const Surface& surface, double share);
+
 /// The corners of a surface, each once.
 std::vector<Vec3> cornersOf(const Points& points, const Surface& surface);
 

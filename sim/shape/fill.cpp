@@ -38,7 +38,7 @@ class Filler {
   }
 
   void run(std::vector<Loop> loops, Surface& out) const {
-    std::vector<Loop> outer, holes;
+    std::vector<Loop> outer, holes, alone;
     for (Loop& loop : loops) (areaOf(loop) > 0.0 ? outer : holes).push_back(std::move(loop));
     // What reaches farthest is tied first, so that no later tie crosses it.
     std::sort(holes.begin(), holes.end(), [&](const Loop& p, const Loop& q) {
@@ -48,9 +48,14 @@ class Filler {
       Loop* around = nullptr;
       for (Loop& loop : outer)
         if (holds(loop, hole) && (!around || areaOf(loop) < areaOf(*around))) around = &loop;
-      if (around) tie(hole, holes, *around);
+      if (around)
+        tie(hole, holes, *around);
+      else
+        alone.push_back(hole);
     }
     for (Loop& loop : outer) cutEars(loop, out);
+    // A loop that none is around is no hole: its area is too small for its sign to be known.
+    for (Loop& loop : alone) cutEars(loop, out);
   }
 
  private:

@@ -34,6 +34,7 @@ constexpr long kStirredWork = 50;           // as much as one of a hull of stirr
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
 constexpr std::size_t kMostSeeds = 48;      // notches of a piece from which planes are drawn
 constexpr double kCoarse = 1e-3;       // of the size: from this tolerance on, cuts are anywhere
+constexpr double kThin = 1e-9;         // of size × area: a piece that may be flat
 constexpr std::size_t kMostExact = 4;  // cuts through notches that are tried beside those
 
 /// The convex hull of a piece, and how far it reaches out of the mesh.
@@ -131,8 +132,10 @@ class Decomposer {
   /// The hull of a piece that stands out of the mesh by no more than the tolerance.
   std::optional<Wrapping> wrapped(const Surface& piece, const std::vector<Notch>& notches,
                                   const std::optional<Polyhedron>& hull) {
-    if (tolerance_ == 0.0 && !notches.empty()) return {};
     Wrapping whole;
+    if (tolerance_ == 0.0 && !notches.empty())
+      return cut::isThin(points_, piece, kThin) && leftOut(piece) ? std::optional(whole)
+                                                                  : std::nullopt;
     if (!hull) return leftOut(piece) ? std::optional(whole) : std::nullopt;
     whole.hull = *hull;
     if (tolerance_ == 0.0) return whole;
@@ -145,7 +148,7 @@ class Decomposer {
     return out.bound <= tolerance_ ? std::optional(whole) : std::nullopt;
   }
 
-  /// Whether a piece is flatter than numbers can tell. Its neighbours gape by it, and it is none.
+  /// Whether a piece is flatter than numbers can tell: it is none, and its neighbours gape by it.
   bool leftOut(const Surface& piece) {
     const std::vector<Vec3> corners = cornersOf(piece);
     try {
@@ -349,9 +352,8 @@ class Decomposer {
   Vec3 over_ = Vec3::Zero();              ///< a point over a dent of the piece that was looked at
   double tolerance_, snap_ = 0.0;         ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
-  double gape_ = 0.0, flat_ = 0.0;       ///< [m], [m³] of pieces left out
-  Triangle crossing_ = {{0, 0, 0}, -1};  ///< of the piece whose hull holds most too much
-  double off_ = 0.0;                     ///< [m³] of that
+  double gape_ = 0.0, flat_ = 0.0, off_ = 0.0;  ///< [m], [m³] of pieces left out
+  Triangle crossing_ = {{0, 0, 0}};  ///< of the piece whose hull holds most too much: off_ [m³]
   long work_ = 0, most_;
 };
 
@@ -385,8 +387,7 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
   for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
   const bool coarse = tolerance >= kCoarse * size;
   if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance);
-  Decomposer decomposer(solid, tolerance, {coarse, coarse ? kMostCoarse : kMostWork});
-  Pieces pieces = decomposer.good();
+  Pieces pieces = Decomposer(solid, tolerance, {coarse, coarse ? kMostCoarse : kMostWork}).good();
   if (kind == PieceKind::Slivers) pieces.hulls = slivered(pieces.hulls, solid);
   if (pieces.hulls.size() > kMostPieces)
     throw NoPieces("the mesh makes " + std::to_string(pieces.hulls.size()) +
