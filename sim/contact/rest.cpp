@@ -8,6 +8,23 @@
 #include "sim/problem/polish.h"
 
 namespace tumble {
+namespace {
+
+/// Factorizations above which a problem is hard, and rows up to which dense steps are cheaper.
+constexpr int kHard = 40;
+constexpr std::size_t kDense = 60;
+/// Residual above which no forces obey the laws.
+constexpr double kLost = 1e-6;
+/// Residual that rounding leaves: what draws gaps of joints shut holds their rounding, by the
+/// square of the time in which it does.
+constexpr double kFree = 1e-12, kJoined = 1e-10;
+
+bool hasJoints(const Problem& problem) {
+  return std::any_of(problem.cones.begin(), problem.cones.end(),
+                     [](const Cone& c) { return c.kind == ConeKind::Equality; });
+}
+
+}  // namespace
 
 Vec3 slidingDirection(std::span<const RigidBody> bodies, const Contact& contact) {
   const Vec3 slip = slipVelocity(bodies[contact.a], bodies[contact.b], contact.point);
@@ -34,7 +51,7 @@ void RestForces::addRows(std::span<const RigidBody> bodies, const Contact& conta
       {.kind = ConeKind::Push, .row = static_cast<int>(problem_.rows.size()), .mu = 0.0});
   problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, c.n, bias));
   if (contact.friction <= 0.0) return;
-  if (!contact.sliding) return addFrictionRows(bodies, contact, contact.slipPull);
+  if (!contact.sliding) return addFrictionRows(bodies, contact);
 
   const Vec3 t = slidingDirection(bodies, contact);
   problem_.cones.back().kind = ConeKind::Slide;
@@ -43,15 +60,14 @@ void RestForces::addRows(std::span<const RigidBody> bodies, const Contact& conta
       pointRow(bodies, contact.a, contact.b, c.p, t, slipAccelerationBias(a, b, c, t)));
 }
 
-void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact,
-                                 const Vec3& pull) {
+void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact) {
   const RigidBody &a = bodies[contact.a], &b = bodies[contact.b];
   const ContactPoint& c = contact.point;
   const Vec3 way = problem_.vStar[contact.a].head<3>() - problem_.vStar[contact.b].head<3>();
   Vec3 t1, t2;
   tangents(c.n, way, t1, t2);
   for (const Vec3& t : {t1, t2}) {
-    const double bias = slipAccelerationBias(a, b, c, t) + pull.dot(t);
+    const double bias = slipAccelerationBias(a, b, c, t) + contact.slipPull.dot(t);
     problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, t, bias));
   }
   problem_.cones.back().kind = ConeKind::Friction;
@@ -59,15 +75,27 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
 }
 
 SolveReport RestForces::solve(std::span<const Contact> contacts) {
-  // What a solver leaves is in the certificate. Where forces have no end, pivoting says so; and it
-  // bears joints under any load, with what leans on them.
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
+  if (hard_ && solution_.lambda.size() == problem_.rows.size()) {
+    const double tolerance = hasJoints(problem_) ? kJoined : kFree;
+    const SolveReport report = polish(problem_, {.tolerance = tolerance}, solution_);
+    if (report.status == SolveStatus::Solved || (left_ > kLost && report.residual <= left_))
+      return report;
+  }
+  const SolveReport report = solveAnew(friction);
+  hard_ = friction && report.iterations > kHard && problem_.rows.size() <= kDense;
+  left_ = report.residual;
+  return report;
+}
+
+SolveReport RestForces::solveAnew(bool friction) {
+  // What a solver leaves is in the certificate. Where forces have no end, pivoting says so; and it
+  // bears joints under any load, with what leans on them.
   solution_ = {};             // the same answer whatever was solved before
   constexpr int kMost = 200;  // factorizations, pivots or sweeps
-  const SolveSettings settings{.maxIterations = kMost};
-  const bool joined = std::any_of(problem_.cones.begin(), problem_.cones.end(),
-                                  [](const Cone& c) { return c.kind == ConeKind::Equality; });
+  const bool joined = hasJoints(problem_);
+  const SolveSettings settings{.tolerance = joined ? kJoined : kFree, .maxIterations = kMost};
   const Solver& first = *findSolver(joined && !friction ? "pivoting" : "newton");
   SolveReport report = solveByIslands(first, problem_, settings, solution_);
   if (polished_ && friction) report = polish(problem_, {}, solution_);
@@ -106,23 +134,41 @@ SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> co
   return report;
 }
 
-void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts,
-                             double h, const Bonds* bonds) {
-  const auto creeps = [](const Contact& c) { return c.creeping; };
-  if (std::none_of(contacts.begin(), contacts.end(), creeps)) return;
+void RestForces::addEndRows(std::span<const RigidBody> ends, const Contact& c) {
+  const bool rubs = c.friction > 0.0, slides = rubs && c.sliding && !c.creeping;
+  problem_.cones.push_back(
+      {.kind = slides ? ConeKind::Slide : (rubs ? ConeKind::Friction : ConeKind::Push),
+       .row = static_cast<int>(problem_.rows.size()),
+       .mu = c.friction});
+  const auto add = [&](const Vec3& d) {
+    problem_.rows.push_back(pointRow(ends, c.a, c.b, c.point.p, d, 0.0));
+  };
+  add(c.point.n);
+  if (slides) add(slidingDirection(ends, c));
+  if (!rubs || slides) return;
+  Vec3 t1, t2;
+  tangents(c.point.n, problem_.vStar[c.a].head<3>() - problem_.vStar[c.b].head<3>(), t1, t2);
+  add(t1);
+  add(t2);
+}
+
+void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<const RigidBody> ends,
+                             std::span<Contact> contacts, double h, const Bonds* bonds) {
   beginAccelerationProblem(bodies, problem_);
-  for (Contact contact : contacts) {
-    const bool slides = contact.sliding && !contact.creeping;
-    contact.sliding = true;
-    addRows(bodies, contact);
-    if (slides || contact.friction <= 0.0) continue;
-    problem_.rows.pop_back();
-    const Vec3 slip = slipVelocity(bodies[contact.a], bodies[contact.b], contact.point);
-    addFrictionRows(bodies, contact, slip / h);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Vec6 now;
+    now << bodies[i].v, bodies[i].omega;
+    problem_.vStar[i] = now + h * problem_.vStar[i];
+  }
+  for (Contact c : contacts) {
+    follow(ends[c.a], ends[c.b], c);
+    addEndRows(ends, c);
   }
   const bool bound = bonds && !bonds->empty();
+  const std::size_t firstBond = problem_.rows.size();
   if (bound) appendBonds(*bonds, problem_);
-  solve(contacts);
+  for (std::size_t r = firstBond; r < problem_.rows.size(); ++r) problem_.rows[r].bias = 0.0;
+  solveAnew(true);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& c = contacts[i];
     if (!c.creeping) continue;

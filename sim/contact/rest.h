@@ -31,19 +31,26 @@ class RestForces {
 
   /// Chooses the slip direction of creeping contacts for the next h seconds. The direction of a
   /// slow slip obeys a stiff equation (rate mu f_n/(m |slip|)), which an explicit integrator turns
-  /// into chatter. So it is taken as at the end of the step: from Coulomb's cone with  a_t + slip/h
-  /// in place of a_t. Bodies must carry their outer forces.
-  void settleCreep(std::span<const RigidBody> bodies, std::span<Contact> contacts, double h,
-                   const Bonds* bonds = nullptr);
+  /// into chatter. So it is taken as at the end of the step: by Coulomb's law between the impulses
+  /// of the step and the velocities v⁺ that they leave,  u = J⁺ v⁺ ≥ 0.  All that sticks is met by
+  /// v⁺ = 0, however many rows there are. Bodies must carry their outer forces.
+  /// @param ends  where the bodies get at their velocities in the step
+  /// @param bonds  of `ends`; what their rows ask for beside u = J⁺ v⁺ counts for nothing
+  void settleCreep(std::span<const RigidBody> bodies, std::span<const RigidBody> ends,
+                   std::span<Contact> contacts, double h, const Bonds* bonds = nullptr);
 
  private:
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
-  /// @param pull  [m/s²] against the slip
-  void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact, const Vec3& pull);
+  void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact);
+  void addEndRows(std::span<const RigidBody> ends, const Contact& contact);
+  /// What was hard a moment ago is hard still: it begins with the forces of then, and takes what
+  /// leaves no more than was left then.
   SolveReport solve(std::span<const Contact> contacts);
+  SolveReport solveAnew(bool friction);
   Vec3 force(std::size_t contact) const;
 
-  bool polished_;
+  bool polished_, hard_ = false;
+  double left_ = 0.0;  ///< residual of the last problem that was solved anew
   Problem problem_;
   Solution solution_;
 };

@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// Counted in evaluations of the forces on one body, about 4 µs each; see
+/// Counted in evaluations of the forces on one body, 1 to 3 µs each; see
 /// `tests/bench/sim/auto.cpp`.
 struct Effort {
   /// What a contact problem to the last digits costs in these, a body; and one that none of the

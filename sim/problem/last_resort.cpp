@@ -19,14 +19,13 @@ struct Best {
 
   bool solved() const { return report.status == SolveStatus::Solved; }
 
+  /// What it took is for the caller to add.
   void take(SolveReport other, Solution&& candidate) {
-    const int iterations = report.iterations + other.iterations;
-    const bool fits = std::isfinite(other.residual);
-    if (fits && (other.residual < report.residual || !std::isfinite(report.residual))) {
-      report = other;
-      solution = std::move(candidate);
-    }
-    report.iterations = iterations;
+    if (!std::isfinite(other.residual)) return;
+    if (!(other.residual < report.residual || !std::isfinite(report.residual))) return;
+    other.iterations = report.iterations;
+    report = other;
+    solution = std::move(candidate);
   }
 };
 
@@ -49,6 +48,8 @@ class Path {
   /// Puts the end of the path, if that is reached, in place of the best answer if it is nearer.
   /// @param longest  step of t; the path is another where steps are shorter
   void follow(double longest, const SolveSettings& settings, const NewtonAlone& newton, Best& best);
+
+  int iterations = 0;  ///< that it took
 
  private:
   void set(double t);
@@ -73,10 +74,13 @@ SolveReport Path::step(const SolveSettings& settings, const NewtonAlone& newton,
                        Solution& solution) {
   const Solution start = solution;
   SolveReport report = polish(now_, settings, solution);
+  iterations += report.iterations;
   if (report.status == SolveStatus::Solved) return report;
   solution = start;
-  newton(now_, settings, solution);
-  return polish(now_, settings, solution);
+  iterations += newton(now_, settings, solution).iterations;
+  report = polish(now_, settings, solution);
+  iterations += report.iterations;
+  return report;
 }
 
 void Path::follow(double longest, const SolveSettings& settings, const NewtonAlone& newton,
@@ -86,7 +90,7 @@ void Path::follow(double longest, const SolveSettings& settings, const NewtonAlo
   const SolveSettings brief{settings.tolerance, std::min(kFactors, settings.maxIterations)};
   set(0.0);
   Solution solution;
-  newton(now_, brief, solution);
+  iterations += newton(now_, brief, solution).iterations;
   double t = 0.0, length = longest;
   for (int k = 0; k < kSteps; ++k) {
     const double next = std::min(1.0, t + length);
@@ -119,12 +123,14 @@ double fastestApproach(const Problem& problem) {
 
 void sweep(const Problem& problem, const SolveSettings& settings, Best& best) {
   constexpr int kFar = 100'000, kClose = 10'000, kLeast = 20,
-                kMost = 4000;  // cones times sweeps; sweeps
+                kMost = 4000;    // cones times sweeps; sweeps
+  constexpr int kOfFactor = 20;  // sweeps in the time of a factorization
   const int work = best.report.residual <= kNear ? kClose : kFar;
   const int cones = static_cast<int>(problem.cones.size());
   Solution swept = finite(problem, best.solution);
   const int most = std::min(std::clamp(work / cones, kLeast, kMost), settings.maxIterations);
   const SolveReport report = solvePgs(problem, {settings.tolerance, most}, swept);
+  best.report.iterations += 1 + report.iterations / kOfFactor;
   best.take(report, std::move(swept));
 }
 
@@ -136,11 +142,16 @@ SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
   if (problem.rows.size() <= kDense && !(report.residual <= kNear)) {
     Solution polished = finite(problem, solution);
     const SolveReport last = polish(problem, settings, polished);
+    best.report.iterations += last.iterations;
     best.take(last, std::move(polished));
     const double rooms[] = {0.0, fastestApproach(problem)};
     for (const double longest : {0.5, 0.15})
-      for (const double room : rooms)
-        if (!best.solved()) Path(problem, room).follow(longest, settings, newton, best);
+      for (const double room : rooms) {
+        if (best.solved()) break;
+        Path path(problem, room);
+        path.follow(longest, settings, newton, best);
+        best.report.iterations += path.iterations;
+      }
   }
   if (!best.solved()) sweep(problem, settings, best);
   solution = best.solution;

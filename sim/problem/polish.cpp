@@ -81,6 +81,7 @@ SolveReport polish(const Problem& problem, const SolveSettings& settings, Soluti
   Solution trial = solution;
   int since = 0;
   for (int pass = 0; pass < kPasses && since < kPatience; ++pass, ++since) {
+    ++best.iterations;
     const Pass here(problem, system, lambda);
     lambda -= leastSquares(here.dG, here.G);
     if (!lambda.allFinite()) break;
@@ -90,7 +91,6 @@ SolveReport polish(const Problem& problem, const SolveSettings& settings, Soluti
     if (!(residual < best.residual)) continue;
     if (residual < 0.5 * best.residual) since = 0;
     best.residual = residual;
-    best.iterations = pass + 1;
     solution = trial;
   }
   if (best.residual <= settings.tolerance || atRounding(problem, solution, best.residual))

@@ -81,6 +81,7 @@ class Course {
   void recordBonds(const Bonds& bonds);
   /// One event for each pair and normal; per contact: vrel [m/s] before, impulse [N·s] on a.
   void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
+  void settleCreep(std::span<Contact> lasting);
   void chooseLasting();
   /// The contacts that are springs now; tells when they began and ended.
   void chooseSprings();

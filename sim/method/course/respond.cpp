@@ -4,6 +4,7 @@
 
 #include "sim/contact/impact.h"
 #include "sim/joint/joint_bonds.h"
+#include "sim/math/rotation.h"
 #include "sim/method/course/course.h"
 #include "sim/method/crush.h"
 #include "sim/method/impacts.h"
@@ -101,6 +102,21 @@ bool Course::isJoined(int body) const {
                      [&](const Joint& joint) { return joint.a == body || joint.b == body; });
 }
 
+void Course::settleCreep(std::span<Contact> lasting) {
+  if (std::none_of(lasting.begin(), lasting.end(), [](const Contact& c) { return c.creeping; }))
+    return;
+  const double h = model_.def.course.step;
+  std::vector<RigidBody> ends = state_.bodies;
+  for (RigidBody& body : ends) {
+    body.x += h * body.v;
+    if (!body.particle) body.q = rotated(body.q, h * body.omega);
+    updateDerived(body);
+  }
+  Bonds bonds;
+  restBonds(ends, model_.joints, state_.limits, pullTime(model_), bonds);
+  rest_.settleCreep(state_.bodies, ends, lasting, h, &bonds);
+}
+
 void Course::chooseLasting() {
   const double scale = accelerationScale();
   std::vector<Contact> lasting;
@@ -123,7 +139,8 @@ void Course::chooseLasting() {
     if (c.creeping && state_.recentBackUps >= kSticksInStep) c.sliding = c.creeping = false;
     c.mayStick = c.sliding;
     // A wedge that friction locks in its joint cannot be drawn out, however slowly.
-    if (!c.sliding && c.friction > 0.0 && (isJoined(c.a) || isJoined(c.b))) {
+    if (!c.sliding && c.friction > 0.0 && slip.norm() <= stick &&
+        (isJoined(c.a) || isJoined(c.b))) {
       c.pull = 0.0;
       c.slipPull.setZero();
     }
@@ -131,9 +148,7 @@ void Course::chooseLasting() {
   }
   state_.limits = restingLimits(state_.bodies, model_.joints, tolerance_.touch, tolerance_.rest,
                                 tolerance_.keep, state_.limits);
-  Bonds bonds;
-  restBonds(state_.bodies, model_.joints, state_.limits, pullTime(model_), bonds);
-  rest_.settleCreep(state_.bodies, lasting, model_.def.course.step, &bonds);
+  settleCreep(lasting);
   std::swap(state_.lasting, lasting);
   recordChanges(lasting, state_.lasting, state_.t, report_);
 }

@@ -61,9 +61,8 @@ void CourseSystem::load(std::span<const double> y) const {
   unpack(y, work_);
   const SolveReport solved = findForces(work_);
   residual_ = std::max(residual_, solved.residual);
-  const bool unsolved = solved.status != SolveStatus::Solved;
-  unsolved_ = unsolved_ || unsolved;
-  effort.done += moving_ * std::max(1, solved.iterations) + (unsolved ? Effort::kUnsolved : 0);
+  unsolved_ = unsolved_ || solved.status != SolveStatus::Solved;
+  effort.done += moving_ * std::max(1, solved.iterations);
 }
 
 Ledger CourseSystem::contactRates() const {
