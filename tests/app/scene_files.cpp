@@ -21,7 +21,8 @@ TEST_CASE("a file that cannot be read is told apart from one that is not there")
   };
   CHECK(told(folder / "none.toml") ==
         (folder / "none.toml").string() + ": error: there is no such file");
-  CHECK(told(folder) == folder.string() + ": error: is a folder, not a scene file");
+  CHECK(told(folder) ==
+        folder.string() + ": error: is a folder; name a scene file, one that ends in .toml");
 
   std::ofstream(folder / "huge.toml") << std::string((4 << 20) + 1, '\n');
   CHECK(told(folder / "huge.toml").find("larger than 4 MiB") != std::string::npos);
