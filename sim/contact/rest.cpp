@@ -134,40 +134,21 @@ SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> co
   return report;
 }
 
-void RestForces::addEndRows(std::span<const RigidBody> ends, const Contact& c) {
-  const bool rubs = c.friction > 0.0, slides = rubs && c.sliding && !c.creeping;
-  problem_.cones.push_back(
-      {.kind = slides ? ConeKind::Slide : (rubs ? ConeKind::Friction : ConeKind::Push),
-       .row = static_cast<int>(problem_.rows.size()),
-       .mu = c.friction});
-  const auto add = [&](const Vec3& d) {
-    problem_.rows.push_back(pointRow(ends, c.a, c.b, c.point.p, d, 0.0));
-  };
-  add(c.point.n);
-  if (slides) add(slidingDirection(ends, c));
-  if (!rubs || slides) return;
-  Vec3 t1, t2;
-  tangents(c.point.n, problem_.vStar[c.a].head<3>() - problem_.vStar[c.b].head<3>(), t1, t2);
-  add(t1);
-  add(t2);
-}
-
 void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<const RigidBody> ends,
                              std::span<Contact> contacts, double h, const Bonds* bonds) {
   beginAccelerationProblem(bodies, problem_);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Vec6 now;
-    now << bodies[i].v, bodies[i].omega;
-    problem_.vStar[i] = now + h * problem_.vStar[i];
+    problem_.vStar[i] *= h;
+    problem_.vStar[i].head<3>() += bodies[i].v;
+    problem_.vStar[i].tail<3>() += bodies[i].omega;
   }
   for (Contact c : contacts) {
     follow(ends[c.a], ends[c.b], c);
-    addEndRows(ends, c);
+    c.sliding = c.sliding && !c.creeping;
+    addRows(ends, c);
   }
-  const bool bound = bonds && !bonds->empty();
-  const std::size_t firstBond = problem_.rows.size();
-  if (bound) appendBonds(*bonds, problem_);
-  for (std::size_t r = firstBond; r < problem_.rows.size(); ++r) problem_.rows[r].bias = 0.0;
+  if (bonds && !bonds->empty()) appendBonds(*bonds, problem_);
+  for (Row& row : problem_.rows) row.bias = 0.0;  // velocities, not accelerations
   solveAnew(true);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& c = contacts[i];

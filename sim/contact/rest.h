@@ -42,7 +42,6 @@ class RestForces {
  private:
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
   void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact);
-  void addEndRows(std::span<const RigidBody> ends, const Contact& contact);
   /// What was hard a moment ago is hard still: it begins with the forces of then, and takes what
   /// leaves no more than was left then.
   SolveReport solve(std::span<const Contact> contacts);

@@ -49,11 +49,10 @@ class Path {
   /// @param longest  step of t; the path is another where steps are shorter
   void follow(double longest, const SolveSettings& settings, const NewtonAlone& newton, Best& best);
 
-  int iterations = 0;  ///< that it took
-
  private:
   void set(double t);
-  SolveReport step(const SolveSettings& settings, const NewtonAlone& newton, Solution& solution);
+  SolveReport step(const SolveSettings& settings, const NewtonAlone& newton, Solution& solution,
+                   Best& best);
 
   const Problem& asked_;
   Problem now_;
@@ -70,16 +69,16 @@ void Path::set(double t) {
 }
 
 /// Polishes what the problem before has led to; else starts anew and polishes that.
-SolveReport Path::step(const SolveSettings& settings, const NewtonAlone& newton,
-                       Solution& solution) {
+SolveReport Path::step(const SolveSettings& settings, const NewtonAlone& newton, Solution& solution,
+                       Best& best) {
   const Solution start = solution;
   SolveReport report = polish(now_, settings, solution);
-  iterations += report.iterations;
+  best.report.iterations += report.iterations;
   if (report.status == SolveStatus::Solved) return report;
   solution = start;
-  iterations += newton(now_, settings, solution).iterations;
+  best.report.iterations += newton(now_, settings, solution).iterations;
   report = polish(now_, settings, solution);
-  iterations += report.iterations;
+  best.report.iterations += report.iterations;
   return report;
 }
 
@@ -90,13 +89,13 @@ void Path::follow(double longest, const SolveSettings& settings, const NewtonAlo
   const SolveSettings brief{settings.tolerance, std::min(kFactors, settings.maxIterations)};
   set(0.0);
   Solution solution;
-  iterations += newton(now_, brief, solution).iterations;
+  best.report.iterations += newton(now_, brief, solution).iterations;
   double t = 0.0, length = longest;
   for (int k = 0; k < kSteps; ++k) {
     const double next = std::min(1.0, t + length);
     set(next);
     Solution trial = solution;
-    const SolveReport report = step(brief, newton, trial);
+    const SolveReport report = step(brief, newton, trial, best);
     if (!(report.residual <= kGood)) {
       length *= 0.5;
       continue;
@@ -146,12 +145,8 @@ SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
     best.take(last, std::move(polished));
     const double rooms[] = {0.0, fastestApproach(problem)};
     for (const double longest : {0.5, 0.15})
-      for (const double room : rooms) {
-        if (best.solved()) break;
-        Path path(problem, room);
-        path.follow(longest, settings, newton, best);
-        best.report.iterations += path.iterations;
-      }
+      for (const double room : rooms)
+        if (!best.solved()) Path(problem, room).follow(longest, settings, newton, best);
   }
   if (!best.solved()) sweep(problem, settings, best);
   solution = best.solution;

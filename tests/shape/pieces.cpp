@@ -108,6 +108,12 @@ std::string refusalOf(const Polyhedron& solid, double tolerance) {
   return "";
 }
 
+double volumeOf(const Pieces& pieces) {
+  double volume = 0.0;
+  for (const Hull& hull : pieces.hulls) volume += integrate(*hull.solid).volume;
+  return volume;
+}
+
 }  // namespace
 
 // Oracle: the fewest convex pieces by hand; volume, centre and inertia of the mesh as fractions.
@@ -312,9 +318,7 @@ TEST_CASE("a cut is closed however thin it is") {
   points[71].x() -= 8e-9;
   const Polyhedron solid = makePolyhedron(points, faces);
   const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
-  double volume = 0.0;
-  for (const Hull& hull : pieces.hulls) volume += integrate(*hull.solid).volume;
-  const double off = std::abs(volume / integrate(solid).volume - 1.0);
+  const double off = std::abs(volumeOf(pieces) / integrate(solid).volume - 1.0);
   WARN("thin cuts: measured " << pieces.hulls.size() << " pieces, off by " << off);
   CHECK(off < 1e-9);
 }
@@ -334,9 +338,7 @@ TEST_CASE("a piece of no volume is no cavity") {
   bent.points[42].z() = -0.848428137423857;
   const Polyhedron solid = bent.made();
   const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
-  double volume = 0.0;
-  for (const Hull& hull : pieces.hulls) volume += integrate(*hull.solid).volume;
-  const double off = std::abs(volume / integrate(solid).volume - 1.0);
+  const double off = std::abs(volumeOf(pieces) / integrate(solid).volume - 1.0);
   WARN("a piece of no volume: measured " << pieces.hulls.size() << " others, off by " << off);
   CHECK(off < 1e-9);
 }
@@ -348,13 +350,11 @@ TEST_CASE("pieces flatter than numbers can tell are left out, and what gapes is 
   bent.points[32].z() = -2.89777747986721;
   const Polyhedron solid = bent.made();
   const Pieces pieces = piecesOf(solid, PieceKind::Good, 0.0);
-  double volume = 0.0;
-  for (const Hull& hull : pieces.hulls) volume += integrate(*hull.solid).volume;
   WARN("flat pieces: measured " << pieces.hulls.size() << " others, which gape by " << pieces.slack
                                 << " m");
   CHECK(pieces.slack > 0.0);
   CHECK(pieces.slack < 1e-8);
-  CHECK(volume == Approx(integrate(solid).volume).epsilon(1e-9));
+  CHECK(volumeOf(pieces) == Approx(integrate(solid).volume).epsilon(1e-9));
 }
 
 // Oracle: by hand. A corner of a step's ledge moved past the wall behind it: no edge passes through
