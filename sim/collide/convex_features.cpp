@@ -2,6 +2,7 @@
 // each other: closed forms, and Newton's method where a rim is among them.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/collide/align.h"
 #include "sim/collide/convex.h"
@@ -168,31 +169,18 @@ bool turning(const Shown& fa, const Shown& fb, Plane& plane) {
   return plane.n.allFinite();
 }
 
-// The plane between two features; gap = −∞ if there is none.
-Plane between(const Core& a, const Core& b, const Shown& fa, const Shown& fb, const Vec3& n) {
+// The plane between two features that are no faces, if there is one.
+std::optional<Plane> between(const Shown& fa, const Shown& fb, const Vec3& n) {
   Plane plane;
   plane.n = n;
-  if (fb.kind == Kind::Face) {
-    plane = onFace(a, fb, true);
-  } else if (fa.kind == Kind::Face) {
-    plane = onFace(b, fa, false);
-  } else {
-    if (fa.kind == Kind::Line && fb.kind == Kind::Line)
-      lines(fa, fb, plane);
-    else if (!turning(fa, fb, plane))
-      return {};
-    plane.i = fa.number;
-    plane.j = fb.number;
-    plane.ra = fa.round;
-    plane.rb = fb.round;
-  }
-  plane.gap = coreGap(a, b, plane.n);
-  // Feet.
-  const double reach = plane.gap + plane.ra + plane.rb;
-  if (plane.tie == NormalTie::EdgeOfA)
-    plane.pa = plane.pb + reach * plane.n;
-  else if (plane.tie != NormalTie::FaceOfA)
-    plane.pb = plane.pa - reach * plane.n;
+  if (fa.kind == Kind::Line && fb.kind == Kind::Line)
+    lines(fa, fb, plane);
+  else if (!turning(fa, fb, plane))
+    return std::nullopt;
+  plane.i = fa.number;
+  plane.j = fb.number;
+  plane.ra = fa.round;
+  plane.rb = fb.round;
   return plane;
 }
 
@@ -202,18 +190,26 @@ Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n) {
   const AllShown ofA = shownBy(a, -n), ofB = shownBy(b, n);
   const double wider = kWider * (a.size + b.size);
   Plane best;
-  const auto offer = [&](const Shown& fa, const Shown& fb) {
-    const Plane plane = between(a, b, fa, fb, n);
-    if (plane.gap > best.gap + (best.gap > -1e300 ? wider : 0.0)) best = plane;
+  const auto offer = [&](Plane plane) {
+    plane.gap = coreGap(a, b, plane.n);
+    if (!(plane.gap > best.gap + (best.gap > -1e300 ? wider : 0.0))) return;
+    best = plane;
+    // Feet.
+    const double reach = best.gap + best.ra + best.rb;
+    if (best.tie == NormalTie::EdgeOfA)
+      best.pa = best.pb + reach * best.n;
+    else if (best.tie != NormalTie::FaceOfA)
+      best.pb = best.pa - reach * best.n;
   };
   // A face tells all, whatever meets it.
   for (const Shown& fb : ofB)
-    if (fb.kind == Kind::Face) offer(ofA.front(), fb);
+    if (fb.kind == Kind::Face) offer(onFace(a, fb, true));
   for (const Shown& fa : ofA)
-    if (fa.kind == Kind::Face) offer(fa, ofB.front());
+    if (fa.kind == Kind::Face) offer(onFace(b, fa, false));
   for (const Shown& fb : ofB)
     for (const Shown& fa : ofA)
-      if (fa.kind != Kind::Face && fb.kind != Kind::Face) offer(fa, fb);
+      if (fa.kind != Kind::Face && fb.kind != Kind::Face)
+        if (const std::optional<Plane> plane = between(fa, fb, n)) offer(*plane);
   return best;
 }
 
