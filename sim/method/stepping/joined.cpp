@@ -24,16 +24,19 @@ void Stepping::bookOuter() {
   report_.certificate.work_of_forces += outer.power;
 }
 
+/// A limit takes λ times the mean of the rates before and after; so does a joint of what bends,
+/// which an implicit step leads along chords.
 void Stepping::bookJoints(double h) {
+  Certificate& books = report_.certificate;
   bookOuter();
   for (std::size_t i = 0; i < work_.bonds.rows.size(); ++i) {
     const Row& row = work_.bonds.rows[i];
-    if (work_.bonds.kinds[i] != ConeKind::Push) continue;
-    // A limit takes λ times the mean of the rates before and after.
+    const bool limit = work_.bonds.kinds[i] == ConeKind::Push;
+    if (!limit && !isBent(row)) continue;
     double rate = 0.0;
     for (const std::vector<Vec6>* v : {&work_.before, &work_.after})
       rate += 0.5 * rowSpeed(row, (*v)[row.a], (*v)[row.b]);
-    report_.certificate.energy_lost_impact -= work_.bonds.lambda[i] * rate;
+    (limit ? books.energy_lost_impact : books.energy_lost_bending) -= work_.bonds.lambda[i] * rate;
   }
   Segment& segment = state_.trail.back();
   jointForces(segment.start, model_.joints, work_.bonds, h, segment.joints);
@@ -119,6 +122,19 @@ Stepping::Missed Stepping::foretellGaps(std::span<const Link> links, double h) {
   return worst;
 }
 
+bool Stepping::isBent(const Row& row) const {
+  return model_.bends(row.a) || (row.b < model_.count() && model_.bends(row.b));
+}
+
+/// Half the power of λ on what bends [J], at the velocities of the bodies.
+double Stepping::halfGivenToBent() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < work_.bonds.rows.size(); ++i)
+    if (const Row& row = work_.bonds.rows[i]; isBent(row))
+      sum += 0.5 * work_.bonds.lambda[i] * bondVelocity(row, state_.bodies);
+  return sum;
+}
+
 void Stepping::meetJoints(double h) {
   if (joints().empty()) return;
   beginAllowedVelocities(state_.bodies, model_.joints, work_.bonds, work_.problem);
@@ -129,7 +145,9 @@ void Stepping::meetJoints(double h) {
   readBonds(work_.solution.lambda, 0, work_.bonds);
   bookOuter();
   jointForces(state_.bodies, model_.joints, work_.bonds, h, work_.joints);
+  report_.certificate.energy_lost_bending -= halfGivenToBent();
   addBondImpulses(work_.bonds, state_.bodies);
+  report_.certificate.energy_lost_bending -= halfGivenToBent();
   for (std::size_t k = 0; k < work_.joints.size(); ++k) {
     JointForce& sum = state_.trail.back().joints[k];
     sum.force += work_.joints[k].force;

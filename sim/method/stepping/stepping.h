@@ -288,6 +288,8 @@ class Stepping {
 
   // joined.cpp
   void bookJoints(double h);
+  bool isBent(const Row& row) const;
+  double halfGivenToBent() const;
   /// What the rows of joints as they stand take from the world and from fixed bodies.
   void bookOuter();
   void moveAhead(int body, double h);
