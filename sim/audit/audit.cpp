@@ -44,12 +44,16 @@ Audit::Audit(const Model& model, std::span<const RigidBody> start)
   countCrossings();
   energyLast_ = energyNow_;
   energyStart_ = std::accumulate(energyNow_.begin(), energyNow_.end(), 0.0);
+  turns_ = !model.bending.empty() &&
+           std::any_of(bodies_.begin(), bodies_.end(), [](const RigidBody& body) {
+             return body.fixed() && !body.omega.isZero(0.0);
+           });
   for (const Force& force : model.def.forces) {
     const Spring* spring = std::get_if<Spring>(&force);
     const bool led = spring && ((spring->b != kNoBody && !still(spring->b) && !moves(spring->b)) ||
                                 (!moves(spring->a) && !still(spring->a)));
     winds_ = winds_ && std::holds_alternative<UniformWind>(force);
-    stored_ = stored_ && !dependsOnVelocity(force) && !led;
+    stored_ = stored_ && !dependsOnVelocity(force) && !led && !turns_;
   }
 
   std::vector<PathPoint> points;
@@ -97,6 +101,7 @@ void Audit::see(double t, std::span<const RigidBody> bodies, bool many,
   }
   addMotions();
   addLoads();
+  if (turns_ && !many_) addBent();
   addStates();
   addTurns();
   settle();

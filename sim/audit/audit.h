@@ -73,10 +73,13 @@ class Audit {
   void findSwings();
   void group(const std::vector<Nearness::Pair>& touched);
   void join(int a, int b);
+  void findFoot(int point, int solid);
   void joinBent(const std::vector<int>& points);
   void holdBent(const std::vector<int>& points);
   void holdBy(int body, int fixed);
   void addLoads();
+  void addBent();
+  void addElement(const Element& element, ElementTerms& start, ElementTerms& end);
   void addStates();
   void addTurns();
   double workOfFixed(int root) const;
@@ -114,6 +117,7 @@ class Audit {
   bool many_ = false;         ///< more than one part since then
   bool winds_ = true;         ///< no loads but winds
   bool stored_ = true;        ///< no loads but ones that give back what they take
+  bool turns_ = false;        ///< something bends, and a body that it may meet turns steadily
   bool quiet_ = false;        ///< if nothing changes from here on, nothing is wrong
   std::vector<Recorded> last_, now_;
   Ways ways_;  ///< of bodies that have parts of their own between the two
@@ -126,7 +130,10 @@ class Audit {
   std::vector<double> energyLast_, energyNow_;  ///< [J] T + V per body
   std::vector<Vec3> sumP_, sumL_;               ///< of drifts, by root
   std::vector<Vec3> impulse_, moment_;          ///< [N s], [N m s] of loads in this part
-  std::vector<double> work_;                    ///< [J] of loads in this part
+  std::vector<char> pushed_;  ///< per body whether anything may have pushed it, or a joint holds it
+  std::vector<Vec3> bentFirst_, bentMore_;  ///< [N s] of what bends; see addBent
+  std::vector<Vec3> toSolid_;  ///< [m] per point of what bends: from it to where it is pushed
+  std::vector<double> work_;   ///< [J] of loads in this part
   Loads loads_;
   std::vector<BodyPath> paths_;
   std::vector<PathPoint> points_;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/audit/audit.h"
+#include "sim/collide/collide.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -66,8 +67,13 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
 
   groups_.assign(root_.size(), Group{});
   const bool springs = model_.runs == "course" && model_.def.course.contact == "penalty";
+  toSolid_.assign(root_.size(), Vec3::Zero());
+  pushed_.assign(root_.size(), false);
   for (const auto& [b, a] : touched) {
     if (moves(a) != moves(b)) holdBy(moves(a) ? a : b, moves(a) ? b : a);
+    pushed_[a] = pushed_[b] = true;
+    if (turns_ && model_.bends(a)) findFoot(a, b);
+    if (turns_ && model_.bends(b)) findFoot(b, a);
     groups_[rootOf(moves(a) ? a : b)].springy = springs;
   }
   for (const int i : model_.solid)
@@ -77,9 +83,20 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
     }
   for (const Force& force : model_.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force)) holdBent(bending->body->bodies);
-  for (const Bond& bond : bonds_)
+  for (const Bond& bond : bonds_) {
+    for (const int i : {bond.a, bond.b})
+      if (i != kNoBody) pushed_[i] = true;
     if (free(bond.a) != free(bond.b))
       holdBy(free(bond.a) ? bond.a : bond.b, free(bond.a) ? bond.b : bond.a);
+  }
+}
+
+/// Where a solid pushes a point of what bends: on its skin.
+void Audit::findFoot(int point, int solid) {
+  const Pose at{last_[solid].x, last_[solid].q}, pointAt{last_[point].x, last_[point].q};
+  const ContactPoint plane =
+      separatingPlane(model_.shapes[point], pointAt, model_.shapes[solid], at);
+  toSolid_[point] = -(nearness_.radius(point) + 0.5 * plane.separation) * plane.n;
 }
 
 /// The points of what bends that move are one group,
@@ -182,6 +199,54 @@ void Audit::addLoads() {
   }
 }
 
+/// What an implicit step gives the points of what bends, where they were at its start: forces at
+/// its end, linear about its start, or about its end, or between the two: what no solid and no
+/// joint holds tells by how much.
+void Audit::addBent() {
+  std::vector<Vec3>&first = bentFirst_, &more = bentMore_;
+  ElementTerms start, end;
+  for (const Force& force : model_.def.forces) {
+    const Bending* bending = std::get_if<Bending>(&force);
+    if (!bending) continue;
+    const std::vector<int>& points = bending->body->bodies;
+    first.assign(bodies_.size(), Vec3::Zero());
+    more.assign(bodies_.size(), Vec3::Zero());
+    for (const Element& element : bending->body->elements) addElement(element, start, end);
+    double both = 0.0, size = 0.0;
+    for (const int i : points) {
+      if (!moves(i) || pushed_[i]) continue;
+      const Vec3 gained =
+          now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
+      both += more[i].dot(gained - first[i]);
+      size += more[i].squaredNorm();
+    }
+    const double share = both > 0.0 ? std::min(both / size, 1.0) : 0.0;
+    for (const int i : points) impulse_[i] += first[i] + share * more[i];
+  }
+}
+
+void Audit::addElement(const Element& element, ElementTerms& start, ElementTerms& end) {
+  ElementPlaces from, to;
+  from.fill(Vec3::Zero());
+  to.fill(Vec3::Zero());
+  ElementVector way = ElementVector::Zero();
+  for (int k = 0; k < element.count; ++k) {
+    const int i = element.points[k];
+    from[k] = last_[i].x;
+    to[k] = now_[i].x;
+    way.segment<3>(3 * k) = to[k] - from[k];
+  }
+  differentiate(element.energy, from, ElementAsk::Projected, start);
+  differentiate(element.energy, to, ElementAsk::Forces, end);
+  const ElementVector linear = start.gradient + elementTimes(start.hessian, way, element.count),
+                      damped = elementTimes(start.damping, way, element.count);
+  for (int k = 0; k < element.count; ++k) {
+    const auto at = [k](const ElementVector& v) { return v.segment<3>(3 * k); };
+    bentFirst_[element.points[k]] -= h_ * at(linear) + at(damped);
+    bentMore_[element.points[k]] -= h_ * (at(end.gradient) - at(linear));
+  }
+}
+
 /// What bends is booked with the first of its points that moves, and asked of no other.
 void Audit::findBearers() {
   bears_.assign(bodies_.size(), -1);
@@ -265,9 +330,9 @@ void Audit::addTurns() {
 /// its frame.
 double Audit::workOfFixed(int root) const {
   const Group& g = groups_[root];
-  const RigidBody fixed = fixedAt(g.fixed, t_ - 0.5 * h_);
-  double work = g.P.dot(fixed.v);
-  if (fixed.omega.isZero(0.0)) return work;
+  const RigidBody start = fixedAt(g.fixed, t_ - h_), middle = fixedAt(g.fixed, t_ - 0.5 * h_);
+  const double work = g.P.dot(start.v);
+  if (start.omega.isZero(0.0)) return work;
   Vec3 moment = Vec3::Zero();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     int r = static_cast<int>(i);
@@ -275,11 +340,16 @@ double Audit::workOfFixed(int root) const {
     if (!moves(i) || r != root) continue;
     const RigidBody& body = bodies_[i];
     const Recorded &p = last_[i], &q = now_[i];
-    const Vec3 mean = 0.5 * (p.x + q.x) + h_ / 12.0 * body.invM * (p.P - q.P);
-    moment += q.L - p.L - moment_[i] + (q.x - fixed.x).cross(q.P) - (p.x - fixed.x).cross(p.P) -
-              (mean - fixed.x).cross(h_ * body.M * model_.def.gravity + impulse_[i]);
+    const Vec3 loads = h_ * body.M * model_.def.gravity + impulse_[i];
+    // They act along its way, or where it was at the start of an implicit step.
+    const bool bends = model_.bends(static_cast<int>(i));
+    const Vec3 from = bends ? start.x : middle.x;
+    const Vec3 at = bends ? p.x : Vec3(0.5 * (p.x + q.x) + h_ / 12.0 * body.invM * (p.P - q.P));
+    moment += q.L - p.L - moment_[i] + (q.x - from).cross(q.P) - (p.x - from).cross(p.P) -
+              (at - from).cross(loads);
+    if (bends) moment += toSolid_[i].cross(q.P - p.P - loads);
   }
-  return work + moment.dot(fixed.omega);
+  return work + moment.dot(start.omega);
 }
 
 /// Books what each group gained and what of its momentum is unexplained.
