@@ -196,11 +196,18 @@ bool Stepping::gains(double h) {
                      [](const BentBooks& books) { return books.gained(); });
 }
 
-/// Whether the step is to be taken in halves: however often linear forces were found anew, they
-/// give more than contacts take.
-bool Stepping::gainsStill(double h) {
+/// Whether the step is to be taken in halves: linear forces have no answer, or however often they
+/// were found anew, they give more than contacts take.
+bool Stepping::isToHalve(double h) {
   constexpr double kGiven = 1e-6;        // of the energies at both ends
   constexpr double kLeast = 1.0 / 64.0;  // of a step: shorter ones are taken as they are
+  const bool divisible = h > kLeast * model_.def.stepping.step;
+  if (!work_.crushed.empty()) {
+    if (!divisible) return false;
+    work_.crushed.clear();
+    std::fill(work_.local.begin(), work_.local.end(), -1);
+    return true;
+  }
   if (!gains(h)) return false;
   double taken = 0.0, size = 0.0;
   for (const BentBooks& books : bentBooks_) {
@@ -211,7 +218,7 @@ bool Stepping::gainsStill(double h) {
     const IslandBooks& books = memory_.islands[head].books;
     taken += books.lostImpact + books.lostFriction;
   }
-  return taken < -kGiven * size && h > kLeast * model_.def.stepping.step;
+  return taken < -kGiven * size && divisible;
 }
 
 void Stepping::bookBent() {

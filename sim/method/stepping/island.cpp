@@ -17,11 +17,16 @@ std::pair<int, int> Stepping::ends(Link link) const {
 }
 
 void Stepping::solveSteadily(double h) {
-  constexpr int kRounds = 10, kAgain = 12;
-  const int rounds = isDrafted() ? 1 : kRounds;
   allKept_ = true;
   ++step_;
-  if (bends() && !bend(h)) return;
+  if (!bends() || bend(h)) solveInTurns(h);
+  if (bends() && !misses_) misses_ = isToHalve(h);
+  if (work_.crushed.empty() && !misses_) bookIslands(h);
+}
+
+void Stepping::solveInTurns(double h) {
+  constexpr int kRounds = 10, kAgain = 12;
+  const int rounds = isDrafted() ? 1 : kRounds;
   const auto solve = [&] {
     again_ = false;
     solveIslands(h);
@@ -37,8 +42,6 @@ void Stepping::solveSteadily(double h) {
     if (!(again || all) || !bendFurther(h, all)) break;
     solve();
   }
-  if (bends() && work_.crushed.empty() && !misses_) misses_ = gainsStill(h);
-  if (work_.crushed.empty() && !misses_) bookIslands(h);
 }
 
 void Stepping::solveIslands(double h) {

@@ -232,6 +232,7 @@ class Stepping {
   // island.cpp: the contact problem of each island.
   /// Solves until nothing comes to meet what was not looked at.
   void solveSteadily(double h);
+  void solveInTurns(double h);
   void solveIslands(double h);
   /// What the islands of the step did, once they are solved for good.
   void bookIslands(double h);
@@ -373,7 +374,7 @@ class Stepping {
   };
   BentBooks booksOf(const BendingPart& part, double h) const;
   bool gains(double h);
-  bool gainsStill(double h);
+  bool isToHalve(double h);
   /// Gives `act` every part that has a point in the island at hand, once.
   template <class Act>
   void forBent(const Act& act) {
