@@ -15,13 +15,41 @@
 
 namespace tumble {
 
-/// Tells what something holds, which groups are stiff, and which chains nothing touches.
-void Stepping::findHolds(double h) {
+/// Tells which groups are stiff, and which chains nothing touches: until one of them is seen to
+/// meet what is near it, it goes as joints and springs alone have it.
+void Stepping::freeChains(double h) {
   constexpr double kStiff =
       4.0;                       // [rad] in a step; below, some hundred evaluations follow a spring
   constexpr double kSoft = 0.5;  // [rad] in a part: what is faster is followed by rows
   Drives& drives = *memory_.drives;
-  for (Chain& chain : drives.chains) chain.halved = !chain.limited;
+  for (Chain& chain : drives.chains) chain.soft = true;
+  for (DrivenGroup& group : drives.groups) {
+    const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
+    group.stiff = fastest * model_.def.stepping.step > kStiff;
+    if (fastest * h > kSoft) drives.chains[group.chain].soft = false;
+  }
+  for (Chain& chain : drives.chains) chain.free = chain.soft && !bends() && !isDrafted();
+  for (const PairMemory& pair : memory_.pairs) {
+    for (const Touch& touch : pair.touches) {
+      if (!closed(touch)) continue;
+      touchChain(touch.contact.a);
+      touchChain(touch.contact.b);
+    }
+  }
+  for (PairMemory& pair : memory_.pairs)
+    for (Touch& touch : pair.touches)
+      if (isFree(touch.contact.a) || isFree(touch.contact.b)) touch.impulse.setZero();
+}
+
+void Stepping::touchChain(int body) {
+  if (const int chain = memory_.drives->chainOf[body]; chain >= 0)
+    memory_.drives->chains[chain].free = false;
+}
+
+/// Tells what something holds, and on which chains forces act in halves.
+void Stepping::findHolds(double h) {
+  Drives& drives = *memory_.drives;
+  for (Chain& chain : drives.chains) chain.halved = chain.soft && !chain.limited;
   work_.joined.assign(state_.bodies.size() + 1, 0);
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
@@ -34,11 +62,6 @@ void Stepping::findHolds(double h) {
     }
   }
   for (const Joint& joint : model_.joints) work_.joined[joint.a] = work_.joined[joint.b] = 1;
-  for (DrivenGroup& group : drives.groups) {
-    const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
-    group.stiff = fastest * model_.def.stepping.step > kStiff;
-    if (fastest * h > kSoft) drives.chains[group.chain].halved = false;
-  }
 }
 
 void Stepping::bindGroups(double h) {

@@ -70,20 +70,21 @@ void findChains(const Model& model, Drives& drives) {
   for (const Joint& joint : model.joints)
     if (moves(joint.a) && moves(joint.b)) join(joint.a, joint.b);
   drives.chainOf.assign(model.count(), -1);
-  for (DrivenGroup& group : drives.groups) {
-    int& chain = drives.chainOf[islandRoot(root, group.bodies.front())];
+  const auto chainWith = [&](int body) {
+    int& chain = drives.chainOf[islandRoot(root, body)];
     if (chain < 0) {
       chain = static_cast<int>(drives.chains.size());
       drives.chains.emplace_back();
     }
-    group.chain = chain;
+    return chain;
+  };
+  for (DrivenGroup& group : drives.groups) group.chain = chainWith(group.bodies.front());
+  for (const Joint& joint : model.joints) {
+    const bool limited = std::isfinite(joint.lo) || std::isfinite(joint.hi);
+    for (const int i : {joint.a, joint.b})
+      if (moves(i)) drives.chains[chainWith(i)].limited |= limited;
   }
   for (int i = 0; i < model.count(); ++i) drives.chainOf[i] = drives.chainOf[islandRoot(root, i)];
-  for (const Joint& joint : model.joints) {
-    if (!std::isfinite(joint.lo) && !std::isfinite(joint.hi)) continue;
-    for (const int i : {joint.a, joint.b})
-      if (moves(i) && drives.chainOf[i] >= 0) drives.chains[drives.chainOf[i]].limited = true;
-  }
 }
 
 /// Adds a force to a group, for those of its bodies on which it acts.

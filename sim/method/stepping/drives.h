@@ -93,6 +93,8 @@ struct Drag {
 struct Chain {
   bool limited = false;  ///< a joint in it has limits
   bool halved = false;   ///< forces on it act in halves in this step
+  bool soft = true;      ///< a step can follow what drives it
+  bool free = false;     ///< it is soft, and nothing is known to touch it in this step
 };
 
 /// All of a model, dealt out.

@@ -27,6 +27,7 @@ void Stepping::solveSteadily(double h) {
 void Stepping::solveInTurns(double h) {
   constexpr int kRounds = 10, kAgain = 12;
   const int rounds = isDrafted() ? 1 : kRounds;
+  if (tiesRun()) freeChains(h);
   const auto solve = [&] {
     again_ = false;
     solveIslands(h);

@@ -93,6 +93,7 @@ bool Stepping::closeGaps(std::span<const Link> links, bool crowd, IslandMemory& 
 Stepping::Missed Stepping::foretellGaps(std::span<const Link> links, double h) {
   Missed worst;
   int owner = -1;
+  double squares = 0.0;  // [m²] of the rows of one joint: as long whichever axes they have
   work_.ahead.resize(state_.bodies.size());
   std::size_t cone = 0;
   for (const Link link : links) {
@@ -107,6 +108,7 @@ Stepping::Missed Stepping::foretellGaps(std::span<const Link> links, double h) {
     const Joint& joint = model_.joints[work_.bonds.owners[bond]];
     if (work_.bonds.owners[bond] != owner) {
       owner = work_.bonds.owners[bond];
+      squares = 0.0;
       for (const int i : {joint.a, joint.b})
         if (i < static_cast<int>(state_.bodies.size())) moveAhead(i, h);
       jointRows(work_.ahead, joint, work_.jointRows);
@@ -116,8 +118,9 @@ Stepping::Missed Stepping::foretellGaps(std::span<const Link> links, double h) {
         found.gap -
         h * (rowSpeed(row, work_.solution.v[row.a], work_.solution.v[row.b]) + row.bias);
     row.bias += missed / h;
-    worst.way = std::max(worst.way, std::abs(missed));
-    worst.part = std::max(worst.part, std::abs(missed) / reachOf(joint));
+    squares += missed * missed;
+    worst.way = std::max(worst.way, std::sqrt(squares));
+    worst.part = std::max(worst.part, std::sqrt(squares) / reachOf(joint));
   }
   return worst;
 }

@@ -101,7 +101,6 @@ double Stepping::untilHit(double soon, double h, double least) {
 }
 
 void Stepping::findHeld() {
-  work_.held.resize(state_.bodies.size() + 1, 0);
   for (const int i : work_.active) work_.held[i] = 0;
   for (const PairMemory& pair : memory_.pairs) {
     for (const Touch& touch : pair.touches) {

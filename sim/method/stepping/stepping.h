@@ -159,10 +159,11 @@ class Stepping {
   /// restitution asks for from the speed `vrel` [m/s] at which the step begins (Newton's law).
   void rebound(Touch& touch, double vrel, double h, Row& normal) const;
   void bookShift(const Touch& touch);
-  /// Whether a touch is left out of the contact problem of a step, being struck at its end or
-  /// later.
+  /// Whether a touch is left out of the contact problem of a step: it is struck at its end or
+  /// later, or a chain is not known to meet it.
   bool flies(const Touch& touch, double h) const {
-    return touch.due >= h && !work_.held[touch.contact.a] && !work_.held[touch.contact.b];
+    const auto [a, b] = std::pair(touch.contact.a, touch.contact.b);
+    return (touch.due >= h && !work_.held[a] && !work_.held[b]) || isFree(a) || isFree(b);
   }
 
   // crowds.cpp: where more contacts meet than reflections are for.
@@ -332,6 +333,13 @@ class Stepping {
   /// Decides which driven groups are free in this step; the springs of others leave the forces.
   void bindGroups(double h);
   void findHolds(double h);
+  void freeChains(double h);
+  void touchChain(int body);
+  /// Whether joints and springs alone are known to act on a body.
+  bool isFree(int body) const {
+    const int chain = memory_.drives->chainOf[body];
+    return chain >= 0 && memory_.drives->chains[chain].free;
+  }
   /// Whether forces on a body act in halves.
   bool isHalved(int body) const {
     const int group = memory_.drives->groupOf[body];

@@ -125,12 +125,15 @@ bool Stepping::growBoxes(double h, bool fall) {
 bool Stepping::lookFurther(std::size_t k, double h) {
   if (findsInside(k)) return false;
   const auto [ib, ia] = state_.near[k];
-  if (!work_.touched[ia] && !work_.touched[ib]) return false;
-  const Vec6 &va = work_.after[ia], &vb = work_.after[ib];
+  if (!work_.touched[ia] && !work_.touched[ib] && !isFree(ia) && !isFree(ib)) return false;
+  // What drives a body alone takes it along a parabola, but for terms in h³.
+  const auto way = [&](int i) {
+    return work_.flown[i] ? Vec6(0.5 * (work_.before[i] + work_.after[i])) : work_.after[i];
+  };
+  const Vec6 va = way(ia), vb = way(ib);
   double speed = (va - vb).head<3>().norm();
-  for (int i : {ib, ia})
-    if (std::isfinite(model_.radius[i]))
-      speed += work_.after[i].tail<3>().norm() * model_.radius[i];
+  if (std::isfinite(model_.radius[ia])) speed += va.tail<3>().norm() * model_.radius[ia];
+  if (std::isfinite(model_.radius[ib])) speed += vb.tail<3>().norm() * model_.radius[ib];
   PairMemory& memory = memory_.pairs[k];
   if (const double margin = marginFor(speed, h); margin > memory.margin) {
     const long before = memory.form;
@@ -150,6 +153,8 @@ bool Stepping::lookFurther(std::size_t k, double h) {
       touch.due = 0.0;
     else
       hold(touch.contact);
+    touchChain(ia);
+    touchChain(ib);
     meets = true;
   }
   return meets;
