@@ -35,7 +35,43 @@ WorldDef wedge(double side) {
   return def;
 }
 
+/// Two capsules that turn, side against side, without weight.
+WorldDef twoCapsules() {
+  BodyDef p, q;
+  p.name = "p";
+  p.shape = Capsule{0.09354942536041372, 0.15681739856630686};
+  p.position = {0.10723221275949282, -0.0870761941468079, 0.2987596176804212};
+  p.orientation =
+      Quat(-0.8719307536069707, 0.0025358864985260037, 0.4488042809280918, 0.19571675353598397);
+  p.velocity = {-0.25357391487816816, 0.814595557634455, -0.9048266763405794};
+  p.angularVelocity = {3.6016621187345006, -1.933526724049744, 2.361591537510021};
+  p.mass = 2.691925927056937;
+  q.name = "q";
+  q.shape = Capsule{0.18425584511400128, 0.276940355059348};
+  q.position = {-0.10816570083465216, 0.06047267606608766, 0.42540535303934635};
+  q.orientation =
+      Quat(0.15625598606368388, 0.961984369203058, -0.10720420437336681, -0.19666570314351772);
+  q.velocity = {-0.8260663297889586, -0.09766341374036083, -0.7219444110376315};
+  q.angularVelocity = {-3.3872772838647975, -0.6272517204005624, -0.9888658533311767};
+  q.mass = 2.4833127103255603;
+  WorldDef def = worldOf("exact", 0.3, {p, q});
+  def.gravity.setZero();
+  return def;
+}
+
 }  // namespace
+
+// Oracle: energy and momentum. The force between them falls to nothing, and their gap opens with
+// the cube of time. Measured 1,393 evaluations; 342,000 in 37 CPU s, and no end, where bodies
+// without weight were left to find their way apart from a gap of rounding.
+TEST_CASE("exact: what a push that ends leaves without weight parts without toil") {
+  World world(twoCapsules());
+  run(world);
+  CAPTURE(world.report().reason, world.report().certificate.evaluations);
+  CHECK_FALSE(world.report().stopped);
+  CHECK(world.report().certificate.evaluations < 5000);
+  CHECK(world.report().certificate.energy_balance_error < 1e-12);
+}
 
 // Oracle: the floor and the boxes. Forces of 1e22 N on a box of 1 kg round off by 1e6 N, so that
 // nothing can be known of it. Measured without the check: 1.6 m of overlap, and exit 0.

@@ -16,7 +16,8 @@ constexpr double kRounding = 1e-10;
 constexpr double kWeightless = 1e-13;
 /// Approach that a law of impact may leave, in speeds of rest.
 constexpr double kLeft = 100.0;
-/// What parts at less than this part of its weight has just been pushed still.
+/// What parts at less than this part of its weight, and of what turning bends, has just been pushed
+/// still.
 constexpr double kSlow = 1e-4;
 /// Residual of contact forces that are no solution.
 constexpr double kLawless = 1e-6;
@@ -199,8 +200,10 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double apart = normalAcceleration(a, b, c.point);
     const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+    const double turning = a.omega.squaredNorm() * (c.point.p - a.x).norm() +
+                           b.omega.squaredNorm() * (c.point.p - b.x).norm();
     const bool goes = c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
-    slowly = slowly || (goes && apart < kSlow * weight);
+    slowly = slowly || (goes && apart < kSlow * (weight + turning));
     return goes;
   });
   return slowly;
