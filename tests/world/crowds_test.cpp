@@ -170,6 +170,24 @@ TEST_CASE("stepping: a draft gives back what restitution asks for, and divides n
   CHECK(books.max_energy_gain < 1e-9 * books.energy_start);
 }
 
+// Oracle: energy, and the promise of the preset. A tray full of bricks by a draft of 30 steps a
+// second: what is lifted out of overlaps is at most half a per cent of the energy at the start.
+// Measured 0.43 %, by twenty sweeps 0.64 %; 3 mm deep.
+TEST_CASE("stepping: a draft of a crowd in long steps overlaps little, and is lifted by little") {
+  WorldDef def = tray(200);
+  def.stepping.take(*findSolverPreset("draft"));
+  def.stepping.step = 1.0 / 30.0;
+  World world(def);
+  run(world);
+  const Certificate& books = world.report().certificate;
+  const double lifted = books.energy_added_repair / books.energy_start;
+  CAPTURE(lifted, books.max_penetration, books.max_energy_gain);
+  CHECK(world.report().disagreements.empty());
+  CHECK(lifted < 5e-3);
+  CHECK(books.max_penetration < 0.01);
+  CHECK(books.max_energy_gain < 1e-9 * books.energy_start);
+}
+
 // Oracle: the plan of the preset. A ball that hangs on a rope 40 m away leaves a crowd a crowd: its
 // islands are swept. Measured 567 islands of 1157.
 TEST_CASE("stepping: a crowd is one, whatever joints there are elsewhere") {

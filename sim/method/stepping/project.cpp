@@ -16,8 +16,7 @@ bool Stepping::project() {
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
   };
-  const double allowed = std::max(tolerance_.drift, leftOpen_);
-  const auto isOpen = [&] { return deepest > allowed || largestGap() > tolerance_.drift; };
+  const auto isOpen = [&] { return deepest > mayOverlap() || largestGap() > tolerance_.drift; };
   bool open = isOpen();
   const bool lifts = open;
   const double before = lifts ? potential() : 0.0;
@@ -37,10 +36,7 @@ bool Stepping::project() {
 
 double Stepping::deepestOverlap() {
   for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (const double margin = memory_.pairs[k].margin; findsInside(k))
-      look(k, std::max(margin, tolerance_.touch));
-    else
-      look(k, margin);
+    look(k, std::max(memory_.pairs[k].margin, tolerance_.touch));
   return deepestKnown();
 }
 

@@ -103,6 +103,10 @@ class Stepping {
   /// Widens the boxes of bodies that leave them in h seconds at the velocities `after`, to which
   /// forces still come if they fall. @return whether there was one
   bool growBoxes(double h, bool fall);
+  Vec6 twistAhead(int body) const;
+  double gapAhead(const ContactPoint& c, std::pair<int, int> pair, double h) const;
+  double marginAhead(std::size_t pair, double h) const;
+  bool meetsUnknown(std::size_t pair, double h);
   bool lookFurther(std::size_t pair, double h);
   /// Brings the contact points of a pair up to date with the poses of its bodies.
   void look(std::size_t pair, double margin);
@@ -430,6 +434,8 @@ class Stepping {
   bool project();
   double deepestOverlap();
   double deepestKnown() const;
+  /// Overlap [m] that is left alone: rounding, or as much as the plan for crowds leaves.
+  double mayOverlap() const { return std::max(tolerance_.drift, leftOpen_); }
   double largestGap() const { return largestJointGap(state_.bodies, joints()); }
   void findOverlapping();
   int rootOf(std::size_t pair);

@@ -121,21 +121,65 @@ bool Stepping::growBoxes(double h, bool fall) {
   return grew;
 }
 
-/// Whether a pair has points that are not in the problem, and would overlap.
-bool Stepping::lookFurther(std::size_t k, double h) {
-  if (findsInside(k)) return false;
-  const auto [ib, ia] = state_.near[k];
-  if (!work_.touched[ia] && !work_.touched[ib] && !isFree(ia) && !isFree(ib)) return false;
-  // What drives a body alone takes it along a parabola, but for terms in h³.
-  const auto way = [&](int i) {
-    return work_.flown[i] ? Vec6(0.5 * (work_.before[i] + work_.after[i])) : work_.after[i];
-  };
-  const Vec6 va = way(ia), vb = way(ib);
+/// What drives a body alone takes it along a parabola, but for terms in h³.
+Vec6 Stepping::twistAhead(int i) const {
+  return work_.flown[i] ? Vec6(0.5 * (work_.before[i] + work_.after[i])) : work_.after[i];
+}
+
+/// The gap [m] of a point h seconds from now.
+double Stepping::gapAhead(const ContactPoint& c, std::pair<int, int> pair, double h) const {
+  const auto [ib, ia] = pair;
+  const Vec6 va = twistAhead(ia), vb = twistAhead(ib);
+  const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[ia].x) - vb.head<3>() -
+                    vb.tail<3>().cross(c.p - state_.bodies[ib].x);
+  return c.separation + h * c.n.dot(rate);
+}
+
+/// As marginOf, at the velocities after the step; < 0 of a pair that neither contacts nor a chain
+/// move, or that is not foreseen.
+double Stepping::marginAhead(std::size_t pair, double h) const {
+  const auto [ib, ia] = state_.near[pair];
+  if (findsInside(pair) || (!work_.touched[ia] && !work_.touched[ib] && !isFree(ia) && !isFree(ib)))
+    return -1.0;
+  const Vec6 va = twistAhead(ia), vb = twistAhead(ib);
   double speed = (va - vb).head<3>().norm();
   if (std::isfinite(model_.radius[ia])) speed += va.tail<3>().norm() * model_.radius[ia];
   if (std::isfinite(model_.radius[ib])) speed += vb.tail<3>().norm() * model_.radius[ib];
+  return marginFor(speed, h);
+}
+
+/// Whether a pair has points that are not in the problem, and would overlap by more than is left
+/// open anyway. What is known of the pair stays.
+bool Stepping::meetsUnknown(std::size_t k, double h) {
+  const double margin = marginAhead(k, h);
+  if (margin < 0.0) return false;
+  const std::vector<Touch>& known = memory_.pairs[k].touches;
+  const auto overlaps = [&](const ContactPoint& c) {
+    return gapAhead(c, state_.near[k], h) < -mayOverlap();
+  };
+  const auto isNew = [&](const ContactPoint& c) {
+    return std::none_of(known.begin(), known.end(), [&](const Touch& touch) {
+      return touch.contact.point.feature == c.feature;
+    });
+  };
+  if (margin > memory_.pairs[k].margin) {
+    findNearPoints(model_, state_, k, powerAbove(margin), work_.found, report_);
+    if (std::any_of(work_.found.begin(), work_.found.end(),
+                    [&](const ContactPoint& c) { return overlaps(c) && isNew(c); }))
+      return true;
+  }
+  return std::any_of(known.begin(), known.end(), [&](const Touch& touch) {
+    return (isAside(touch) || flies(touch, h)) && overlaps(touch.contact.point);
+  });
+}
+
+/// Whether a pair has points that are not in the problem, and would overlap.
+bool Stepping::lookFurther(std::size_t k, double h) {
+  const double margin = marginAhead(k, h);
+  if (margin < 0.0) return false;
+  const auto [ib, ia] = state_.near[k];
   PairMemory& memory = memory_.pairs[k];
-  if (const double margin = marginFor(speed, h); margin > memory.margin) {
+  if (margin > memory.margin) {
     const long before = memory.form;
     look(k, powerAbove(margin));
     if (memory.form != before) return !memory.touches.empty();
@@ -144,11 +188,8 @@ bool Stepping::lookFurther(std::size_t k, double h) {
   for (Touch& touch : memory.touches) {
     const bool aside = isAside(touch);
     if (!flies(touch, h) && !aside) continue;
-    const ContactPoint& c = touch.contact.point;
-    const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[ia].x) - vb.head<3>() -
-                      vb.tail<3>().cross(c.p - state_.bodies[ib].x);
-    const double left = aside ? std::max(tolerance_.drift, leftOpen_) : tolerance_.drift;
-    if (c.separation + h * c.n.dot(rate) >= -left) continue;
+    const double left = aside ? mayOverlap() : tolerance_.drift;
+    if (gapAhead(touch.contact.point, state_.near[k], h) >= -left) continue;
     if (aside)
       touch.due = 0.0;
     else
@@ -163,7 +204,11 @@ bool Stepping::lookFurther(std::size_t k, double h) {
 bool Stepping::seeFurther(double h) {
   if (growBoxes(h, false) && takePairs() && stopAtUnknownPair(model_, state_.near, report_))
     return false;
-  bool meets = false;
+  // A draft is solved again only where something would overlap.
+  bool meets = !isDrafted();
+  for (std::size_t k = 0; !meets && k < state_.near.size(); ++k) meets = meetsUnknown(k, h);
+  if (!meets) return false;
+  meets = false;
   for (std::size_t k = 0; k < state_.near.size(); ++k) meets = lookFurther(k, h) || meets;
   if (meets) leaveSeams();
   return meets;
