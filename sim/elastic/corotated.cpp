@@ -1,4 +1,6 @@
 // A solid that is linear in its stretches, in the frame that turns with it.
+#include <cmath>
+
 #include "sim/elastic/solid.h"
 
 namespace tumble {
@@ -14,7 +16,12 @@ void differentiate(const Corotated& solid, const ElementPlaces& x, ElementAsk as
   StretchLaw law;
   law.energy = mu * strain.squaredNorm() + 0.5 * lambda * trace * trace;
   law.slope = 2.0 * mu * strain + Vec3::Constant(lambda * trace);
-  law.curvature = 2.0 * mu * Mat3::Identity() + Mat3::Constant(lambda);
+  // All stretches alike feel λ, no other way does.
+  law.way << std::sqrt(1.0 / 3.0), std::sqrt(0.5), std::sqrt(1.0 / 6.0),  //
+      std::sqrt(1.0 / 3.0), -std::sqrt(0.5), std::sqrt(1.0 / 6.0),        //
+      std::sqrt(1.0 / 3.0), 0.0, -std::sqrt(2.0 / 3.0);
+  law.base = 2.0 * mu;
+  law.weight = {2.0 * mu + 3.0 * lambda, 2.0 * mu, 2.0 * mu};
   law.flip.setConstant(2.0 * mu);
   // Turned inside out by as much as it is wide, σ_i + σ_j is 0 and any turn is as good: none is
   // told apart there.

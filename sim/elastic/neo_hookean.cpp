@@ -1,4 +1,6 @@
 // A solid as of rubber.
+#include <Eigen/Eigenvalues>
+
 #include "sim/elastic/solid.h"
 
 namespace tumble {
@@ -20,13 +22,18 @@ void differentiate(const NeoHookean& solid, const ElementPlaces& x, ElementAsk a
   StretchLaw law;
   law.energy = mu * (0.5 * e.squaredNorm() - higher) + 0.5 * bulk * grown * grown;
   law.slope = mu * s + pressure * J;
-  law.curvature = mu * Mat3::Identity() + bulk * J * J.transpose();
+  Mat3 curvature = mu * Mat3::Identity() + bulk * J * J.transpose();
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    law.curvature(i, j) += pressure * s[k];
-    law.curvature(j, i) += pressure * s[k];
+    curvature(i, j) += pressure * s[k];
+    curvature(j, i) += pressure * s[k];
     law.flip[k] = mu - pressure * s[k];
     law.twist[k] = mu + pressure * s[k];
+  }
+  if (ask == ElementAsk::Matrices || ask == ElementAsk::Projected) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> own(curvature);
+    law.way = own.eigenvectors();
+    law.weight = own.eigenvalues();
   }
   differentiateSolid(solid.cell, viscosity, F, stretches, law, ask, terms);
 }

@@ -1,66 +1,124 @@
 #include "sim/elastic/solid.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace tumble {
 namespace {
 
-/// Nine modes of F as its corners move along with them, and what each weighs.
+/// Modes of F as its corners move along with them, and what each weighs beside the base of the law.
 struct Modes {
   Eigen::Matrix<double, 12, 9> q;
   Eigen::Matrix<double, 9, 1> weight;  ///< [Pa]
+  int count = 0;
+
+  /// A mode that weighs nothing more is left out.
+  template <class Mode>
+  void add(double weighs, double base, const Mode& mode) {
+    if (weighs == base) return;
+    weight[count] = weighs - base;
+    q.col(count++) = mode();
+  }
 };
 
-/// The three modes of the stretches themselves.
-void findStretchModes(const Mat3& U, const StretchLaw& law, const std::array<Vec3, 4>& turned,
-                      Modes& modes) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> own(law.curvature);
-  for (int m = 0; m < 3; ++m) {
-    modes.weight[m] = own.eigenvalues()[m];
-    modes.q.col(m) = cornersOf(own.eigenvectors().col(m).asDiagonal(), U, turned);
+/// The three modes of the stretches themselves, and those in which F turns or shears in the plane
+/// of two of them.
+[[gnu::flatten]] Modes modesOf(const Mat3& U, const StretchLaw& law,
+                               const std::array<Vec3, 4>& turned, double least) {
+  Modes modes;
+  for (int m = 0; m < 3; ++m)
+    modes.add(std::max(law.weight[m], least), law.base,
+              [&] { return cornersOf(law.way.col(m).asDiagonal(), U, turned); });
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const auto inPlane = [&](double sign) {
+      Eigen::Matrix<double, 12, 1> q;
+      for (int c = 0; c < 4; ++c)
+        q.segment<3>(3 * c) =
+            std::sqrt(0.5) * (turned[c][j] * U.col(i) + sign * turned[c][i] * U.col(j));
+      return q;
+    };
+    modes.add(std::max(law.twist[k], least), law.base, [&] { return inPlane(-1.0); });
+    modes.add(std::max(law.flip[k], least), law.base, [&] { return inPlane(1.0); });
   }
+  return modes;
 }
 
-/// Those in which F turns or shears in the plane of two stretches.
-void findPlaneModes(const Mat3& U, const StretchLaw& law, const std::array<Vec3, 4>& turned,
-                    Modes& modes) {
-  const double half = std::sqrt(0.5);
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3, twist = 3 + 2 * k, flip = twist + 1;
-    modes.weight[twist] = law.twist[k];
-    modes.weight[flip] = law.flip[k];
-    for (int c = 0; c < 4; ++c) {
-      const Vec3 up = half * turned[c][j] * U.col(i), down = half * turned[c][i] * U.col(j);
-      modes.q.col(twist).segment<3>(3 * c) = up - down;
-      modes.q.col(flip).segment<3>(3 * c) = up + down;
+/// F V for a rotation V that is found, with columns at right angles, the longest first: turns of
+/// Jacobi's, which lose nothing of short columns beside long ones (Hestenes, Inversion of Matrices
+/// by Biorthogonalization and Related Results, 1958). V is asked for or left alone.
+template <bool AsksV>
+struct Straight {
+  Mat3 FV, V = Mat3::Identity();
+
+  [[gnu::flatten]] explicit Straight(const Mat3& F) : FV(F) {
+    constexpr int kRounds = 12;  // each squares what is left of the cosines: five do
+    for (int round = 0; round < kRounds; ++round) {
+      const bool first = turn<0, 1>(), second = turn<0, 2>();
+      if (!turn<1, 2>() && !first && !second) break;
     }
+    sort<0, 1>();
+    sort<1, 2>();
+    sort<0, 1>();
   }
+
+  /// Two columns to right angles. @return whether they were not
+  template <int I, int J>
+  bool turn() {
+    constexpr double kRight = 1e-15;  // cosine that is rounding
+    const double a = FV.col(I).squaredNorm(), b = FV.col(J).squaredNorm(),
+                 twice = 2.0 * FV.col(I).dot(FV.col(J));
+    if (!(twice * twice > 4.0 * kRight * kRight * a * b)) return false;
+    // The lesser angle:  t² d + t (b − a) − d = 0  of its tangent.
+    const double more = b - a, root = std::sqrt(more * more + twice * twice);
+    const double t = twice / (more + std::copysign(root, more));
+    const double c = 1.0 / std::sqrt(1.0 + t * t);
+    turn<I, J>(c, c * t);
+    return true;
+  }
+
+  template <int I, int J>
+  void turn(double c, double s) {
+    const auto turned = [=](Mat3& A) {
+      for (int k = 0; k < 3; ++k) {
+        const double p = A(k, I), q = A(k, J);
+        A(k, I) = c * p - s * q;
+        A(k, J) = s * p + c * q;
+      }
+    };
+    turned(FV);
+    if constexpr (AsksV) turned(V);
+  }
+
+  template <int I, int J>
+  void sort() {
+    if (FV.col(I).squaredNorm() < FV.col(J).squaredNorm()) turn<I, J>(0.0, 1.0);
+  }
+};
+
+/// Of F V with columns at right angles. The last direction follows from the others, and any will do
+/// for a column that is 0.
+[[gnu::flatten]] Stretches stretchesOf(const Mat3& FV, const Mat3& V) {
+  Stretches s{Mat3::Identity(), V, {FV.col(0).norm(), FV.col(1).norm(), 0.0}};
+  if (s.sigma[0] > 0.0) s.U.col(0) = FV.col(0) / s.sigma[0];
+  s.U.col(1) = s.sigma[1] > 0.0 ? Vec3(FV.col(1) / s.sigma[1]) : s.U.col(0).unitOrthogonal();
+  s.U.col(2) = s.U.col(0).cross(s.U.col(1));
+  s.sigma[2] = s.U.col(2).dot(FV.col(2));
+  return s;
 }
 
 }  // namespace
 
 Vec3 stretchesAloneOf(const Mat3& F) {
-  Vec3 sigma = Eigen::JacobiSVD<Mat3>(F).singularValues();
-  if (F.determinant() < 0.0) sigma[2] *= -1.0;
-  return sigma;
+  return stretchesOf(Straight<false>(F).FV, Mat3::Identity()).sigma;
 }
 
 Stretches stretchesOf(const Mat3& F) {
-  const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Stretches s{svd.matrixU(), svd.matrixV(), svd.singularValues()};
-  if (s.U.determinant() < 0.0) {
-    s.U.col(2) *= -1.0;
-    s.sigma[2] *= -1.0;
-  }
-  if (s.V.determinant() < 0.0) {
-    s.V.col(2) *= -1.0;
-    s.sigma[2] *= -1.0;
-  }
-  return s;
+  const Straight<true> straight(F);
+  return stretchesOf(straight.FV, straight.V);
 }
 
 Stretches stretchesFor(ElementAsk ask, const Mat3& F) {
@@ -89,15 +147,15 @@ Solidity solidityOf(double young, double poisson, double viscosity) {
           .viscosity = viscosity};
 }
 
-Mat3 deformation(const Cell& cell, const ElementPlaces& x) {
+[[gnu::flatten]] Mat3 deformation(const Cell& cell, const ElementPlaces& x) {
   Mat3 F = Mat3::Zero();
   for (int i = 0; i < 4; ++i) F.noalias() += x[i] * cell.gradient[i].transpose();
   return F;
 }
 
-void differentiateSolid(const Cell& cell, double viscosity, const Mat3& F,
-                        const Stretches& stretches, const StretchLaw& law, ElementAsk ask,
-                        ElementTerms& terms) {
+[[gnu::flatten]] void differentiateSolid(const Cell& cell, double viscosity, const Mat3& F,
+                                         const Stretches& stretches, const StretchLaw& law,
+                                         ElementAsk ask, ElementTerms& terms) {
   terms.energy = cell.volume * law.energy;
   if (ask == ElementAsk::Energy) return;
   std::array<Vec3, 4> turned;
@@ -105,12 +163,17 @@ void differentiateSolid(const Cell& cell, double viscosity, const Mat3& F,
   // P = U diag(ψ) Vᵀ.
   terms.gradient.head<12>() = cell.volume * cornersOf(law.slope.asDiagonal(), stretches.U, turned);
   if (ask == ElementAsk::Forces) return;
-  Modes modes;
-  findStretchModes(stretches.U, law, turned, modes);
-  findPlaneModes(stretches.U, law, turned, modes);
-  if (ask == ElementAsk::Projected) modes.weight = modes.weight.cwiseMax(0.0);
-  modes.weight *= cell.volume;
-  setSquares(modes.q, modes.weight, terms.hessian);
+  const double least =
+      ask == ElementAsk::Projected ? 0.0 : -std::numeric_limits<double>::infinity();
+  const Modes modes = modesOf(stretches.U, law, turned, least);
+  setBlocks<4>(terms.hessian, [&](int i, int j) {
+    Mat3 block = law.base * cell.gradient[i].dot(cell.gradient[j]) * Mat3::Identity();
+    for (int m = 0; m < modes.count; ++m) {
+      const Vec3 q = modes.weight[m] * modes.q.col(m).segment<3>(3 * i);
+      block += q * modes.q.col(m).segment<3>(3 * j).transpose();
+    }
+    return Mat3(cell.volume * block);
+  });
   if (viscosity > 0.0) setViscosity(cell.gradient, cell.volume, viscosity, F, terms.damping);
 }
 

@@ -22,9 +22,11 @@ Stretches stretchesFor(ElementAsk ask, const Mat3& F);
 ///   twist = (ψ_i + ψ_j)/(σ_i + σ_j),   flip = (ψ_i − ψ_j)/(σ_i − σ_j),   where ψ_i = ∂Ψ/∂σ_i.
 struct StretchLaw {
   double energy = 0.0;
-  Vec3 slope = Vec3::Zero();      ///< ψ
-  Mat3 curvature = Mat3::Zero();  ///< ∂²Ψ/∂σ∂σ
+  Vec3 slope = Vec3::Zero();    ///< ψ
+  Mat3 way = Mat3::Identity();  ///< columns: eigenvectors of ∂²Ψ/∂σ∂σ
+  Vec3 weight = Vec3::Zero();   ///< and its eigenvalues
   Vec3 twist = Vec3::Zero(), flip = Vec3::Zero();
+  double base = 0.0;  ///< what many modes weigh: Ψ is base/2 |F|² and something of the others
 };
 
 /// F of a cell with its corners at x.
@@ -43,30 +45,30 @@ Eigen::Matrix<double, 3 * static_cast<int>(N), 1> cornersOf(const Mat3& mode, co
   return q;
 }
 
-/// Σ w_m q_m q_mᵀ, in the first rows and columns of A.
-template <int N, int M>
-void setSquares(const Eigen::Matrix<double, N, M>& q, const Eigen::Matrix<double, M, 1>& weight,
-                ElementMatrix& A) {
-  const Eigen::Matrix<double, N, M> weighed = q * weight.asDiagonal();
-  A.topLeftCorner<N, N>() = weighed.lazyProduct(q.transpose());
+/// Sets the blocks of a symmetric matrix of N points to what `blockOf` gives for i ≤ j.
+template <int N, class BlockOf>
+void setBlocks(ElementMatrix& A, const BlockOf& blockOf) {
+  for (int i = 0; i < N; ++i)
+    for (int j = i; j < N; ++j) {
+      const Mat3 block = blockOf(i, j);
+      A.block<3, 3>(3 * i, 3 * j) = block;
+      if (j > i) A.block<3, 3>(3 * j, 3 * i) = block.transpose();
+    }
 }
 
-/// D of a stress 2 η Ė with Ė = ½ d(FᵀF)/dt, which no rigid motion changes.
-/// @param gradient  [1/m] per corner
+/// D of a stress 2 η Ė with Ė = ½ d(FᵀF)/dt, which no rigid motion changes:
+///   vᵀ D v = 2 η V |Ė|²,   D_ij = η V ((g_i·g_j) F Fᵀ + (F g_j)(F g_i)ᵀ).
+/// @param gradient  [1/m] g per corner
 template <std::size_t N>
 void setViscosity(const std::array<Vec3, N>& gradient, double volume, double viscosity,
                   const Mat3& F, ElementMatrix& D) {
-  Eigen::Matrix<double, 3 * static_cast<int>(N), 6> rates;  // of Ė_ab by the corners' velocities
-  Eigen::Matrix<double, 6, 1> weights;
-  int m = 0;
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b, ++m) {
-      for (std::size_t i = 0; i < N; ++i)
-        rates.col(m).template segment<3>(3 * i) =
-            0.5 * (F.col(a) * gradient[i][b] + F.col(b) * gradient[i][a]);
-      weights[m] = 2.0 * viscosity * volume * (a == b ? 1.0 : 2.0);
-    }
-  setSquares(rates, weights, D);
+  const Mat3 FFt = F.lazyProduct(F.transpose());
+  std::array<Vec3, N> Fg;
+  for (std::size_t i = 0; i < N; ++i) Fg[i] = F * gradient[i];
+  setBlocks<static_cast<int>(N)>(D, [&](int i, int j) {
+    return Mat3(viscosity * volume *
+                (gradient[i].dot(gradient[j]) * FFt + Fg[j] * Fg[i].transpose()));
+  });
 }
 
 /// The terms of a cell whose energy density is that law at these stretches.
