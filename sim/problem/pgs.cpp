@@ -19,7 +19,8 @@ class Sweeper {
 
  private:
   void begin(const Problem& problem, Solution& solution);
-  double ask(const Problem& problem, const VecX& lambda, Solution& solution) const;
+  double ask(const Problem& problem, const VecX& lambda, Solution& solution,
+             double most = std::numeric_limits<double>::infinity()) const;
   bool spent(double residual, bool stands);
   double thereAndBack();
   void accelerate();
@@ -41,11 +42,12 @@ void Sweeper::begin(const Problem& problem, Solution& solution) {
   scale_ = velocityScale(problem);
 }
 
-/// Writes λ with its velocities, and asks for their residual.
-double Sweeper::ask(const Problem& problem, const VecX& lambda, Solution& solution) const {
+/// Writes λ with its velocities, and asks for their residual; above `most`, for a part of it.
+double Sweeper::ask(const Problem& problem, const VecX& lambda, Solution& solution,
+                    double most) const {
   VecX::Map(solution.lambda.data(), lambda.size()) = lambda;
   velocitiesFromLambda(problem, solution.lambda, solution.v);
-  return naturalResidual(problem, solution, scale_);
+  return naturalResidual(problem, solution, scale_, most);
 }
 
 /// Keeps the best of the answers whose residual is rounding. Whether it is the last: if the
@@ -74,7 +76,8 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
                            Solution& solution) {
   // A start that is good enough is the answer.
   begin(problem, solution);
-  SolveReport report{.residual = ask(problem, lambda_, solution), .scale = scale_};
+  SolveReport report{.residual = ask(problem, lambda_, solution, settings.tolerance),
+                     .scale = scale_};
   if (report.residual <= settings.tolerance) return report;
 
   sweep_.prepare(problem);

@@ -45,9 +45,10 @@ double naturalResidual(const Problem& problem, const Solution& solution) {
 }
 
 [[gnu::flatten]] double naturalResidual(const Problem& problem, const Solution& solution,
-                                        double scale) {
+                                        double scale, double most) {
   double worst = 0.0;
   for (const Cone& cone : problem.cones) {
+    if (worst > most * scale) break;
     double u[3] = {}, mobility = 0.0;
     for (int k = 0; k < coneRows(cone.kind); ++k) {
       const Row& row = problem.rows[cone.row + k];

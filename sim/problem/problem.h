@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -138,8 +139,9 @@ double velocityScale(const Problem& problem);
 /// Natural-map residual of (λ, v) as in SolveReport: per cone |λ − Π_K(λ − ρ û)|/ρ with
 /// ρ = 1/(largest diagonal entry of J M⁻¹ Jᵀ in the cone), û = u + mu |u_t| n for friction.
 double naturalResidual(const Problem& problem, const Solution& solution);
-/// The same where velocityScale is known.
-double naturalResidual(const Problem& problem, const Solution& solution, double scale);
+/// The same where velocityScale is known. Above `most` it is not asked how much more it is.
+double naturalResidual(const Problem& problem, const Solution& solution, double scale,
+                       double most = std::numeric_limits<double>::infinity());
 
 /// What rounding alone may leave of naturalResidual: machine epsilon times the sum of the sizes of
 /// all terms of a row of J (vStar + M⁻¹ Jᵀ λ) + bias, the largest of them, over velocityScale.
