@@ -216,11 +216,15 @@ void addBending(Model& model) {
   for (const int i : model.solid) model.solidBends.push_back(model.bends(i));
 }
 
-double worldSize(const Model& model) {
+/// Where a scene stands, and what stands far off in it, tells nothing of its contacts until
+/// rounding of places does.
+double sizeOf(const Model& model) {
+  constexpr double kFar = 1e-2;
   double size = 0.0;
   for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
     const double radius = model.radius[i];
-    if (std::isfinite(radius)) size = std::max(size, radius + model.def.bodies[i].position.norm());
+    if (std::isfinite(radius))
+      size = std::max({size, radius, kFar * model.def.bodies[i].position.norm()});
   }
   return size > 0.0 ? size : 1.0;
 }
@@ -248,7 +252,7 @@ void World::Parts::build(const WorldDef& def) {
   checkForces(def);
   addBending(model);
   addPivots(model, state.bodies);
-  model.size = worldSize(model);
+  model.size = sizeOf(model);
   joinBodies(model, state.bodies);
   model.runs = method->name;
   if (def.method == "auto") {

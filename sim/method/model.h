@@ -154,7 +154,9 @@ struct Model {
                              ///< empty where nothing bends
   std::vector<char> solidBends;  ///< per row of `solid` whether it is such a point; or empty
   std::string_view runs;         ///< def.method, or what "auto" chose
-  double size = 1.0;  ///< [m] largest bounding radius or distance from the origin at the start
+  /// [m] of the world, for tolerances: the largest bounding radius or, where that is more, a
+  /// hundredth of the largest distance from the origin at the start.
+  double size = 1.0;
 
   int count() const { return static_cast<int>(shapes.size()); }
   bool fixed(int body) const { return def.bodies[body].fixed; }

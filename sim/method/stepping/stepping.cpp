@@ -33,18 +33,6 @@ void checkBending(const Model& model) {
   }
 }
 
-/// The largest bounding radius [m], or a hundredth of a distance from the origin: where a scene
-/// stands, and what stands far off in it, tells nothing of its contacts until rounding of places
-/// does.
-double scaleOf(const Model& model) {
-  constexpr double kFar = 1e-2;
-  double scale = 0.0;
-  for (int i = 0; i < model.count(); ++i)
-    if (std::isfinite(model.radius[i]))
-      scale = std::max({scale, model.radius[i], kFar * model.def.bodies[i].position.norm()});
-  return scale;
-}
-
 }  // namespace
 
 void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
@@ -74,7 +62,7 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       report_(report),
       memory_(state.stepping),
       work_(state.stepping.work),
-      scale_(scaleOf(model)),
+      scale_(model.size),
       tolerance_(ContactTolerance::forSize(scale_)),
       gravity_(model.def.gravity.norm()),
       solver_(*findSolver(model.def.stepping.solver)),
