@@ -198,7 +198,7 @@ void Audit::findDisagreements(Report& report) const {
   tellWeakness(report);
 }
 
-/// What no disagreement shows: steps that the audit could not judge, and a balance that is open.
+/// What no disagreement shows: steps that the audit could not judge, and balances that are open.
 void Audit::tellWeakness(Report& report) const {
   constexpr double kOpen = 0.01;
   const Certificate& books = report.certificate;
@@ -213,6 +213,10 @@ void Audit::tellWeakness(Report& report) const {
   if (!(books.energy_balance_error <= kOpen))
     report.note(("the balance of energy is open by " + shortNumber(books.energy_balance_error) +
                  " of the largest kinetic energy: smaller steps would close it")
+                    .c_str());
+  if (!(books.momentum_error <= kOpen))
+    report.note(("the balance of momentum is open by " + shortNumber(books.momentum_error) +
+                 " of the largest: a finer preset would close it")
                     .c_str());
 }
 
