@@ -2,6 +2,7 @@
 
 #include <array>
 #include <type_traits>
+#include <utility>
 
 namespace tumble {
 
@@ -59,12 +60,16 @@ Force readPoint(Section& section, const BodyList& bodies) {
 
 Force readSpring(Section& section, const BodyList& bodies) {
   Spring spring;
-  spring.a = bodyOf(section, "a", bodies, true);
+  spring.a = bodyOf(section, "a", bodies, !section.find("b"));
   spring.b = bodyOf(section, "b", bodies, false);
   if (spring.a == spring.b && section.find("b") && section.good())
     section.complain("b", "both ends are on the same body");
   section.read("anchor_a", spring.anchorA_B, any("m"));
   section.read("anchor_b", spring.anchorB_B, any("m"));
+  if (!section.find("a")) {  // the end in the world stands second: a spring has no direction
+    std::swap(spring.a, spring.b);
+    std::swap(spring.anchorA_B, spring.anchorB_B);
+  }
   need(section, "stiffness");
   section.read("stiffness", spring.stiffness, notNegative("N/m"));
   section.read("damping", spring.damping, notNegative("N s/m"));

@@ -238,6 +238,7 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[[force]]\nkind = \"spring\"\na = \"ball\"\nb = \"ball\"\nstiffness = 1", "11:5",
        "force.0.b: both ends are on the same body"},
       {"[[force]]\nkind = \"spring\"\na = \"ball\"", "8:1", "force.0.stiffness: missing"},
+      {"[[force]]\nkind = \"spring\"\nstiffness = 1", "8:1", "force.0.a: missing; name the body"},
       {"[[force]]\nkind = \"field\"", "8:1", "force.0.rate: missing"},
       {"[[force]]\nkind = \"field\"\nrate = 1\naxis = [0, 0, 0]", "11:8",
        "force.0.axis: expected three numbers that are not all zero"},

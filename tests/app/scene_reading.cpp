@@ -220,6 +220,25 @@ strobe = 0.5
   CHECK(show.strobe == 0.5);
 }
 
+TEST_CASE("either end of a spring may be fixed in the world") {
+  const auto read = [](const std::string& ends) {
+    const std::string text =
+        "[world]\nduration = 1\n[[body]]\nname = \"ball\"\nshape = { sphere = 1 }\nmass = 1\n"
+        "[[force]]\nkind = \"spring\"\nstiffness = 1\n" +
+        ends;
+    return std::get<Spring>(parseScene(text, "s.toml").world.forces.front());
+  };
+  for (const char* ends : {"a = \"ball\"\nanchor_a = [1, 0, 0]\nanchor_b = [0, 2, 0]",
+                           "b = \"ball\"\nanchor_b = [1, 0, 0]\nanchor_a = [0, 2, 0]"}) {
+    CAPTURE(ends);
+    const Spring spring = read(ends);
+    CHECK(spring.a == 0);
+    CHECK(spring.b == kNoBody);
+    CHECK(spring.anchorA_B == Vec3(1.0, 0.0, 0.0));
+    CHECK(spring.anchorB_B == Vec3(0.0, 2.0, 0.0));
+  }
+}
+
 TEST_CASE("a preset of stepping sets what the scene does not set itself") {
   const auto read = [](const std::string& lines) {
     const std::string text = "[world]\nduration = 1\n[stepping]\n" + lines +
