@@ -103,16 +103,18 @@ int check(int argc, char** argv) {
 
   if (names.empty()) names = demoNames();
   int worst = kOk;
+  Json scenes = Json::array();
   if (state) {
     for (const std::string& name : names) {
       const Scene scene = load({name, overrides});
       const bool several = !folder.empty() && names.size() > 1;
-      worst = std::max(worst, checkState(scene, several ? folder + "/" + scene.name : folder));
+      worst = std::max(worst, checkState(scene, several ? folder + "/" + scene.name : folder,
+                                         json ? &scenes : nullptr));
     }
+    if (json) fmt::print("{}\n", scenes.dump(2));
     return worst;
   }
   std::size_t claims = 0;
-  Json scenes = Json::array();
   for (const std::string& name : names) {
     const Scene scene = load({name, overrides});
     claims += scene.checks.size() + scene.expects.size();

@@ -42,6 +42,14 @@ TEST_CASE("check --state names the layer of a start that is not legal, and draws
                          "  velocities    ok\n  accelerations ok") != std::string::npos);
   CHECK(std::filesystem::exists(scratch / "out/state.png"));
 
+  outcome =
+      tumbleRun(scratch, "check --state s.toml --json --set body.brick.position=[0,0.08,0] -o out");
+  CHECK(outcome.code == 1);
+  CHECK(outcome.out.starts_with("[\n  {\n    \"scene\": \"s\",\n    \"holds\": false,"));
+  CHECK(outcome.out.find("\"layer\": \"positions\"") != std::string::npos);
+  CHECK(outcome.out.find("0.02 m inside") != std::string::npos);
+  CHECK(outcome.out.find("state.png") == std::string::npos);
+
   outcome = tumbleRun(scratch, "check --state s.toml --set body.brick.velocity=[0,-0.5,0]");
   CHECK(outcome.code == 1);
   CHECK(outcome.out.find("  positions     ok\n  velocities    NOT OK\n    \"brick\" moves into "
