@@ -16,30 +16,32 @@ constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 struct Measured {
   double value = kNoNumber;
-  int sample = -1;
+  const Sample* sample = nullptr;  // where; none: nowhere
 };
 
 // At the instant, or the end or start of the run.
-int sampleOf(const ExpectDef& expect, const Recording& recording) {
-  const int last = static_cast<int>(recording.samples.size()) - 1;
-  if (!expect.at) return expect.over == "start" ? 0 : last;
-  const int k = static_cast<int>(std::lround(*expect.at * recording.rate));
-  return k <= last && isSample(*expect.at, recording.rate) ? k : -1;
+const Sample* sampleOf(const ExpectDef& expect, const Recording& recording) {
+  const std::vector<Sample>& samples = recording.samples;
+  if (!expect.at) {
+    if (expect.over == "start") return &samples.front();
+    return recording.end ? &*recording.end : &samples.back();
+  }
+  const auto k = static_cast<std::size_t>(std::lround(*expect.at * recording.rate));
+  return k < samples.size() && isSample(*expect.at, recording.rate) ? &samples[k] : nullptr;
 }
 
 Measured measure(const ExpectDef& expect, const Recording& recording, Meter& meter) {
   if (recording.samples.empty()) return {};
   if (expect.at || expect.over == "start" || expect.over == "end") {
-    const int k = sampleOf(expect, recording);
-    return {k < 0 ? kNoNumber : meter(recording.samples[k]), k};
+    const Sample* sample = sampleOf(expect, recording);
+    return {sample ? meter(*sample) : kNoNumber, sample};
   }
   const double sign = expect.over == "max" ? 1.0 : -1.0;
   Measured extreme;
-  for (std::size_t k = 0; k < recording.samples.size(); ++k) {
-    const double value = meter(recording.samples[k]);
+  for (const Sample& sample : recording.samples) {
+    const double value = meter(sample);
     if (std::isnan(value)) return {};  // it is not known which would be largest
-    if (extreme.sample < 0 || sign * value > sign * extreme.value)
-      extreme = {value, static_cast<int>(k)};
+    if (!extreme.sample || sign * value > sign * extreme.value) extreme = {value, &sample};
   }
   return extreme;
 }
@@ -52,12 +54,11 @@ std::string labelOf(const ExpectDef& expect) {
 }
 
 // What it should come to, at the sample where it was measured.
-double targetOf(const Scene& scene, const ExpectDef& expect, const Recording& recording,
-                int sample) {
+double targetOf(const Scene& scene, const ExpectDef& expect, const Sample* sample) {
   if (expect.aim.empty()) return expect.target;
-  if (sample < 0) return kNoNumber;
+  if (!sample) return kNoNumber;
   Meter aim(scene, expect.aim);
-  return aim(recording.samples[sample]);
+  return aim(*sample);
 }
 
 // How far the measured value is from where it should be; NaN if either is not known.
@@ -72,17 +73,17 @@ Expectation judged(const Scene& scene, const ExpectDef& expect, const Recording&
                    Meter& meter) {
   const Measured measured = measure(expect, recording, meter);
   Expectation one;
-  one.sample = measured.sample;
-  const double target = targetOf(scene, expect, recording, measured.sample);
+  const double target = targetOf(scene, expect, measured.sample);
   one.row = {labelOf(expect), measured.value, target,
              errorOf(expect.relation, measured.value, target), expect.within};
   one.row.relation = expect.relation;
   const Gauge* alone = meter.alone();
-  if (!alone) return one;
+  if (!alone || !measured.sample) return one;
   const std::size_t axis = std::string("xyz").find(alone->quantity().name);
   if (axis == std::string::npos) return one;
-  one.body = alone->body();
+  one.place = measured.sample->bodies[static_cast<std::size_t>(*alone->body())].x;
   one.axis = static_cast<int>(axis);
+  (*one.place)[one.axis] = target;
   return one;
 }
 

@@ -10,9 +10,10 @@ namespace tumble {
 /// What came of one of them.
 struct Expectation {
   ClaimRow row;
-  int sample = -1;               ///< where it was measured; −1: nowhere, and it fails
-  std::optional<int> body = {};  ///< of a formula that is one coordinate of a body's centre
-  int axis = 0;                  ///< of that coordinate
+  /// Where a body's centre should have been when it was measured, of a formula that is one
+  /// coordinate of it.
+  std::optional<Vec3> place = {};
+  int axis = 0;  ///< of that coordinate
 };
 
 /// In the order of the scene. One at an instant between samples, as a recording at another rate has

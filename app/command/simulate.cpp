@@ -28,6 +28,7 @@ Recording runInto(const std::string& folder, bool nodes, const std::string& hash
   };
   Recording recording = runWithProgress(scene, rate, write);
   if (!files) files.emplace(folder, scene, nodes);
+  if (recording.end) files->add(*recording.end);
   files->finish(recording);
   writeFile(folder + "/scene.json", sceneJson(scene));
   if (!hashFile.empty()) {

@@ -278,7 +278,7 @@ void Presenter::finish(Picture& picture) const {
 void Presenter::addExpectations(Picture& picture) const {
   double baseline = kExpectTop;
   for (const Expectation& one : expectations_) {
-    if (one.body && one.sample >= 0) picture.lines.push_back(expectedLine(one));
+    if (one.place) picture.lines.push_back(expectedLine(one));
     if (!scene_.show.title) continue;
     Label label;
     label.offset = {32.0, baseline};
@@ -296,15 +296,12 @@ void Presenter::addExpectations(Picture& picture) const {
 }
 
 Polyline Presenter::expectedLine(const Expectation& one) const {
-  const Sample& sample = recording_.samples[static_cast<std::size_t>(one.sample)];
-  Vec3 place = sample.bodies[static_cast<std::size_t>(*one.body)].x;
-  place[one.axis] = one.row.exact;
   const Vec3 sight = framing_.camera.target - framing_.camera.eye;
   const Vec3 along =
       one.axis == 1 ? Vec3(sight.cross(Vec3::UnitY()).normalized()) : Vec3(Vec3::UnitY());
   const Vec3 half = 0.15 * framing_.radius * along;
   Polyline line;
-  line.points = {place - half, place + half};
+  line.points = {*one.place - half, *one.place + half};
   line.colour = colour::kForce;
   line.stroke = Stroke::Dotted;
   return line;

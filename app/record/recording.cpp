@@ -80,6 +80,10 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
   // The certificate is complete at the end of the duration.
   world.advance(scene.world.duration);
   recording.report = world.report();
+  if (!recording.report.stopped && !isSample(scene.world.duration, rate)) {
+    recording.end = world.sample(scene.world.duration);
+    signs.align(*recording.end);
+  }
   recording.method = world.method();
   recording.runs = world.runs();
   recording.cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

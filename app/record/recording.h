@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace tumble {
 
 struct Recording {
   std::vector<Sample> samples;  ///< at k/rate, k = 0 … sampleCount − 1
+  std::optional<Sample> end;    ///< of the duration, if the last sample lies before it
   Report report;
   std::vector<std::string> features;
   std::string method;  ///< World::method at the end
@@ -31,7 +33,7 @@ World makeWorld(const Scene& scene);
 int sampleCount(const Scene& scene, double rate);
 
 /// Runs the scene's world from start to duration and shows each sample as soon as it is known; the
-/// recording that is returned keeps none. `progress` is told the share done in [0, 1].
+/// recording that is returned keeps the end alone. `progress` is told the share done in [0, 1].
 /// @throws SceneError if the world refuses the scene.
 Recording run(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
               const std::function<void(double)>& progress = {});

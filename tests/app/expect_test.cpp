@@ -95,6 +95,22 @@ TEST_CASE("a pair of materials is read by its key") {
   CHECK(judge(scene, record(scene, scene.image.rate)).rows.front().holds());
 }
 
+// Oracle: closed form, 1 + 3 t − 5 t². Measured 0, allowed 1e-12. Samples at 0 and 1/3 s.
+TEST_CASE("the end is that of the run, though no sample lies there") {
+  const Scene scene = parseScene(
+      kThrow +
+          "[[expect]]\nvalue = \"ball.3.y\"\nequals = \"1 + 3 * t - 5 * t^2\"\nwithin = 1e-12\n",
+      "throw", {"image.rate=3"});
+  const Recording recording = record(scene, scene.image.rate);
+  CHECK(recording.samples.size() == 2);
+  REQUIRE(recording.end.has_value());
+  CHECK(recording.end->t == 0.5);
+  const ClaimRow row = judge(scene, recording).rows.front();
+  CHECK(row.exact == Approx(1.25).epsilon(1e-12));
+  CHECK(row.holds());
+  CHECK_FALSE(record(scene, 20.0).end.has_value());
+}
+
 TEST_CASE("at most and at least forgive what is on their side") {
   CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.46").holds());
   CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.4").holds());
