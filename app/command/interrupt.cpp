@@ -1,17 +1,34 @@
 #include "app/command/interrupt.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <string_view>
+
 namespace tumble {
 
 namespace {
 
 volatile std::sig_atomic_t wish = 0;
 constexpr int kSignals[2] = {SIGINT, SIGTERM};
+pid_t owner = 0;  // processes that draw for it are asked too, and it speaks for them
+
+// Only calls that a signal may interrupt anywhere.
+void leaveWish(int) {
+  constexpr std::string_view kWords =
+      "\ntumble: stops after the sample or image at hand; Ctrl-C again ends it at once\n";
+  const int before = errno;
+  if (::getpid() == owner) (void)!::write(STDERR_FILENO, kWords.data(), kWords.size());
+  wish = 1;
+  errno = before;
+}
 
 }  // namespace
 
 Interrupt::Interrupt() {
+  owner = ::getpid();
   struct sigaction action = {};
-  action.sa_handler = [](int) { wish = 1; };
+  action.sa_handler = leaveWish;
   action.sa_flags = SA_RESETHAND | SA_RESTART;
   for (int i = 0; i < 2; ++i) sigaction(kSignals[i], &action, &before_[i]);
 }

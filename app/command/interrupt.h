@@ -11,7 +11,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// While one lives SIGINT and SIGTERM only leave a wish; a second one ends the process.
+/// While one lives SIGINT and SIGTERM only leave a wish and say so; a second one ends the
+/// process.
 class Interrupt {
  public:
   Interrupt();

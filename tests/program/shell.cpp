@@ -171,6 +171,22 @@ TEST_CASE("numbers of a run that is killed leave no file behind, new or in place
   CHECK(textOf(scratch.path / "out/trajectory.csv") == whole);
 }
 
+TEST_CASE("the first Ctrl-C is answered at once, the second ends a run far from its next sample") {
+  const Scratch scratch;
+  scratch.file("ball.toml", kBall);
+  const std::string twice = "self=$(exec sh -c 'echo $PPID'); (" + untilThereIs("out") +
+                            "; kill -INT $self; n=0; until grep -q again .err || [ $((n += 1)) -gt "
+                            "6000 ]; do sleep 0.005; done; kill -INT $self) & :";
+  const Outcome outcome =
+      tumbleRun(scratch,
+                "simulate ball.toml -q -o out --set world.gravity=[0,0,0] --set world.duration=900 "
+                "--set image.rate=0.01 --set world.method=course --set course.step=1e-6",
+                twice);
+  CHECK(outcome.code == 128 + 2);
+  CHECK(outcome.says("Ctrl-C again ends it at once"));
+  CHECK_FALSE(outcome.says("stopped while simulating"));  // as it says between two samples
+}
+
 TEST_CASE("images of another run are named, and so is a range that reaches beyond the end") {
   const Scratch scratch;
   scratch.file("ball.toml", kBall);
