@@ -90,6 +90,16 @@ std::vector<int> imagesOf(const Options& options, int count) {
   return images;
 }
 
+// @throws UsageError for an ending that names no format of films
+void requireKnownFilm(const std::string& path) {
+  if (path.empty()) return;
+  for (const char* ending : {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi", ".gif"})
+    if (path.ends_with(ending)) return;
+  throw UsageError(fmt::format(
+      "--video {}: expected a name that ends in .mp4, .m4v, .mov, .mkv, .webm, .avi or .gif",
+      path));
+}
+
 }  // namespace
 
 int render(int argc, char** argv) {
@@ -117,6 +127,7 @@ int render(int argc, char** argv) {
   const std::vector<int> images = imagesOf(options, sampleCount(scene, scene.image.rate));
   for (const std::string& path : {options.video, options.html})
     if (!path.empty()) prepareFile(path);
+  requireKnownFilm(options.video);
   Studio studio;
   // Processes that draw open OpenGL themselves: its threads would not live on in them.
   const bool pageAlone = !options.html.empty() && !options.still && !options.strobe &&

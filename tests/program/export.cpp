@@ -114,4 +114,8 @@ size = [64, 36]
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("cannot") != std::string::npos);
   }
+  const Outcome film = tumbleRun(scratch, "render drop.toml -q --video film.xyz");
+  CHECK(film.code == 2);
+  CHECK(film.says("--video film.xyz: expected a name that ends in .mp4"));
+  CHECK(film.lines() == 1);
 }
