@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
@@ -124,21 +125,23 @@ void keepFromGaining(const Problem& problem, std::span<const int> island, Soluti
   });
 }
 
-/// Solves for the impulses of a pass; those of bonds are given at once.
+/// Solves for the impulses of a pass; those of bonds are given at once. Where a face strikes with
+/// friction its impulses are many: `newton` chooses among them, whatever their order.
 SolveReport solvePass(const Impact& impact, Strike& strike, Solution& solution,
                       ImpactReport& report) {
   const bool friction = strike.problem.rows.size() > strike.problem.cones.size();
   const std::size_t firstBond = strike.problem.rows.size();
   if (impact.bound()) appendBonds(*impact.bonds, strike.problem);
-  const char* first = friction && !impact.bound()            ? "pgs"
-                      : strike.problem.rows.size() <= kDense ? "pivoting"
-                                                             : "newton";
+  const std::string_view first = friction && !impact.bound()
+                                     ? (strike.contacts.size() == 1 ? "pgs" : "newton")
+                                 : strike.problem.rows.size() <= kDense ? "pivoting"
+                                                                        : "newton";
   const SolveSettings settings{.maxIterations = kSweeps};
   SolveReport solved = solveByIslands(*findSolver(first), strike.problem, settings, solution);
   if (solved.status != SolveStatus::Solved) {
     Solution other;
-    const SolveReport again =
-        solveByIslands(*findSolver("newton"), strike.problem, settings, other);
+    const SolveReport again = solveByIslands(*findSolver(first == "newton" ? "pgs" : "newton"),
+                                             strike.problem, settings, other);
     if (again.residual < solved.residual) {
       solved = again;
       solution = std::move(other);

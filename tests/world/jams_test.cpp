@@ -83,8 +83,9 @@ TEST_CASE("a cube whose sliding jams tips about its front edge, and comes to res
 }
 
 // Oracle: friction gives no energy. A plank in the corner of floor and wall, and slabs that slide
-// on each other, jam at several places; where that leads to friction that would give, a step with
-// impulses goes on, and a note says so. Measured 3e-14 J, allowed 1e-9 J of 45 and 271 J.
+// on each other, jam at several places; where that leads to friction that would give, as among the
+// slabs, a step with impulses goes on, and a note says so. Measured 3e-14 J, allowed 1e-9 J of 45
+// and 271 J.
 TEST_CASE("where jams at several places have no forces, a step with impulses goes on") {
   BodyDef wall = ground(0.0, 1.0);
   wall.name = "wall";
@@ -103,15 +104,17 @@ TEST_CASE("where jams at several places have no forces, a step with impulses goe
         box("slab" + std::to_string(k), {0.6, 0.1, 0.3}, {0.0, 0.05 + 0.1 * k, 0.0}, 0.0, 3.0));
     slabs.bodies.back().velocity = velocities[k];
   }
-  for (const WorldDef& def : {ladder, slabs}) {
+  for (const auto& [def, lawless] : {std::pair(ladder, false), {slabs, true}}) {
     World world(def);
     world.advance(def.duration);
     const Report& report = world.report();
     CAPTURE(report.reason, report.certificate.max_energy_gain);
     CHECK_FALSE(report.stopped);
-    CHECK(std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
-      return note.find("right to first order") != std::string::npos;
-    }));
+    const bool noted =
+        std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+          return note.find("right to first order") != std::string::npos;
+        });
+    CHECK((noted || !lawless));
     CHECK(report.certificate.max_energy_gain < 1e-9);
     CHECK(report.certificate.energy_balance_error < 1e-9);
   }
