@@ -127,9 +127,15 @@ struct Histogram {
   }
 };
 
-Histogram lookFromElsewhere(const std::string& method, std::uint64_t first, int scenes) {
+std::vector<std::uint64_t> seedsFrom(std::uint64_t first, int count) {
+  std::vector<std::uint64_t> seeds(static_cast<std::size_t>(count));
+  std::iota(seeds.begin(), seeds.end(), first);
+  return seeds;
+}
+
+Histogram lookFromElsewhere(const std::string& method, const std::vector<std::uint64_t>& seeds) {
   Histogram histogram;
-  for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(scenes); ++seed) {
+  for (const std::uint64_t seed : seeds) {
     const WorldDef def = parseScene(test::randomScene(seed), "seed " + std::to_string(seed),
                                     {"world.method=" + method})
                              .world;
@@ -150,19 +156,30 @@ Histogram lookFromElsewhere(const std::string& method, std::uint64_t first, int 
 // Turned, boxes of other bodies meet: what is near a hit in one frame may not be so in another, and
 // its step is then divided there alone, an error of first order that some scenes show.
 TEST_CASE("random scenes end alike from wherever they are seen") {
-  const Histogram found = lookFromElsewhere("stepping", 1, 12);
+  const Histogram found = lookFromElsewhere("stepping", seedsFrom(1, 12));
   CHECK(found.beyond("mirrored") == 0);
   CHECK(found.beyond("permuted") == 0);
   CHECK(found.beyond("shifted") == 0);
   CHECK(found.beyond("turned") == 0);
 }
 
+// A face level with a disk to 1e-6 (124), a chain beside what it does not touch (219, 664), a
+// spring (673), a contact at rest by rounding, to which a blow runs on (761). Each ended
+// millimetres aside from one of the places that it was seen from.
+TEST_CASE("scenes whose end an order, a frame or rounding could choose end alike") {
+  const Histogram found = lookFromElsewhere("stepping", {124, 219, 664, 673, 761});
+  for (const char* way : {"mirrored", "permuted", "shifted", "turned"}) {
+    CAPTURE(way);
+    CHECK(found.beyond(way) == 0);
+  }
+}
+
+// Measured: 4 mirrored, 0 permuted, 18 shifted and 14 turned end more than 100 times as far apart.
 TEST_CASE("a thousand random scenes end alike from wherever they are seen", "[long]") {
   constexpr int kScenes = 1000;
-  const Histogram found = lookFromElsewhere("stepping", 1, kScenes);
-  for (const char* way : {"mirrored", "permuted", "shifted"}) {
-    CAPTURE(way);
-    CHECK(found.beyond(way) <= kScenes / 100);
-  }
-  CHECK(found.beyond("turned") <= kScenes / 10);
+  const Histogram found = lookFromElsewhere("stepping", seedsFrom(1, kScenes));
+  CHECK(found.beyond("permuted") <= kScenes / 200);
+  CHECK(found.beyond("mirrored") <= kScenes / 100);
+  CHECK(found.beyond("shifted") <= kScenes / 100);
+  CHECK(found.beyond("turned") <= kScenes / 50);
 }

@@ -223,7 +223,8 @@ bool Stepping::strike(double within) {
       if (hits) bookShift(touch);
       contacts.push_back(c);
       vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
-      const bool leans = vrel.back() < 0.0 && -c.restitution * vrel.back() <= tolerance_.keep;
+      const bool leans =
+          vrel.back() < -tolerance_.rest && -c.restitution * vrel.back() <= tolerance_.keep;
       restitution.push_back(leans ? 0.0 : c.restitution);
     }
   }
