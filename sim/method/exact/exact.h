@@ -96,6 +96,8 @@ class Exact {
   void flyOn(double t, const Cluster& cluster);
   /// Whether two bodies would accelerate into each other without contact forces.
   bool presses(const Contact& contact) const;
+  /// What acts on its two bodies from outside, as accelerations together [m/s²].
+  double weightOn(const Contact& contact) const;
   /// @return the residual of the contact problem
   double solveForces(std::vector<Contact>& resting);
   void stillContacts(const std::vector<Contact>& resting);

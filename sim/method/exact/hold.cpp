@@ -51,14 +51,17 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
   return resting;
 }
 
+double Exact::weightOn(const Contact& c) const {
+  return state_.bodies[c.a].invM * state_.outer[c.a].norm() +
+         state_.bodies[c.b].invM * state_.outer[c.b].norm();
+}
+
 // The last hit of a row of bounces may lift other points of the pair, as little as the bounces that
 // are left out would have.
 bool Exact::endsBounces(const Contact& c, double vrel) const {
-  const double weight = state_.bodies[c.a].invM * state_.outer[c.a].norm() +
-                        state_.bodies[c.b].invM * state_.outer[c.b].norm();
   return std::any_of(ends_.begin(), ends_.end(),
                      [&](const auto& end) { return end.first == Pair(c.b, c.a); }) &&
-         0.5 * vrel * vrel < lowest() * weight;
+         0.5 * vrel * vrel < lowest() * weightOn(c);
 }
 
 namespace {
@@ -92,7 +95,7 @@ Held::Held(std::span<const RigidBody> all, std::vector<Contact> those)
 // Without weights there is no measure for it.
 bool Exact::presses(const Contact& c) const {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
-  const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+  const double weight = weightOn(c);
   return weight == 0.0 || normalAcceleration(a, b, c.point) < -kWeightless * weight;
 }
 
@@ -136,7 +139,7 @@ bool Exact::steady(const Contact& c) const {
   const bool onB = c.point.tie == NormalTie::FaceOfB, onA = c.point.tie == NormalTie::FaceOfA;
   const Vec3 slip = slipVelocity(a, b, c.point);
   const Vec3 pull = pointAcceleration(a, c.point.p) - pointAcceleration(b, c.point.p);
-  const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+  const double weight = weightOn(c);
   const Vec3 slipRate = pull - pull.dot(n) * n;
   const bool slides = slip.norm() > tolerance_.stick || slipRate.norm() > kRounding * weight;
   if (!onA && !onB) return !slides && a.omega.norm() <= still && b.omega.norm() <= still;
@@ -199,7 +202,7 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
   std::erase_if(resting, [&](const Contact& c) {
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const double apart = normalAcceleration(a, b, c.point);
-    const double weight = a.invM * state_.outer[c.a].norm() + b.invM * state_.outer[c.b].norm();
+    const double weight = weightOn(c);
     const double turning = a.omega.squaredNorm() * (c.point.p - a.x).norm() +
                            b.omega.squaredNorm() * (c.point.p - b.x).norm();
     const bool goes = c.force.norm() <= kRounding * strongest && apart > kRounding * weight;
