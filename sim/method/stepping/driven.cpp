@@ -22,6 +22,7 @@ void Stepping::freeChains(double h) {
       4.0;                       // [rad] in a step; below, some hundred evaluations follow a spring
   constexpr double kSoft = 0.5;  // [rad] in a part: what is faster is followed by rows
   Drives& drives = *memory_.drives;
+  if (drives.chains.empty()) return;
   for (Chain& chain : drives.chains) chain.soft = true;
   for (DrivenGroup& group : drives.groups) {
     const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);

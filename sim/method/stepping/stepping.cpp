@@ -62,8 +62,7 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
       report_(report),
       memory_(state.stepping),
       work_(state.stepping.work),
-      scale_(model.size),
-      tolerance_(ContactTolerance::forSize(scale_)),
+      tolerance_(ContactTolerance::forSize(model.size)),
       gravity_(model.def.gravity.norm()),
       solver_(*findSolver(model.def.stepping.solver)),
       points_(*findPointPlan(model.def.stepping.points)) {

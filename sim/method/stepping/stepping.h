@@ -115,7 +115,7 @@ class Stepping {
   Lever leverOf(const ContactPoint& c, std::pair<int, int> pair) const;
   /// What rounding may leave of a place [m].
   double roundingAt(const Vec3& x) const {
-    return kPoseRounding * std::max(scale_, x.lpNorm<Eigen::Infinity>());
+    return kPoseRounding * std::max(model_.size, x.lpNorm<Eigen::Infinity>());
   }
   void matchFeatures(PairMemory& memory, std::pair<int, int> pair);
 
@@ -456,7 +456,6 @@ class Stepping {
   Report& report_;
   SteppingMemory& memory_;
   SteppingWork& work_;  ///< empty of meaning between steps
-  double scale_;        ///< [m] what tolerances grow with
   ContactTolerance tolerance_;
   double gravity_;  ///< [m/s²] its size
   const Solver& solver_;

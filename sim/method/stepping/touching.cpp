@@ -204,12 +204,14 @@ bool Stepping::lookFurther(std::size_t k, double h) {
 bool Stepping::seeFurther(double h) {
   if (growBoxes(h, false) && takePairs() && stopAtUnknownPair(model_, state_.near, report_))
     return false;
-  // A draft is solved again only where something would overlap.
-  bool meets = !isDrafted();
-  for (std::size_t k = 0; !meets && k < state_.near.size(); ++k) meets = meetsUnknown(k, h);
-  if (!meets) return false;
-  meets = false;
-  for (std::size_t k = 0; k < state_.near.size(); ++k) meets = lookFurther(k, h) || meets;
+  const std::size_t count = state_.near.size();
+  if (isDrafted()) {  // solved again only where something would overlap
+    std::size_t k = 0;
+    while (k < count && !meetsUnknown(k, h)) ++k;
+    if (k == count) return false;
+  }
+  bool meets = false;
+  for (std::size_t k = 0; k < count; ++k) meets = lookFurther(k, h) || meets;
   if (meets) leaveSeams();
   return meets;
 }
