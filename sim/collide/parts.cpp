@@ -31,7 +31,8 @@ void findBeside(Parts& parts) {
 Parts partsOf(const Compound& compound) {
   Parts parts;
   parts.list = convexParts(compound);
-  parts.flush = std::max(compound.slack, kFlush * boundingRadius(compound));
+  parts.level = kFlush * boundingRadius(compound);
+  parts.flush = std::max(compound.slack, parts.level);
   std::vector<Aabb> boxes;
   for (const PosedPart& part : parts.list) {
     const Aabb own = boundingBox(part.solid, Pose{});

@@ -20,6 +20,7 @@ struct Parts {
   std::vector<double> radius;  ///< [m] of each part, about its own origin
   std::vector<int> leaf;       ///< of each part, its box in the tree
   double flush = 0.0;          ///< [m] parts no further apart touch; steps no higher are none
+  double level = 0.0;          ///< [m] the same of parts that fill the body to rounding
 };
 
 /// The largest number of parts of one body: features have no room to name more.

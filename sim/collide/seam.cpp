@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/collide/convex.h"
+#include "sim/collide/features.h"
 #include "sim/collide/witness.h"
 #include "sim/math/frames.h"
 
@@ -44,14 +45,20 @@ bool holds(const Hull& hull, const Vec3& p, double slack) {
   }
   return true;
 }
+bool holds(const HalfSpace& plane, const Vec3& p, double slack) {
+  return plane.n.dot(p) - plane.d <= slack;
+}
 template <class S>
 bool holds(const S&, const Vec3&, double) {
   return false;
 }
 
+bool holds(const Shape& solid, const Pose& pose, const Vec3& p, double slack) {
+  const Vec3 p_P = toBody(pose, p);
+  return std::visit([&](const auto& s) { return holds(s, p_P, slack); }, solid);
+}
 bool holds(const PosedPart& part, const Vec3& p, double slack) {
-  const Vec3 p_P = toBody(part.pose, p);
-  return std::visit([&](const auto& s) { return holds(s, p_P, slack); }, part.solid);
+  return holds(part.solid, part.pose, p, slack);
 }
 
 // Greatest height of a part along n.
@@ -101,8 +108,7 @@ bool shows(const PartView& a, int i, const PartView& b, int j, const ContactPoin
 bool holds(const PartView& side, int part, const Vec3& p) {
   const Parts* parts = side.parts();
   const double size = boundingRadius(side.solid(part));
-  if (!parts)
-    return holds(PosedPart{side.solid(part), side.pose()}, p, kOnFace * (size + p.norm()));
+  if (!parts) return holds(side.solid(part), side.pose(), p, kOnFace * (size + p.norm()));
   const Vec3 p_B = toBody(side.pose(), p);
   return std::any_of(parts->list.begin(), parts->list.end(),
                      [&](const PosedPart& other) { return holds(other, p_B, parts->flush); });
@@ -116,9 +122,103 @@ bool overlaps(const PartView& a, int i, const PartView& b, int j, const ContactP
   return (ofA || ofB) && holds(a, i, pa) && holds(b, j, pb);
 }
 
+// How high [m] a step between parts of one side is none.
+double levelOf(const PartView& side) {
+  return side.parts() ? side.parts()->level : 0.0;
+}
+
 // How wide [m] the seams of one side are.
 double seamWidth(const PartView& side) {
   return side.parts() ? side.parts()->flush : 0.0;
+}
+
+// Whether the surface of one side goes on from a point in the world both ways along `way`, at its
+// own height over the plane square to n.
+bool goesOn(const PartView& side, int part, const Vec3& p, const Vec3& n, const Vec3& way,
+            double slack) {
+  const auto isOn = [&](const Vec3& q) {
+    if (!side.parts()) return holds(side.solid(part), side.pose(), q, slack);
+    const Parts& parts = *side.parts();
+    const Vec3 q_B = toBody(side.pose(), q), n_B = side.pose().q.conjugate() * n;
+    const auto holdsIt = [&](int k) {
+      return holds(parts.list[static_cast<std::size_t>(k)], q_B, slack);
+    };
+    const std::vector<int>& beside = parts.beside[static_cast<std::size_t>(part)];
+    return isFree(parts, part, q_B, n_B) &&
+           (holdsIt(part) || std::any_of(beside.begin(), beside.end(), holdsIt));
+  };
+  return isOn(p + way) && isOn(p - way);
+}
+
+// Whether test(direction [1]) holds for the edge of a solid that a point is named after, or for one
+// of those at its corner; own frame.
+template <class Test>
+bool anyEdgeAt(const Shape& solid, std::uint32_t code, const Test& test) {
+  const std::uint32_t kind = code & kKindCode, number = code & (kEdgeCode - 1);
+  const bool isEdge = kind == kEdgeCode;
+  if (!isEdge && kind != 0) return false;
+  if (std::holds_alternative<Capsule>(solid)) return isEdge && test(Vec3(Vec3::UnitY()));
+  if (std::holds_alternative<Box>(solid))
+    return isEdge ? test(Vec3(Vec3::Unit(static_cast<int>(number >> 2))))
+                  : test(Vec3(Vec3::UnitX())) || test(Vec3(Vec3::UnitY())) ||
+                        test(Vec3(Vec3::UnitZ()));
+  const Hull* hull = std::get_if<Hull>(&solid);
+  if (!hull) return false;
+  const Polyhedron& own = *hull->solid;
+  const auto along = [&](const Polyhedron::Edge& e) {
+    const Vec3 way =
+        own.points[static_cast<std::size_t>(e.to)] - own.points[static_cast<std::size_t>(e.from)];
+    return test(Vec3(way.normalized()));
+  };
+  if (isEdge) return along(own.edges[number]);
+  const int corner = static_cast<int>(number);
+  return std::any_of(own.edges.begin(), own.edges.end(), [&](const Polyhedron::Edge& e) {
+    return (e.from == corner || e.to == corner) && along(e);
+  });
+}
+
+// One side of a contact of a face.
+struct Side {
+  const PartView& view;
+  int part;
+  std::uint32_t code;  // of its feature
+  Vec3 p, n;           // [m] on its surface; [1] out of it
+  double radius;       // [m] about the point that touches
+  Vec3 e;              // [1] as the contact has it where edges cross, with the radius of a rim [m]
+  double rim;
+
+  // Whether the solid goes on all around, `way` [m] and across it.
+  bool isWithin(const Vec3& way, double slack) const {
+    return radius == 0.0 && goesOn(view, part, p, n, way, slack) &&
+           goesOn(view, part, p, n, n.cross(way), slack);
+  }
+};
+
+// Whether a corner of what two faces share is none: it is within the face of one solid, and on the
+// other an edge that it is on goes on both ways.
+bool isBetween(const PartView& a, int i, const PartView& b, int j, const ContactPoint& c) {
+  if (c.tie != NormalTie::FaceOfA && c.tie != NormalTie::FaceOfB) return false;
+  const Side ofA{a, i, featureOfA(c.feature), c.pa - c.ra * c.n, -c.n, c.ra, c.ea, c.rimA};
+  const Side ofB{b, j, featureOfB(c.feature), c.pb + c.rb * c.n, c.n, c.rb, c.eb, c.rimB};
+  const double slack = std::max(levelOf(a), levelOf(b)), reach = kReach * slack;
+  const auto isOn = [&](const Side& on, const Side& within) {
+    const auto goesAlong = [&](const Vec3& edge) {
+      const Vec3 way = reach * edge;
+      return goesOn(on.view, on.part, on.p, on.n, way, slack) && within.isWithin(way, slack);
+    };
+    if (c.crosses) return goesAlong(on.rim > 0.0 ? Vec3(c.n.cross(on.e).normalized()) : on.e);
+    const Quat q = on.view.poseOf(on.part).q;
+    return anyEdgeAt(on.view.solid(on.part), on.code,
+                     [&](const Vec3& edge) { return goesAlong(q * edge); });
+  };
+  return isOn(ofA, ofB) || isOn(ofB, ofA);
+}
+
+void leaveBetween(const PartView& a, int i, const PartView& b, int j, std::size_t first,
+                  Manifold& out) {
+  out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                           [&](const ContactPoint& c) { return isBetween(a, i, b, j, c); }),
+            out.end());
 }
 
 // Whether both points of a contact are on these parts, or hardly past their ends.
@@ -162,7 +262,9 @@ void findExposed(const PartView& a, int i, const PartView& b, int j, const Sough
       std::erase_if(found, isWrong);
       if (std::any_of(found.begin(), found.end(),
                       [&](const ContactPoint& c) { return c.separation <= gap + flush; })) {
+        const std::size_t first = out.size();
         out.insert(out.end(), found.begin(), found.end());
+        leaveBetween(a, i, b, j, first, out);
         return;
       }
     }
@@ -210,7 +312,9 @@ Left leaveCovered(const PartView& a, int i, const PartView& b, int j, std::size_
   out.erase(std::remove_if(begin, out.end(),
                            [&](const ContactPoint& c) { return !shows(a, i, b, j, c, 0.0); }),
             out.end());
-  if (!(before < deepest())) return Left::Enough;
+  const bool enough = !(before < deepest());
+  leaveBetween(a, i, b, j, first, out);
+  if (enough) return Left::Enough;
   return before < 0.0 ? Left::NotDeepest : Left::NotNearest;
 }
 

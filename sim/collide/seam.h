@@ -27,8 +27,9 @@ enum class Left : std::uint8_t {
   NotNearest,  ///< the nearest of a gap went
 };
 
-/// Takes away the points from `first` on that are no contact of the two solids: those between part
-/// i of a and part j of b.
+/// Takes away the points from `first` on that are no contact of the two solids, or no corner of
+/// what they share: those between part i of a and part j of b. Of the latter something is always
+/// left.
 Left leaveCovered(const PartView& a, int i, const PartView& b, int j, std::size_t first,
                   Manifold& out);
 

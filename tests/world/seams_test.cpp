@@ -183,6 +183,8 @@ std::vector<Slider> sliders() {
           {"a box of two halves", twoHalves(box.half), box, 0.1},
           {"a ball", Sphere{0.2}, Sphere{0.2}, 0.2},
           {"a standing cylinder", Cylinder{0.2, 0.2}, Cylinder{0.2, 0.2}, 0.1},
+          {"a narrow cylinder", Cylinder{0.1, 0.2}, Cylinder{0.1, 0.2}, 0.1},
+          {"a flat cylinder", Cylinder{0.1, 0.05}, Cylinder{0.1, 0.05}, 0.025},
           {"a hull", gem(), gem(), 0.1}};
 }
 
@@ -235,6 +237,9 @@ BodyDef inOtherOrder(BodyDef slab) {
   std::reverse(parts.begin(), parts.end());
   return slab;
 }
+BodyDef threeSeams() {
+  return cutSlab({-0.2, 0.3, 0.5}, {});
+}
 BodyDef manySeams() {
   return cutSlab({-0.31, 0.02, 0.17, 0.9}, {0.03});
 }
@@ -243,12 +248,15 @@ BodyDef manySeams() {
 
 // Oracle: symmetry; the parts of a body that are flush are one solid, in whatever order, at any
 // angle to the world and to each other, and in the mirror, whether the slab glides or not. Measured
-// by `stepping` 8e-14 m, by `exact` 6e-12 m, by `course` 4e-10 m;
-// allowed 1e-9 m, the width of a touch.
+// by `stepping` 3e-13 m, by `exact` 3e-14 m, by `course` 2e-14 m; allowed 1e-9 m, the width of a
+// touch.
 TEST_CASE("what slides over parts of one body that are flush goes as over one part") {
   const char* method = GENERATE("stepping", "exact", "course");
   const std::vector<Slider> all = sliders();
-  const double off = worstSeam({method}, {{-20.0}, {all[1], all[4]}, {manySeams()}});
+  double off = worstSeam({method}, {{-20.0}, {all[1], all.back()}, {manySeams()}});
+  // Rims that hardly pass a cut at the end of a step.
+  off = std::max(off, worstSeam({method}, {{10.0, 45.0}, {all[3]}, {threeSeams()}}));
+  off = std::max(off, worstSeam({method}, {{60.0}, {all[4]}, {threeSeams()}}));
   WARN("seams of one body, " << method << ": measured off by " << off << " m");
 }
 TEST_CASE("seams of one body at all angles, of all solids, in any order of the parts", "[long]") {
@@ -260,12 +268,12 @@ TEST_CASE("seams of one body at all angles, of all solids, in any order of the p
                                            {"exact", 1.0}}));  // has no step
   Glide glide{method, step};
   glide.moving = GENERATE(false, true);
-  const double off =
-      worstSeam(glide, {glide.moving ? std::vector<double>{20.0, -45.0}
-                                     : std::vector<double>{0.0, 20.0, 45.0, -20.0, -45.0},
-                        sliders(),
-                        {cutSlab({0.0}, {}), cutSlab({-0.2, 0.5}, {}),
-                         cutSlab({-0.2, 0.3, 0.5}, {}), manySeams(), inOtherOrder(manySeams())}});
+  const double off = worstSeam(
+      glide, {glide.moving ? std::vector<double>{20.0, -45.0}
+                           : std::vector<double>{0.0, 10.0, 20.0, 30.0, 45.0, 60.0, -20.0, -45.0},
+              sliders(),
+              {cutSlab({0.0}, {}), cutSlab({-0.2, 0.5}, {}), threeSeams(),
+               inOtherOrder(threeSeams()), manySeams(), inOtherOrder(manySeams())}});
   WARN("seams of one body, all solids, " << glide.method << ", a step of " << glide.step << " s, "
                                          << (glide.moving ? "gliding" : "fixed")
                                          << ": measured off by " << off << " m");
