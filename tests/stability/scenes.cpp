@@ -54,16 +54,16 @@ TEST_CASE("a brick slides down a ramp, over its edge, and comes to rest on a box
   const Run run("brick-on-ramp");
   checkCertificate(run, {1e-9, 1e-11, 1e-9});
 
-  // Oracle: s = g (sin θ − μ cos θ) t²/2 with θ = 30°, μ = 0.2. The step adds h/t = 0.8 %; measured
-  // 0.83 %, allowed 1 %.
+  // Oracle: s = g (sin θ − μ cos θ) t²/2 with θ = 30°, μ = 0.2. Measured 2e-14 of it.
   const double acceleration = kG * (0.5 - 0.2 * std::sqrt(0.75));
   const double slid = (run.at(0.5, "brick").x - run.at(0.0, "brick").x).norm();
-  CHECK(slid == Approx(0.5 * acceleration * 0.25).epsilon(0.01));
+  CHECK(slid == Approx(0.5 * acceleration * 0.25).epsilon(1e-12));
 
-  // At rest it lies flat on the box, which has not moved. Measured 2e-15 m, 3e-16 m/s.
+  // At rest it lies flat on the box. Measured 2e-15 m, 3e-16 m/s. Its fall shoves the box by 5.4
+  // μm, as `exact` finds; measured 1.3 mm, since the blow takes all of one step.
   const BodySample &brick = run.at(3.0, "brick"), &box = run.at(3.0, "box");
   CHECK(std::abs(brick.x.y() - 0.45) < 1e-9);
-  CHECK((box.x - run.at(0.0, "box").x).norm() < 1e-9);
+  CHECK((box.x - run.at(0.0, "box").x).norm() < 2e-3);
   CHECK(brick.v.norm() < 1e-9);
   CHECK(brick.omega.norm() < 1e-9);
 }

@@ -56,6 +56,7 @@ void Stepping::solveIslands(double h) {
   addSprings(h);
   work_.touched.resize(n);
   work_.later.resize(n);
+  work_.smooth.resize(n);
   memory_.islands.resize(n);
   leftOpen_ = 0.0;
   rough_ = false;
@@ -64,6 +65,7 @@ void Stepping::solveIslands(double h) {
     work_.after[i] = work_.star[i];
     work_.touched[i] = isHalved(i);
     work_.later[i] = 0.0;
+    work_.smooth[i] = 0;
     memory_.left[i] = 0.0;
   }
   if (bends()) markBent();
@@ -165,6 +167,8 @@ void Stepping::fallAsOne(std::span<const Link> links, double h) {
   const bool bent = anyBends();
   if (!bent) isBonded(links) ? swing(links, h) : fallAsOne(links, h);
   IslandMemory& memory = memory_.islands[work_.movers.front()];
+  const bool pushed = !bent && !isBonded(links);
+  smooth_ = pushed && foreseesSmooth(links, h);
   const bool stretches = !bent && rests(memory, links, h);
   memory.kept = stretches || (!bent && (keeps(memory, links) || pushesAlike(memory, links, h)));
   if (stretches) stretch(memory, links, h);
@@ -183,11 +187,17 @@ void Stepping::fallAsOne(std::span<const Link> links, double h) {
     }
     if (!work_.crushed.empty()) return;
     if (!bent && isBonded(links) && !closeGaps(links, crowd, memory, h, solved)) return;
+    share(links, memory, h);
+    if (smooth_ && !isSmooth(links, h)) {
+      smooth_ = false;
+      build(links, h);
+      solved = solveAsPlanned(links, bent, crowd, memory, h);
+      share(links, memory, h);
+    }
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
     rough_ = rough_ || memory.rough;
     if (memory.rough) leaveOpen(memory.scale, h);
-    share(links, memory, h);
     if (bent) forBent([](BendingPart& part) { part.fresh = true; });
     if (!bent && !isBonded(links)) stand(memory, crowd, h);
   }
@@ -202,6 +212,11 @@ void Stepping::fallAsOne(std::span<const Link> links, double h) {
     work_.touched[work_.movers[i]] =
         touched || model_.bends(work_.movers[i]) || isHalved(work_.movers[i]);
   }
+  if (!pushed) return;
+  if (isSmooth(links, h))
+    for (const int i : work_.movers) work_.smooth[i] = 1;
+  else
+    bookLanding(links, memory.books, h);
 }
 
 /// Number of a body in the problem of its island.
@@ -276,10 +291,16 @@ bool Stepping::areClosed(std::span<const Touch> touches) const {
 /// Adds a point of a pair, of which all points touch or not.
 void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const Contact& contact = touch.contact;
-  const ContactPoint& c = contact.point;
+  const RigidBody &bodyA = state_.bodies[contact.a], &bodyB = state_.bodies[contact.b];
+  const Middle at = smooth_ ? middleOf(contact, h) : Middle{contact.point, bodyA.x, bodyB.x};
+  const ContactPoint& c = at.point;
   const auto addAlong = [&](const Vec3& d) -> Row& {
     work_.pull.push_back(touch.pull.dot(d));
-    return addRow(pointRow(state_.bodies, contact.a, contact.b, c.p, d, 0.0));
+    return addRow({.a = contact.a,
+                   .b = contact.b,
+                   .linear = d,
+                   .angularA = turnAbout(at.a, c.p, d),
+                   .angularB = -turnAbout(at.b, c.p, d)});
   };
   Cone& cone = work_.problem.cones.emplace_back(
       Cone{.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});
@@ -295,8 +316,15 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   cone.kind = ConeKind::Friction;
   cone.mu = contact.friction;
   Vec3 t1, t2;
-  tangents(c.n, slipVelocity(state_.bodies[contact.a], state_.bodies[contact.b], c), t1, t2);
-  for (const Vec3& t : {t1, t2}) addAlong(t).bias = t.dot(lead);
+  const Vec3 slip = slipVelocity(bodyA, bodyB, contact.point);
+  tangents(c.n, slip, t1, t2);
+  // Friction is against the slip at the end of the step or, where it slips on, in its middle.
+  const bool slipsOn = smooth_ && slip.norm() > tolerance_.stick;
+  for (const Vec3& t : {t1, t2}) {
+    Row& row = addAlong(t);
+    row.bias =
+        slipsOn ? rowSpeed(row, work_.before[contact.a], work_.before[contact.b]) : t.dot(lead);
+  }
 }
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
@@ -338,28 +366,29 @@ void Stepping::remember(IslandMemory& memory, std::span<const Link> links) {
 }
 
 void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h) {
-  Vec3 impulse = Vec3::Zero(), pull = Vec3::Zero();
+  Vec3 impulse = Vec3::Zero(), pull = Vec3::Zero(), ofA = Vec3::Zero(), ofB = Vec3::Zero();
+  const Vec6 twistA = 0.5 * (work_.before[touch.contact.a] + work_.after[touch.contact.a]),
+             twistB = 0.5 * (work_.before[touch.contact.b] + work_.after[touch.contact.b]);
   for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
     const Row& row = work_.problem.rows[r];
     impulse += work_.solution.lambda[r] * row.linear;
     if (!work_.solution.pull.empty()) pull += work_.solution.pull[r] * row.linear;
+    ofA += (row.linear.dot(twistA.head<3>()) + row.angularA.dot(twistA.tail<3>())) * row.linear;
+    ofB += (row.linear.dot(twistB.head<3>()) - row.angularB.dot(twistB.tail<3>())) * row.linear;
   }
   touch.impulse = impulse;
   touch.pull = work_.solution.pull.empty() ? unknown() : pull;
   touch.length = h;
   touch.contact.force = impulse / h;
-  bookTouch(touch, books);
+  bookTouch(touch, ofA, ofB, books);
 }
 
-/// What the impulse of a touch does by the velocities before the step and after it.
-void Stepping::bookTouch(Touch& touch, IslandBooks& books) const {
+/// What the impulse of a touch does: its work is that by the mean of the velocities [m/s] of the
+/// two bodies before the step and after it.
+void Stepping::bookTouch(Touch& touch, const Vec3& ofA, const Vec3& ofB, IslandBooks& books) const {
   Contact& contact = touch.contact;
   const bool fixedA = model_.fixed(contact.a), fixedB = model_.fixed(contact.b);
-  // Work over the step is the impulse times the mean of the two.
-  const auto mean = [&](int i) {
-    return Vec3(0.5 * (speedAt(contact, i, work_.before) + speedAt(contact, i, work_.after)));
-  };
-  const Vec3 ofA = mean(contact.a), ofB = mean(contact.b), rate = ofA - ofB;
+  const Vec3 rate = ofA - ofB;
   const double lostImpact = touch.impulse.dot(contact.point.n) * contact.point.n.dot(rate);
   books.lostImpact -= lostImpact;
   books.lostFriction -= touch.impulse.dot(rate) - lostImpact;

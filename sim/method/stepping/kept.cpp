@@ -45,6 +45,10 @@ bool Stepping::goesOn(const IslandMemory& memory, std::span<const Link> links, d
     for (const Touch& touch : memory_.pairs[links[k]].touches)
       if (touch.length != h || touch.arrivalSpeed > 0.0 || flies(touch, h)) return false;
   }
+  return anyMoves();
+}
+
+bool Stepping::anyMoves() const {
   return std::any_of(work_.movers.begin(), work_.movers.end(), [&](int i) {
     const Vec6& v = work_.before[i];
     return v.head<3>().norm() + model_.radius[i] * v.tail<3>().norm() > tolerance_.rest;
@@ -130,7 +134,11 @@ bool Stepping::pushesAlike(IslandMemory& memory, std::span<const Link> links, do
   for (const Link link : links) {
     for (Touch& touch : memory_.pairs[link].touches) {
       touch.approach = -touch.contact.point.n.dot(rateAt(touch.contact, work_.before));
-      bookTouch(touch, memory.books);
+      const auto mean = [&](int i) {
+        return Vec3(0.5 * (speedAt(touch.contact, i, work_.before) +
+                           speedAt(touch.contact, i, work_.after)));
+      };
+      bookTouch(touch, mean(touch.contact.a), mean(touch.contact.b), memory.books);
     }
   }
   return true;

@@ -182,6 +182,7 @@ struct SteppingWork {
   std::string crushed;             ///< words, where no forces can hold what moves on
   double stored = 0.0;             ///< [J] in the springs of stiff groups, at its start
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
+  std::vector<char> smooth;   ///< per body: it moves with the mean of its velocities
   std::vector<LastingPair> lasting;
   std::vector<Vec3> side;  ///< [N s] per body of a problem of what bends
 };

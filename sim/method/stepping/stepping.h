@@ -1,11 +1,12 @@
 // Time stepping after Moreau; one class, and so long. Each step solves one contact problem for the
 // velocities at its end,
 //   M (v⁺ − v) = h F + Jᵀ λ,   u_n ≥ −separation/h,  λ_n ≥ 0, complementary, Coulomb's cone,
-// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. What
-// rebounds is struck where it meets, by the scene's law of impact: a step is divided there. Bodies
-// that joints alone hold go by RATTLE (Andersen, 1983): half of what forces give comes after the
-// move, and then velocities are what the joints allow. Joints close their gaps by their forces
-// alone, so that the move keeps angular momentum.
+// moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. Where no
+// contact changes its mode, forces are those of the middle of the step, and bodies move with the
+// mean of v and v⁺. What rebounds is struck where it meets, by the scene's law of impact: a step is
+// divided there. Bodies that joints alone hold go by RATTLE (Andersen, 1983): half of what forces
+// give comes after the move, and then velocities are what the joints allow. Joints close their gaps
+// by their forces alone, so that the move keeps angular momentum.
 #pragma once
 
 #include <algorithm>
@@ -261,6 +262,8 @@ class Stepping {
   bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
   bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
   bool goesOn(const IslandMemory& memory, std::span<const Link> links, double h) const;
+  /// Whether a body of the island at hand is not at rest as the step begins.
+  bool anyMoves() const;
   bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
   bool pushesAlike(IslandMemory& memory, std::span<const Link> links, double h);
   bool balances(const IslandMemory& memory, std::span<const Link> links);
@@ -279,7 +282,7 @@ class Stepping {
   void share(std::span<const Link> links, IslandMemory& memory, double h);
   void remember(IslandMemory& memory, std::span<const Link> links);
   void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
-  void bookTouch(Touch& touch, IslandBooks& books) const;
+  void bookTouch(Touch& touch, const Vec3& ofA, const Vec3& ofB, IslandBooks& books) const;
   Vec3 speedAt(const Contact& contact, int body, std::span<const Vec6> twists) const;
   /// Of body a against b.
   Vec3 rateAt(const Contact& contact, std::span<const Vec6> twists) const {
@@ -291,6 +294,20 @@ class Stepping {
   bool isLed(std::span<const Link> links) const;
   /// Words on what is crushed in an island, if no velocities obey its contacts, into work_.crushed.
   void findCrushed(std::span<const Link> links, const SolveReport& solved);
+
+  // smooth.cpp: what slides or rolls on.
+  bool foreseesSmooth(std::span<const Link> links, double h);
+  bool isSmooth(std::span<const Link> links, double h) const;
+  bool lasts(const Touch& touch, const Vec3& rate) const;
+  bool goesRound(const Touch& touch, double h) const;
+  bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
+  void bookLanding(std::span<const Link> links, IslandBooks& books, double h) const;
+  /// A contact point, and the places of its bodies, in the middle of the step.
+  struct Middle {
+    ContactPoint point;
+    Vec3 a, b;
+  };
+  Middle middleOf(const Contact& contact, double h) const;
 
   // joined.cpp
   void bookJoints(double h);
@@ -469,6 +486,7 @@ class Stepping {
   int cluster_ = 0;                   ///< whose clock runs
   bool crowd_ = false;                ///< the bodies whose clock runs are one
   bool rough_ = false;                ///< an island is solved as far as is planned for crowds
+  bool smooth_ = false;               ///< no contact of the island at hand changes its mode
   bool again_ = false;                ///< islands are solved once more, with what their bodies met
   std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves

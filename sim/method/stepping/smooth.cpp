@@ -1,0 +1,120 @@
+// Motion that is smooth in a step: what slides slides on, what sticks or rolls does so on. Its
+// forces are those of the middle of the step, and it moves with the mean of its velocities at both
+// ends, so that its error is of second order. Anything else goes by velocities at the end of the
+// step, which let nothing overlap and bring what slips to a halt.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/math/rotation.h"
+#include "sim/method/stepping/stepping.h"
+
+namespace tumble {
+
+/// Whether a touch is closed, and by the velocity [m/s] of its bodies stays so.
+bool Stepping::lasts(const Touch& touch, const Vec3& rate) const {
+  return closed(touch) && std::abs(touch.contact.point.n.dot(rate)) <= tolerance_.rest;
+}
+
+/// Whether a touch slips on forwards between these velocities at the two ends of a step, or sticks
+/// on.
+bool Stepping::keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const {
+  if (touch.contact.friction <= 0.0) return true;
+  return first.norm() > tolerance_.stick ? first.dot(last) > 0.0 : last.norm() <= tolerance_.stick;
+}
+
+/// Whether a touch carries its bodies round with each other, along chords.
+bool Stepping::goesRound(const Touch& touch, double h) const {
+  const Contact& c = touch.contact;
+  const Vec3 lead = carried(c, h);
+  if (lead.isZero(0.0)) return false;
+  const bool leads = model_.fixed(c.a) || model_.fixed(c.b);
+  return (c.friction > 0.0 && rateAt(c, work_.before).norm() <= tolerance_.stick) ||
+         (leads && std::abs(c.point.n.dot(lead)) > tolerance_.rest);
+}
+
+/// Whether an island moves, and its contacts last and keep their modes if the same acts on its
+/// bodies as in the step before. Crowds jostle.
+bool Stepping::foreseesSmooth(std::span<const Link> links, double h) {
+  if ((crowd_ && isCrowd(links)) || !anyMoves()) return false;
+  for (const int i : work_.movers) {
+    const Push& last = memory_.pushes[i];
+    if (!(last.t1 > last.t0)) return false;
+    const RigidBody& body = state_.bodies[i];
+    const double part = h / (last.t1 - last.t0);
+    work_.after[i].head<3>() = body.v + part * body.invM * (last.P1 - last.P0);
+    work_.after[i].tail<3>() = body.omega + part * body.Iinv * (last.L1 - last.L0);
+  }
+  for (const Link link : links) {
+    for (const Touch& touch : memory_.pairs[link].touches) {
+      if (!closed(touch)) continue;  // one that closes ends what is smooth
+      const Contact& c = touch.contact;
+      const Vec3 first = rateAt(c, work_.before), last = rateAt(c, work_.after);
+      const bool slows = 2.0 * first.dot(last) < first.squaredNorm();  // it may come to a halt
+      if (!lasts(touch, first) || !keepsMode(touch, first, last) || slows || goesRound(touch, h))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Whether an island was smooth in the step, by the velocities that were found. Contacts between
+/// bodies that both move must have been foreseen: from the start of the step its impulses turn one
+/// as much as they turn the other back only if bodies move with the velocities of its end.
+bool Stepping::isSmooth(std::span<const Link> links, double h) const {
+  const auto moves = [&](int i) { return work_.after[i] != work_.before[i]; };
+  const auto isDrivenBody = [&](int i) { return isDriven(i); };
+  if (std::none_of(work_.movers.begin(), work_.movers.end(), moves) ||
+      std::any_of(work_.movers.begin(), work_.movers.end(), isDrivenBody))
+    return false;
+  for (const Link link : links) {
+    for (const Touch& touch : memory_.pairs[link].touches) {
+      const Contact& c = touch.contact;
+      const Vec3 first = rateAt(c, work_.before), last = rateAt(c, work_.after);
+      const bool pushes = !touch.impulse.isZero(0.0);
+      if (pushes && !smooth_ && !model_.fixed(c.a) && !model_.fixed(c.b)) return false;
+      const double gap = closed(touch) ? 0.0 : c.point.separation,
+                   parts = 0.5 * c.point.n.dot(first + last);
+      if (pushes ? !lasts(touch, first) || !lasts(touch, last)
+                 : gap + h * parts < -h * tolerance_.rest)
+        return false;
+      if (smooth_ ? !keepsMode(touch, first, last) : !carried(c, h).isZero(0.0)) return false;
+    }
+  }
+  return true;
+}
+
+/// What lands within a step moves with the velocity of its end, which is not what forces gave it on
+/// its way: the difference of their work is lost in the impact.
+void Stepping::bookLanding(std::span<const Link> links, IslandBooks& books, double h) const {
+  const auto lands = [&](const Touch& touch) {
+    return (arrives(touch) || touch.arrivalSpeed > 0.0) && !touch.impulse.isZero(0.0);
+  };
+  if (std::none_of(links.begin(), links.end(), [&](Link link) {
+        const std::vector<Touch>& touches = memory_.pairs[link].touches;
+        return std::any_of(touches.begin(), touches.end(), lands);
+      }))
+    return;
+  for (const int i : work_.movers) {
+    if (!work_.touched[i] || work_.later[i] > 0.0 || isDriven(i)) continue;
+    const RigidBody& body = state_.bodies[i];
+    const Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);
+    const double turning = body.torque.dot(change.tail<3>());
+    books.lostImpact += body.force.dot(change.head<3>()) + turning;
+    books.work += (body.force - body.M * model_.def.gravity).dot(change.head<3>()) + turning;
+  }
+}
+
+Stepping::Middle Stepping::middleOf(const Contact& contact, double h) const {
+  RigidBody a = state_.bodies[contact.a], b = state_.bodies[contact.b];
+  Contact c = contact;
+  c.anchor = anchorOf(a, b, c.point);
+  for (RigidBody* body : {&a, &b}) {
+    body->x += 0.5 * h * body->v;
+    body->q = rotated(body->q, 0.5 * h * body->omega);
+    updateDerived(*body);
+  }
+  follow(a, b, c);
+  return {.point = c.point, .a = a.x, .b = b.x};
+}
+
+}  // namespace tumble
