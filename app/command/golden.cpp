@@ -142,10 +142,9 @@ void print(const std::vector<Finding>& findings) {
                  finding.name, finding.verdict());
 }
 
-std::string environment(const Manifest& manifest, const Context& context) {
-  return fmt::format("expected: tumble {}, {}, OpenGL {}; actual: tumble {}, {}, OpenGL {}",
-                     manifest.program, manifest.glRenderer, manifest.glVersion, TUMBLE_VERSION,
-                     context.renderer(), context.version());
+std::string drawnBy(const Manifest& manifest) {
+  return fmt::format("tumble {}, {}, OpenGL {}", manifest.program, manifest.glRenderer,
+                     manifest.glVersion);
 }
 
 // Holds a subject against the goldens of a folder, after it has replaced them if that is asked for.
@@ -182,7 +181,8 @@ int conclude(const Shelf& shelf, bool json) {
     fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n",
                holding.scenes.empty() ? "" : holding.folder + ": ", total, holding.passing(),
                holding.exact());
-  if (!json && holding.exact() < total) fmt::print("{}\n", holding.environment);
+  if (!json && holding.exact() < total && holding.expectedBy != holding.actualBy)
+    fmt::print("{}\n", holding.environment());
   for (const Finding& finding : holding.findings) leaveActual(finding, shelf.out);
   const std::string report = shelf.out + "/report.html";
   if (holding.passing() == total) {
@@ -192,7 +192,7 @@ int conclude(const Shelf& shelf, bool json) {
   }
   makeFolder(shelf.out);
   writeFile(report, htmlReport(holding));
-  if (!json) fmt::print("see {}; `{}` accepts what is drawn now\n", report, holding.approve);
+  if (!json) fmt::print("see {}; `{}` accepts what is drawn now\n", report, holding.approval());
   return kFailed;
 }
 
@@ -230,8 +230,8 @@ int golden(int argc, char** argv) {
   int code = kOk;
   for (Shelf& shelf : shelves) {
     const std::string file = shelf.holding.folder + "/manifest.json";
-    shelf.holding.environment =
-        environment(options.update ? readManifest(file) : shelf.manifest, *context);
+    shelf.holding.expectedBy = drawnBy(options.update ? readManifest(file) : shelf.manifest);
+    shelf.holding.actualBy = drawnBy({context->renderer(), context->version(), TUMBLE_VERSION, {}});
     code = std::max(code, conclude(shelf, options.json));
   }
   writeForPrograms(options, shelves);

@@ -71,7 +71,7 @@ std::string goldenJson(const std::vector<Holding>& holdings) {
     nlohmann::ordered_json findings = nlohmann::ordered_json::array();
     for (const Finding& finding : holding.findings) findings.push_back(jsonOf(finding));
     folders.push_back({{"folder", holding.folder},
-                       {"environment", holding.environment},
+                       {"environment", holding.environment()},
                        {"findings", std::move(findings)}});
   }
   const nlohmann::ordered_json json = {

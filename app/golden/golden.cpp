@@ -43,9 +43,32 @@ long Holding::exact() const {
                        [](const Finding& finding) { return finding.exact(); });
 }
 
+std::string Holding::environment() const {
+  return expectedBy == actualBy ? "expected and actual: " + actualBy
+                                : "expected: " + expectedBy + "; actual: " + actualBy;
+}
+
+namespace {
+
+std::string inShell(const Holding& holding, const std::string& subject) {
+  const auto scene = holding.scenes.find(subject);
+  return " " + (scene == holding.scenes.end() ? subject : scene->second);
+}
+
+}  // namespace
+
+std::string Holding::approval() const {
+  std::string command = approve, last;
+  for (const Finding& finding : findings) {
+    if (finding.passes() || finding.subject == last) continue;
+    last = finding.subject;
+    command += inShell(*this, last);
+  }
+  return command;
+}
+
 std::string Holding::approvalOf(const std::string& subject) const {
-  const auto scene = scenes.find(subject);
-  return approve + " " + (scene == scenes.end() ? subject : scene->second);
+  return approve + inShell(*this, subject);
 }
 
 namespace {

@@ -49,12 +49,16 @@ struct Finding {
 /// What came of comparing subjects with the goldens of one folder.
 struct Holding {
   std::string folder;
-  std::string environment;  ///< what drew the expected images, and what the actual ones
-  std::string approve;      ///< the command that accepts what is drawn now, but for the subjects
+  std::string approve;  ///< the command that accepts what is drawn now, but for the subjects
   std::vector<Finding> findings;
   std::map<std::string, std::string> scenes = {};  ///< subject → its name in a shell, if another
+  std::string expectedBy = {}, actualBy = {};      ///< programs that drew the images
   long passing() const;
   long exact() const;
+  /// What drew the images: said once where both were drawn by the same.
+  std::string environment() const;
+  /// `approve` for all subjects that fail.
+  std::string approval() const;
   /// `approve` for one subject.
   std::string approvalOf(const std::string& subject) const;
 };

@@ -127,9 +127,9 @@ std::string listOf(const Holding& holding) {
 
 std::string htmlReport(const Holding& holding) {
   std::string html = kHead;
-  html +=
-      fmt::format("<p>{} of {} goldens in <code>{}</code> pass. {}</p>\n", holding.passing(),
-                  holding.findings.size(), htmlText(holding.folder), htmlText(holding.environment));
+  html += fmt::format("<p>{} of {} goldens in <code>{}</code> pass. {}</p>\n", holding.passing(),
+                      holding.findings.size(), htmlText(holding.folder),
+                      htmlText(holding.environment()));
   html += listOf(holding);
   for (const Finding& finding : holding.findings) {
     if (finding.passes()) continue;

@@ -101,8 +101,10 @@ TEST_CASE("the report holds the failing images themselves and no link to anythin
   Golden now = sample();
   now.images[0].image = plain(60);
   const auto findings = compareGolden(now, manifest, scratch.path.string());
-  const std::string html =
-      htmlReport({"goldens", "llvmpipe <22.3>", "tumble golden --update", findings});
+  const std::string html = htmlReport({.folder = "goldens",
+                                       .approve = "tumble golden --update",
+                                       .findings = findings,
+                                       .actualBy = "llvmpipe <22.3>"});
   CHECK(html.find(base64(encodePng(plain(40)))) != std::string::npos);
   CHECK(html.find(base64(encodePng(plain(60)))) != std::string::npos);
   CHECK(html.find("drop: start") != std::string::npos);
@@ -115,7 +117,7 @@ TEST_CASE("the report holds the failing images themselves and no link to anythin
 TEST_CASE("what programs read counts what passes and quotes what people wrote") {
   Golden now = sample();
   now.subject = "a \"drop\" & <more>";
-  Holding holding{"goldens", "llvmpipe", "tumble golden --update", {}};
+  Holding holding{"goldens", "tumble golden --update", {}};
   holding.findings = compareGolden(now, Manifest{}, "no such folder");
   holding.findings.push_back({.subject = "drop", .name = "numbers"});
   holding.findings.back().numbers = NumberDifference{};
