@@ -20,7 +20,8 @@ std::vector<MethodRuns> runAll(const Scene& scene, const HalvingPlan& plan) {
   return runHalved(scene, plan, [&] { progress.show(++done / methods); });
 }
 
-// The figure and its numbers: speed against error at the last instant.
+// The figure and its numbers: speed against error at the last instant. The numbers are what was
+// asked for, so that it is no failure if gnuplot is missing.
 void drawSpeed(const Convergence& convergence, const std::string& folder) {
   Study study = speedOf(convergence);
   study.name = "speed";
@@ -31,8 +32,15 @@ void drawSpeed(const Convergence& convergence, const std::string& folder) {
     fmt::print("no figure: no run has an error that is known\n");
     return;
   }
-  runGnuplot(folder, study.name);
-  fmt::print("{0}/speed.svg, speed.png\n", folder);
+  try {
+    runGnuplot(folder, study.name);
+    fmt::print("{0}/speed.svg, speed.png\n", folder);
+  } catch (const NoGnuplot&) {
+    fmt::print(
+        "no {0}/speed.svg: gnuplot draws it and is not here; install gnuplot-nox, then "
+        "`gnuplot speed.gp` in {0}\n",
+        folder);
+  }
 }
 
 }  // namespace
@@ -63,7 +71,6 @@ int converge(int argc, char** argv) {
   const Convergence convergence = convergenceOf(scene, plan, runAll(scene, plan));
   fmt::print("{}\n", convergenceText(convergence));
 
-  // Numbers first: they stay if gnuplot is missing.
   if (folder.empty()) folder = "out/" + scene.name;
   makeFolder(folder);
   writeFile(folder + "/converge.csv", convergenceCsv(convergence));

@@ -105,7 +105,9 @@ int doctor(int argc, char** argv) {
   const std::string ffmpeg = onPath("ffmpeg");
   row("ffmpeg", ffmpeg.empty() ? "no: needed by --video alone; install ffmpeg" : ffmpeg);
   const std::string gnuplot = onPath("gnuplot");
-  row("gnuplot", gnuplot.empty() ? "no: needed by report alone; install gnuplot-nox" : gnuplot);
+  row("gnuplot", gnuplot.empty()
+                     ? "no: needed by the figures of report and converge alone; install gnuplot-nox"
+                     : gnuplot);
   const Drawing drawing = examineContexts();
   if (drawing == Drawing::NoContext)
     throw NoContext("nothing here can draw; install libosmesa6 or libegl1 with libgl1-mesa-dri");

@@ -14,8 +14,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/file/file.h"
-
 extern char** environ;
 
 namespace tumble {
@@ -146,7 +144,7 @@ void execute(const std::string& folder, const std::string& name) {
       ::posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0)
-    throw FileError(fmt::format(
+    throw NoGnuplot(fmt::format(
         "cannot run gnuplot, which draws the figures: {}; install the package gnuplot-nox. The "
         "numbers are in '{}'",
         std::strerror(error), folder));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/file/file.h"
 #include "app/report/profile.h"
 #include "app/report/scaling.h"
 #include "app/report/study.h"
@@ -31,9 +32,15 @@ std::string plotScript(const Profile& profile, const std::string& caption);
 /// Labels of all curves of the studies, each once, in the order in which they come.
 std::vector<std::string> labelsOf(std::span<const Study> studies);
 
+/// That gnuplot cannot be run.
+class NoGnuplot : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// Runs gnuplot on <name>.gp in the folder.
-/// @throws FileError if it is not there, fails, or leaves a figure that is not whole; then there is
-///         neither.
+/// @throws NoGnuplot if it is not there; FileError if it fails, or leaves a figure that is not
+///         whole. Then there is neither.
 void runGnuplot(const std::string& folder, const std::string& name);
 
 }  // namespace tumble
