@@ -90,7 +90,9 @@ Picture statePicture(const Scene& scene, const StartCheck& check, double top) {
   recording.rate = scene.image.rate;
   Scene plain = scene;
   plain.subtitle = "The state at its start.";
-  plain.checks.clear();  // claims are about motions
+  // Claims are about motions.
+  plain.checks.clear();
+  plain.expects.clear();
   const bool held = check.faults.empty() && check.resting > 0;
   plain.show.contact_forces = false;
   const std::vector<Eigen::Vector3d> points = withRoom(motionPoints(plain, recording));

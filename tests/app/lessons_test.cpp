@@ -159,6 +159,18 @@ TEST_CASE("a panel shows a start that no run can begin with, in red") {
   CHECK(labelled(picture, "POSITIONS NOT OK"));
 }
 
+// They are about runs, and its verdict stands where they would.
+TEST_CASE("the picture of a start has no words on what is expected of a run") {
+  const std::string claim = "[[expect]]\nvalue = \"ball.y\"\nequals = 0.1\n";
+  const std::string free = kBall.substr(0, kBall.find("[show]"));
+  const Scene scene = parseScene(free + claim, "scene"), plain = parseScene(free, "scene");
+  const Picture with = statePicture(scene, checkedStart(scene));
+  const Picture without = statePicture(plain, checkedStart(plain));
+  CHECK(labelled(with, "positions, velocities and accelerations are ok"));
+  CHECK(with.labels.size() == without.labels.size());
+  CHECK(with.lines.size() == without.lines.size());
+}
+
 // Oracle: closed form: vx = 1 m/s, so py/px = −g x. Measured 2e-15, allowed 1e-12.
 TEST_CASE("a graph of values follows its formula, against another in place of the time") {
   const fs::path file =
