@@ -76,7 +76,8 @@ Stage::Stage(const Picture& picture, const RenderOptions& options)
       radius(std::max(picture.radius, 1e-6)),
       centre(0.0, picture.centre.y() - picture.floor.height, 0.0),
       contactReach(tumble::contactReach(picture)),
-      shadowMapSize(options.shadowMapSize) {}
+      shadowMapSize(options.shadowMapSize),
+      hasFloor(picture.floor.visible) {}
 
 void StageBuffer::load(const Stage& stage) const {
   Eigen::Matrix4d toWorld = Eigen::Matrix4d::Identity();
@@ -89,7 +90,7 @@ void StageBuffer::load(const Stage& stage) const {
       four(projection.forward(), stage.scale),
       four(stage.light, stage.lightStrength),
       four({stage.radius, stage.mapHalfWidth(), stage.contactReach}, stage.mapHeight()),
-      four({double(stage.width), double(stage.height), 1.0 / stage.shadowMapSize}, 0.0),
+      four({double(stage.width), double(stage.height), 1.0 / stage.shadowMapSize}, stage.hasFloor),
   };
   glBindBuffer(GL_UNIFORM_BUFFER, buffer_);
   glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);

@@ -28,6 +28,7 @@ struct Stage {
   Eigen::Vector3d centre;  ///< of the scene, from the origin [m]
   double contactReach;     ///< [m] over which the shadow of contact fades: about half a body
   int shadowMapSize;
+  bool hasFloor;  ///< near which the sky is less open
 
   double mapHalfWidth() const { return 1.35 * radius; }  ///< [m] of the map from above
   double mapHeight() const { return 1.2 * radius; }      ///< [m] that map shows at full scale

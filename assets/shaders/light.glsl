@@ -23,10 +23,10 @@ float lit(vec3 p) {
 
 vec2 aboveCoordinate(vec3 p) { return 0.5 + 0.5 * vec2(p.x, -p.z) / extent.y; }
 
-// How open the sky is: less where the mean height around stands above this point, and below overhangs.
+// How open the sky is: less where the mean height around, from the floor up, stands above this point, and below overhangs.
 float openness(vec3 p, vec3 n) {
   float height = texture(aboveMap, aboveCoordinate(p)).g * extent.w;
-  return (1.0 - 0.70 * clamp((height - p.y) * 3.52 / extent.x, 0.0, 1.0)) * mix(1.0, 0.80, max(0.0, -n.y));
+  return (1.0 - 0.70 * image.w * clamp((height - p.y) * 3.52 / extent.x, 0.0, 1.0)) * mix(1.0, 0.80, max(0.0, -n.y));
 }
 
 vec3 develop(vec3 radiance) { return sqrt(radiance / (1.0 + 0.55 * max(radiance - 0.8, 0.0))); }

@@ -6,5 +6,5 @@ layout(std140) uniform Stage {
   vec4 forward;   // w: pixels per pixel of a page 720 high
   vec4 light;     // towards the key light; w: its strength
   vec4 extent;    // radius of the scene, half width of the map from above, reach of contact shadow, its full height
-  vec4 image;     // width, height; size of a shadow-map texel; free
+  vec4 image;     // width, height; size of a shadow-map texel; 1 on a floor, else 0
 };

@@ -131,6 +131,23 @@ TEST_CASE("a slab is darker beside a wall than alone, without being in its shado
   CHECK(ratio(-0.9) == Approx(1.0).margin(0.01));
 }
 
+// Oracle: symmetry. Measured: equal to the last bit.
+TEST_CASE("without a floor a picture is the same at every height") {
+  const auto at = [](double height) {
+    Picture picture = stage();
+    picture.floor.visible = false;
+    picture.instances = {box({0.2, 0.5, 0.0}, Finish::Solid), box({-0.8, 0.1, 0.4}, Finish::Solid)};
+    for (Vector3d* point : {&picture.camera.eye, &picture.camera.target, &picture.centre,
+                            &picture.instances[0].position, &picture.instances[1].position})
+      point->y() += height;
+    return studio().draw(picture, kFull);
+  };
+  const ImageDifference below = compare(at(0.0), at(-4.0)), above = compare(at(0.0), at(4.0));
+  CAPTURE(below.largest, above.largest);
+  CHECK(below.passes());
+  CHECK(above.passes());
+}
+
 TEST_CASE("the floor is there in the middle and has become the page at twice the radius") {
   Picture picture = stage();
   picture.radius = 1.0;
