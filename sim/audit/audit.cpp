@@ -37,6 +37,7 @@ Audit::Audit(const Model& model, std::span<const RigidBody> start)
   driftP_.assign(n, Vec3::Zero());
   driftL_ = driftP_;
   const bool stepping = model.runs == "stepping";
+  struck_ = stepping;
   soon_ = kSoon * (stepping ? model.def.stepping.step : model.def.course.step);
   coarse_ = model.runs == "exact" && model.joints.empty() && n > kFew;
   findBearers();
@@ -92,7 +93,7 @@ void Audit::see(double t, std::span<const RigidBody> bodies, bool many,
   ++seen_;
   ways_.set(pieces);
   addWays();
-  group(nearness_.see({t_, h_, many, last_, now_, ways_, net_, way_, reach_}));
+  group(nearness_.see({t_, h_, many, struck_, last_, now_, ways_, net_, way_, reach_}));
   for (std::size_t i = 0; i < n; ++i) {
     if (!moves(i)) continue;
     Group& g = groups_[rootOf(i)];

@@ -115,6 +115,7 @@ class Audit {
   double clothsNext_ = 0.0;   ///< [s] when they are looked at again
   double t_ = 0.0, h_ = 0.0;  ///< [s] of the last state, and since the one before it
   bool many_ = false;         ///< more than one part since then
+  bool struck_ = false;       ///< impulses at the start of a step are a part of it
   bool winds_ = true;         ///< no loads but winds
   bool stored_ = true;        ///< no loads but ones that give back what they take
   bool turns_ = false;        ///< something bends, and a body that it may meet turns steadily

@@ -174,7 +174,7 @@ void Audit::addLoads() {
   paths.clear();
   for (std::size_t i = 0; i < n; ++i) {
     const int body = static_cast<int>(i);
-    paths.push_back(moves(body) ? BodyPath(bodies_[i], last_[i], now_[i], h_)
+    paths.push_back(moves(body) ? BodyPath(bodies_[i], last_[i], now_[i], h_, struck_)
                                 : BodyPath(fixedAt(body, t_ - h_), h_));
     if (!winds_ && moves(body) && paths.back().lost()) groups_[rootOf(body)].lost = true;
   }

@@ -89,21 +89,22 @@ void Nearness::lookOnTheWay(Known& pair, const Part& part) {
     if (own.t1 < part.t1) deepest_ = std::max(deepest_, depthAt(own.t1, pair, part));
 }
 
-/// How deep [m] two bodies overlap at t; 0 if nobody can tell.
+/// How deep [m] two bodies overlap at t at least; 0 if nobody can tell.
 double Nearness::depthAt(double t, Known& pair, const Part& part) {
-  const std::optional<Pose> a = poseAt(t, pair.a, part), b = poseAt(t, pair.b, part);
-  return a && b ? -gapOf(pair, *a, *b) : 0.0;
+  const std::optional<Seen> a = poseAt(t, pair.a, part), b = poseAt(t, pair.b, part);
+  return a && b ? -gapOf(pair, a->pose, b->pose) - a->error - b->error : 0.0;
 }
 
 /// Nothing if nobody can tell how the body turned.
-std::optional<Pose> Nearness::poseAt(double t, int i, const Part& part) const {
+std::optional<Nearness::Seen> Nearness::poseAt(double t, int i, const Part& part) const {
   const double share = 1.0 - (part.t1 - t) / part.h;
   const Recorded &p = part.start[i], &q = part.end[i];
-  if (bodies_[i].fixed()) return Pose{p.x + share * (q.x - p.x), p.q.slerp(share, q.q)};
+  if (bodies_[i].fixed()) return Seen{{p.x + share * (q.x - p.x), p.q.slerp(share, q.q)}};
   const auto on = [&](const Recorded& from, const Recorded& to, double h, double at) {
-    const BodyPath path(bodies_[i], from, to, h);
+    const BodyPath path(bodies_[i], from, to, h, part.struck);
     const PathPoint point = path.at(at);
-    return path.lost() ? std::nullopt : std::optional(Pose{point.x, point.q});
+    return path.lost() ? std::nullopt
+                       : std::optional(Seen{{point.x, point.q}, path.error(at, radius_[i])});
   };
   for (const Ways::Part& own : part.ways.of(i))
     if (t <= own.t1)

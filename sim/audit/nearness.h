@@ -24,6 +24,7 @@ class Nearness {
   struct Part {
     double t1 = 0.0, h = 0.0;  ///< [s]
     bool many = false;         ///< it was many parts: nobody can tell its midst
+    bool struck = false;       ///< impulses at its start are a part of it
     std::span<const Recorded> start, end;
     const Ways& ways;                  ///< of bodies with parts of their own in it
     std::span<const double> net, way;  ///< [m] between the ends, and on the way, of any point
@@ -40,7 +41,7 @@ class Nearness {
   bool glance(std::span<const RigidBody> end);
 
   double deepest() const { return deepest_; }  ///< [m] at the end of any part
-  double between() const { return between_; }  ///< [m] in the midst of any part
+  double between() const { return between_; }  ///< [m] in the midst of any part, for certain
   double least() const { return least_; }      ///< [m] radius of the smallest body
   double radius(int body) const { return radius_[body]; }
 
@@ -63,7 +64,12 @@ class Nearness {
   double smaller(const Known& pair) const;
 
   double depthAt(double t, Known& pair, const Part& part);
-  std::optional<Pose> poseAt(double t, int body, const Part& part) const;
+  /// A pose, and how far [m] points of the body may be from where it has them.
+  struct Seen {
+    Pose pose;
+    double error = 0.0;
+  };
+  std::optional<Seen> poseAt(double t, int body, const Part& part) const;
 
   const Model& model_;
   std::vector<RigidBody> bodies_;  ///< what is constant of them

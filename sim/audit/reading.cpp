@@ -39,7 +39,7 @@ double startOf(const Segment& part, long k) {
 
 void Audit::followSteps(const State& state) {
   // `stepping` strikes what is due within a step at its start: the impulse is a part of the step.
-  const bool stepping = model_.runs == "stepping" || state.before;
+  struck_ = model_.runs == "stepping" || state.before;
   const Segment* before = nullptr;
   for (const Segment& part : state.trail) {
     const Segment* const previous = before;
@@ -53,7 +53,7 @@ void Audit::followSteps(const State& state) {
       ++parts_;
       if (!all && nearness_.glance(end)) continue;
       const double t0 = startOf(part, k), t1 = startOf(part, k + 1);
-      if (stepping && (k > 0 || (previous && previous->t1 == part.t0))) {
+      if (struck_ && (k > 0 || (previous && previous->t1 == part.t0))) {
         if (t0 > t_) see(t0, k > 0 ? end : previous->end, true);
       } else {
         see(t0, part.start, t0 > t_);
@@ -83,6 +83,7 @@ void Audit::bodiesInFlight(const State& state, double t, bool before,
 void Audit::followFlights(const State& state) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const std::size_t n = state.flights.size();
+  struck_ = false;
   flightsSeen_.resize(n, 1);  // the first begin with the run
   std::vector<double> changes;
   for (std::size_t i = 0; i < n; ++i) {

@@ -63,7 +63,8 @@ double kineticOf(const RigidBody& constants, const Recorded& r) {
   return along + 0.5 * L_B.dot(constants.IbodyInv * L_B);
 }
 
-BodyPath::BodyPath(const RigidBody& constants, const Recorded& start, const Recorded& end, double h)
+BodyPath::BodyPath(const RigidBody& constants, const Recorded& start, const Recorded& end, double h,
+                   bool struck)
     : x0_(start.x),
       way_(end.x - start.x),
       u0_(h * constants.invM * start.P),
@@ -75,10 +76,10 @@ BodyPath::BodyPath(const RigidBody& constants, const Recorded& start, const Reco
       h_(h) {
   constexpr double kLost = 1.0;  // [rad]
   lost_ = std::max(w0_.norm(), w1_.norm()) > kLost || turn_.norm() > kLost;
-  u0_ = agreeing(way_, u0_, u1_);
+  if (struck) u0_ = agreeing(way_, u0_, u1_);
   if (lost_) return;
   w1_ = rateOfTurn(turn_, w1_);
-  w0_ = agreeing(turn_, w0_, w1_);
+  if (struck) w0_ = agreeing(turn_, w0_, w1_);
 }
 
 BodyPath::BodyPath(const RigidBody& fixed, double h)
@@ -91,6 +92,13 @@ BodyPath::BodyPath(const RigidBody& fixed, double h)
       w0_(turn_),
       w1_(turn_),
       h_(h) {}
+
+double BodyPath::error(double share, double r) const {
+  constexpr double kFourth = 2.0;  // of the third term: the fourth at most
+  const Vec3 ofPlace = u0_ + u1_ - 2.0 * way_, ofTurn = w0_ + w1_ - 2.0 * turn_;
+  const double part = share * (1.0 - share);
+  return kFourth * part * part * (ofPlace.norm() + r * ofTurn.norm());
+}
 
 PathPoint BodyPath::at(double share) const {
   PathPoint point;

@@ -49,17 +49,25 @@ struct PathPoint {
 /// meet places and velocities P/M, turns φ and their rates there, φ the rotation vector since the
 /// start,
 ///   φ̇ = ω − ½ φ × ω + (1/12 + …) φ × (φ × ω).
-/// Where the velocity of the start does not agree with the way – an impulse at the start of a step,
-/// after which it goes on with the velocity of the end – the parabolas that meet the end's. Error
-/// h⁴ of a smooth motion. World frame, SI.
+/// Error h⁴ of a smooth motion. Where impulses at the start are a part of the step and its velocity
+/// does not agree with the way – which goes on with that of the end then – the parabolas that meet
+/// the end's. World frame, SI.
 class BodyPath {
  public:
   /// @param h  [s] > 0
-  BodyPath(const RigidBody& constants, const Recorded& start, const Recorded& end, double h);
+  /// @param struck  impulses may have acted right after `start`
+  BodyPath(const RigidBody& constants, const Recorded& start, const Recorded& end, double h,
+           bool struck);
   /// The way of a fixed body, which moves on steadily from `start`.
   BodyPath(const RigidBody& fixed, double h);
 
   PathPoint at(double share) const;
+
+  /// How far [m] a point within r [m] of the origin may be from where `at` has it at share s, if
+  /// the fourth terms of the series of place and turn are no larger than twice the third, which are
+  /// known:
+  ///   2 s² (1 − s)² (|c₃| + r |γ₃|),   c₃ = h (v₀ + v₁) − 2 Δx,   γ₃ = h (φ̇₀ + φ̇₁) − 2 φ₁
+  double error(double share, double r) const;
 
   /// Whether the body turned by more than a radian: then nobody can tell which way.
   bool lost() const { return lost_; }
