@@ -31,6 +31,10 @@ double reachOf(const Instance& instance) {
   return instance.form == Form::Box ? half.norm() : std::hypot(half.x(), half.y());
 }
 
+Eigen::AlignedBox3d boxAround(const Eigen::Vector3d& centre, double radius) {
+  return {(centre.array() - radius).matrix(), (centre.array() + radius).matrix()};
+}
+
 double thicknessOf(const Instance& instance) {
   const double scale = instance.scale.minCoeff();
   return instance.form == Form::Facets ? scale * instance.facets->thickness : scale;

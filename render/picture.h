@@ -52,6 +52,9 @@ double lowestPoint(const Instance& instance);
 /// Radius of a ball about the body's position that holds it [m].
 double reachOf(const Instance& instance);
 
+/// The box around a ball [m].
+Eigen::AlignedBox3d boxAround(const Eigen::Vector3d& centre, double radius);
+
 /// Half the shortest edge of the box around a body [m].
 double thicknessOf(const Instance& instance);
 
@@ -139,6 +142,7 @@ struct Floor {
   double height = 0.0;                ///< [m]
   double grid = 1.0, fineGrid = 0.2;  ///< [m]
   bool rule = true;                   ///< a measured line with numbers in front of the motion
+  Eigen::AlignedBox3d motion = {};    ///< [m] that the rule measures; empty: the bodies
 };
 
 struct Picture {

@@ -1,7 +1,6 @@
 // The rule: a measured line on the floor, clear of the bodies and of other writing.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "render/overlay.h"
 
@@ -34,16 +33,20 @@ double stepFor(double length) {
   return (leading < 2.0 ? 0.2 : leading < 4.0 ? 0.5 : 1.0) * power;
 }
 
-/// Bounds of all bodies along an axis, within the part of the floor that shows.
+/// Bounds of the motion, or else of all bodies.
+Eigen::AlignedBox3d measured(const Picture& picture) {
+  Eigen::AlignedBox3d box = picture.floor.motion;
+  if (box.isEmpty())
+    for (const Instance& body : picture.instances)
+      box.extend(boxAround(body.position, std::min(reachOf(body), picture.radius)));
+  return box;
+}
+
+/// The part of that along an axis which lies within the part of the floor that shows.
 std::pair<double, double> boundsOf(const Picture& picture, int axis) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Instance& body : picture.instances) {
-    const double reach = std::min(reachOf(body), picture.radius);
-    low = std::min(low, body.position[axis] - reach);
-    high = std::max(high, body.position[axis] + reach);
-  }
-  return {std::max(low, picture.centre[axis] - 1.2 * picture.radius),
-          std::min(high, picture.centre[axis] + 1.2 * picture.radius)};
+  const Eigen::AlignedBox3d box = measured(picture);
+  return {std::max(box.min()[axis], picture.centre[axis] - 1.2 * picture.radius),
+          std::min(box.max()[axis], picture.centre[axis] + 1.2 * picture.radius)};
 }
 
 /// Along the axis that lies most across the image; nothing if no body stands on the floor that

@@ -128,6 +128,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
   if (scene.show.strain)
     strained_ = framing.strained > 0.0 ? framing.strained : usualStrain(scene, recording);
   expectations_ = expectationsOf(scene, recording);
+  extent_ = extent();
   follow();
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
@@ -135,6 +136,19 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
     if (!check || !check->expected) continue;
     for (Curve& curve : check->expected(scene, recording)) theory_.push_back(std::move(curve));
   }
+}
+
+// Where what is drawn is in the course of the run: one measure for all its pictures.
+Eigen::AlignedBox3d Presenter::extent() const {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < scene_.world.bodies.size(); ++i) {
+    const BodyDef& def = scene_.world.bodies[i];
+    if (isFloor(def) || hides(def, framing_.camera.eye)) continue;
+    const double reach = inSurface_[i] ? 0.0 : reachOf(body(recording_.samples.front(), i));
+    for (const Sample& sample : recording_.samples)
+      box.extend(boxAround(sample.bodies[i].x, std::min(reach, framing_.radius)));
+  }
+  return box;
 }
 
 // The camera that follows a body keeps the distance that shows the room about it.
@@ -212,6 +226,7 @@ Picture Presenter::blank(const Framing& framing) const {
   picture.subtitle = scene_.subtitle;
   picture.floor.visible = false;
   picture.floor.rule = scene_.show.ruler;
+  picture.floor.motion = extent_;
   for (const BodyDef& body : scene_.world.bodies) {
     if (!scene_.show.floor || !isFloor(body) || picture.floor.visible) continue;
     if (scene_.show.gel > 0.0) {

@@ -64,6 +64,7 @@ class Presenter {
 
  private:
   Picture blank(const Framing& framing) const;
+  Eigen::AlignedBox3d extent() const;
   void follow();
   Framing framingAt(const Sample& sample) const;
   Framing framingOfStrobe() const;
@@ -89,6 +90,7 @@ class Presenter {
   std::vector<Curve> theory_;
   std::vector<Expectation> expectations_;
   Framing framing_;
+  Eigen::AlignedBox3d extent_;   ///< [m] of bodies in the run
   bool alone_ = false;           ///< framed for this run alone
   std::optional<int> followed_;  ///< the body that stays where it is on the image
   Framing following_;            ///< of it at the start

@@ -85,6 +85,18 @@ TEST_CASE("floor, ruler and title can be left out") {
   }
 }
 
+// In a film it must not jump, nor differ from that of the strobe.
+TEST_CASE("the ruler measures where bodies come in the run, in every picture of it") {
+  const std::string thrown = "body.box.velocity=[2, 0, 0]";
+  const Scene scene = parseScene(kDrop, "drop", {thrown});
+  const Recording recording = record(scene, 60.0);
+  const Presenter presenter(scene, recording);
+  const Eigen::AlignedBox3d whole = presenter.image(0).floor.motion;
+  for (const Sample& sample : recording.samples) CHECK(whole.contains(sample.bodies[1].x));
+  for (const Picture& picture : {presenter.image(3), presenter.still(0.5), presenter.strobe()})
+    CHECK(picture.floor.motion.isApprox(whole, 0.0));
+}
+
 TEST_CASE("a slab of gel stands in place of the floor, with its top at the floor's height") {
   const Scene scene = parseScene(kDrop + "[show]\ngel = 0.5\n", "drop");
   const Recording recording = record(scene, 60.0);
