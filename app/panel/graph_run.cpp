@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "app/claim/holds.h"
 #include "app/claim/meter.h"
 #include "app/claim/parting.h"
@@ -58,7 +62,7 @@ namespace {
 void addPlaneCounts(const Scene& scene, const GraphDef& graph, const std::string& label,
                     std::vector<GraphSeries>& all) {
   const bool pairs = graph.shows == "pairs";
-  GraphSeries asked{label, {}, {}}, anew{pairs ? label : "seeking each anew", {}, {}};
+  GraphSeries asked{.label = label}, anew{.label = pairs ? label : "seeking each anew"};
   Coherence coherence(scene);
   run(scene, scene.image.rate, [&](Sample&& sample) {
     coherence.look(sample);
@@ -110,17 +114,40 @@ void addHolds(const Scene& scene, std::vector<GraphSeries>& all) {
   }
 }
 
+// Whether impacts make it jump or turn.
+bool movesBy(const std::string& shows) {
+  return shows == "height" || shows == "velocity";
+}
+
 void addShown(const Scene& scene, const GraphDef& graph, const std::string& label,
               std::vector<GraphSeries>& all) {
   const int body = bodyNamed(scene, graph.body);
+  const bool whole = graph.shows == "energy", jumps = whole || movesBy(graph.shows);
   GraphSeries& series = all.emplace_back();
   series.label = label;
-  const Recording recording = run(scene, scene.image.rate, [&](Sample&& sample) {
-    series.points.emplace_back(sample.t, shownOf(graph.shows, sample, body));
-  });
-  for (const Event& event : recording.report.events)
-    if (event.kind == EventKind::Impact && (event.a == body || event.b == body))
-      series.impacts.push_back(event);
+  World world = makeWorld(scene);
+  const auto shown = [&](double t) {
+    return Eigen::Vector2d(t, shownOf(graph.shows, world.sample(t), body));
+  };
+  const int count = sampleCount(scene, scene.image.rate);
+  std::size_t known = 0;  // events
+  for (int k = 0; k < count; ++k) {
+    const double before = (k - 1) / scene.image.rate, t = k / scene.image.rate;
+    world.advance(t);
+    if (world.report().stopped) break;
+    // Between two samples each impact has a state before it, and one after.
+    const std::vector<Event>& events = world.report().events;
+    for (; known < events.size() && events[known].t <= t; ++known) {
+      const Event& event = events[known];
+      const bool own = event.a == body || event.b == body;
+      if (event.kind != EventKind::Impact) continue;
+      if (own) series.impacts.push_back(event);
+      if (!jumps || !(own || whole) || !(event.t > std::max(before, 0.0))) continue;
+      series.jumps.push_back(shown(std::nextafter(event.t, 0.0)));
+      series.jumps.push_back(shown(event.t));
+    }
+    series.points.push_back(shown(t));
+  }
 }
 
 }  // namespace
@@ -194,7 +221,10 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
     curve.label = series[i].label;
     curve.colour = seriesColour(i);
     curve.marked = holds;
-    curve.points = series[i].points;
+    const std::vector<Eigen::Vector2d>&points = series[i].points, &jumps = series[i].jumps;
+    std::merge(points.begin(), points.end(), jumps.begin(), jumps.end(),
+               std::back_inserter(curve.points),
+               [](const auto& a, const auto& b) { return a.x() < b.x(); });
     if (small)
       for (Eigen::Vector2d& point : curve.points) point.y() *= 1e3;
     if (graph.shows != "force") continue;

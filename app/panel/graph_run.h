@@ -9,8 +9,9 @@ namespace tumble {
 /// What one variant shows.
 struct GraphSeries {
   std::string label;
-  std::vector<Eigen::Vector2d> points;  ///< (t [s], what is shown)
-  std::vector<Event> impacts;           ///< of the body
+  std::vector<Eigen::Vector2d> points = {};  ///< (t [s], what is shown)
+  std::vector<Event> impacts = {};           ///< of the body
+  std::vector<Eigen::Vector2d> jumps = {};   ///< the same just before and just after impacts
 };
 
 /// What a graph shows of a body at a sample: height of its centre [m], velocity [m/s] upward, size

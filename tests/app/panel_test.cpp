@@ -1,6 +1,7 @@
 // Variants run side by side: pages of panels, and charts of errors.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -299,6 +300,52 @@ bodies = ["sheet"]
   CHECK(scene.world.bodies.size() == 10);
   CHECK(sceneOf(scene, scene.panels[0].variant).world.bodies.size() == 1);
   CHECK(sceneOf(scene, scene.panels[1].variant).world.bodies.size() == 9);
+}
+
+// Oracle: closed form. Each hit lies between two samples: there the ball is as high as its radius,
+// and the energy above that falls to e² of itself at once. Allowed 1e-12; of what is lost 1e-9, as
+// `course` brackets the hit.
+TEST_CASE("a graph reaches the instants of hits, with the state before and after") {
+  const std::string method = GENERATE("exact", "course");
+  const std::string ball = R"([world]
+duration = 2.0
+method = "exact"
+[materials.rubber]
+density = 1000.0
+restitution = 0.5
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+material = "rubber"
+[[body]]
+name = "ball"
+shape = { sphere = 0.12 }
+mass = 1.0
+material = "rubber"
+position = [0, 1, 0]
+)";
+  const std::string graph =
+      "[[graph]]\nbody = \"ball\"\nshows = \"height\"\ncurves = [ { label = \"a\" } ]\n"
+      "[[graph]]\nbody = \"ball\"\nshows = \"energy\"\ncurves = [ { label = \"a\" } ]\n";
+  const Folder folder;
+  writeFile(folder / "ball.toml", ball + graph);
+  const Scene scene = readScene(folder / "ball.toml", {"world.method=" + method});
+  const auto curveOf = [&](int k) {
+    const GraphDef& def = scene.graphs[static_cast<std::size_t>(k)];
+    return graphOf(def, runGraph(scene, def, [] {})).curves.front().points;
+  };
+  constexpr double kGravity = 9.81;  // m/s²
+  const double hit = std::sqrt(2.0 * 0.88 / kGravity);
+  const auto at = [&](const std::vector<Eigen::Vector2d>& points) {
+    return std::find_if(points.begin(), points.end(),
+                        [&](const auto& point) { return point.x() > hit - 1e-9; });
+  };
+  const auto heights = curveOf(0), energies = curveOf(1);
+  CHECK(at(heights)->y() == Approx(0.12).margin(1e-12));
+  const auto before = at(energies);
+  CHECK(before->y() == Approx(kGravity).epsilon(1e-12));
+  CHECK((before + 1)->x() == Approx(hit).margin(1e-9));
+  CHECK((before + 1)->y() == Approx(kGravity * (0.12 + 0.25 * 0.88)).epsilon(1e-9));
 }
 
 TEST_CASE("heights of less than ten centimetres are drawn in millimetres") {
