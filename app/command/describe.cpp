@@ -8,6 +8,7 @@
 
 #include "app/command/command.h"
 #include "app/command/options.h"
+#include "app/command/run.h"
 #include "app/record/recording.h"
 #include "sim/body/principal_axes.h"
 
@@ -161,14 +162,15 @@ int describe(int argc, char** argv) {
              world.gravity.z());
   const World running = makeWorld(scene);
   fmt::print("method    {}\n", methodLine(world, running));
+  noteUnused(scene, running.runs());
   fmt::print("uses      {}\n", join(running.features()));
   fmt::print("without   {}\n", join(running.features(false)));
   printBent(scene);
   printMasses(scene);
   for (const PanelDef& panel : scene.panels) fmt::print("panel     {}\n", panel.variant.title);
   for (const GraphDef& graph : scene.graphs)
-    fmt::print("graph     {}: {} of {}, {} curves\n", graph.variant.title, graph.shows, graph.body,
-               graph.curves.size());
+    fmt::print("graph     {}: {}{}, {} curves\n", graph.variant.title, graph.shows,
+               graph.body.empty() ? "" : " of " + graph.body, graph.curves.size());
   for (const ChartDef& chart : scene.charts)
     fmt::print("chart     {}: {} along {}, {} curves\n", chart.variant.title, chart.error,
                chart.along.parameter, chart.curves.size());

@@ -33,6 +33,18 @@ Recording runWithProgress(const Scene& scene, double rate,
   return run(scene, rate > 0.0 ? rate : scene.image.rate, see, watch(progress));
 }
 
+void noteUnused(const Scene& scene, std::string_view runs) {
+  if (scene.world.method != "auto") return;
+  std::string keys;
+  for (const auto& [key, place] : scene.places)
+    for (const std::string_view table : {"course", "stepping"})
+      if (table != runs && key.starts_with(std::string(table) + "."))
+        keys += (keys.empty() ? "" : ", ") + key;
+  if (!keys.empty())
+    note(fmt::format("no part in this run, which `auto` gives to {}: {}; set world.method", runs,
+                     keys));
+}
+
 void printCertificate(const Recording& recording) {
   if (quiet()) return;
   const Certificate& c = recording.report.certificate;

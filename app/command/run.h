@@ -1,6 +1,8 @@
 // Running a scene from the command line.
 #pragma once
 
+#include <string_view>
+
 #include "app/record/recording.h"
 
 namespace tumble {
@@ -12,6 +14,10 @@ Recording recordWithProgress(const Scene& scene, double rate = 0.0);
 /// The same, but hands on each sample instead of keeping it.
 Recording runWithProgress(const Scene& scene, double rate,
                           const std::function<void(Sample&&)>& see);
+
+/// Notes which keys of [course] and [stepping] say nothing, as `auto` took another method.
+/// @param runs the row of the table of methods that is at work
+void noteUnused(const Scene& scene, std::string_view runs);
 
 /// Prints what the run says of itself, in a few lines.
 void printCertificate(const Recording& recording);

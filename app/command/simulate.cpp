@@ -65,9 +65,10 @@ int simulate(int argc, char** argv) {
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;
   const Recording recording = runInto(folder, nodes, hashFile, scene, rate);
+  noteUnused(scene, recording.runs);
   printCertificate(recording);
   say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json" +
-      (nodes ? ", nodes.csv" : ""));
+      (scene.world.joints.empty() ? "" : ", joints.csv") + (nodes ? ", nodes.csv" : ""));
   return exitOf(recording);
 }
 

@@ -51,3 +51,42 @@ TEST_CASE("describe says how time runs, and what each body weighs") {
   const Outcome left = tumbleRun(scratch, "describe two.toml --set world.method=auto");
   CHECK(left.out.find("method    auto: exact, 2 s\n") != std::string::npos);
 }
+
+TEST_CASE("describe and simulate name settings of methods that auto does not take") {
+  const Scratch scratch;
+  scratch.file("ball.toml",
+               "[world]\nduration = 0.1\n[stepping]\nstep = 0.05\n[course]\n"
+               "integrator = \"euler\"\n[[body]]\nname = \"ball\"\nmass = 1.0\n"
+               "shape = { sphere = 0.1 }\n");
+  for (const std::string command : {"describe", "simulate"}) {
+    const Outcome outcome = tumbleRun(scratch, command + " ball.toml");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.lines() == 1);
+    CHECK(
+        outcome.says("note: no part in this run, which `auto` gives to exact: "
+                     "course.integrator, stepping.step; set world.method"));
+    const Outcome named = tumbleRun(scratch, command + " ball.toml --set world.method=course");
+    CHECK(named.lines() == 0);
+  }
+}
+
+TEST_CASE("a check without claims says that nothing was checked, and how to claim something") {
+  const Scratch scratch;
+  scratch.file("two.toml", kScene);
+  const Outcome outcome = tumbleRun(scratch, "check two.toml --set checks=[]");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("nothing was checked: no scene names a claim in `checks` or makes one by "
+                         "[[expect]]") != std::string::npos);
+}
+
+TEST_CASE("what simulate writes of joints is told, and where they hold") {
+  const Scratch scratch;
+  scratch.file("swing.toml",
+               "[world]\nduration = 0.1\n[[body]]\nname = \"bob\"\nmass = 1.0\n"
+               "shape = { sphere = 0.1 }\nposition = [1, 0, 0]\n[[joint]]\n"
+               "kind = \"ball\"\na = \"bob\"\nanchor = [0, 2, 0]\n");
+  const Outcome outcome = tumbleRun(scratch, "simulate swing.toml -o out");
+  CAPTURE(outcome.err);
+  CHECK(outcome.out.find("scene.json, joints.csv\n") != std::string::npos);
+  CHECK(textOf(scratch / "out/scene.json").find("\"anchor_b\"") != std::string::npos);
+}
