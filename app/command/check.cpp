@@ -126,7 +126,8 @@ int check(int argc, char** argv) {
   else if (claims > 0)
     fmt::print("{}\n", worst == kOk ? "all claims hold" : "some claims do NOT hold");
   else
-    fmt::print("nothing was checked: no scene names a claim in `checks`\n");
+    fmt::print(
+        "nothing was checked: no scene names a claim in `checks` or makes one by [[expect]]\n");
   return worst;
 }
 
