@@ -116,12 +116,16 @@ int render(int argc, char** argv) {
     throw UsageError(fmt::format("--still {:g}: the scene lasts from 0 to {:g} s", *options.still,
                                  scene.world.duration));
 
-  if (options.panels && scene.panels.empty() && scene.graphs.empty() && scene.charts.empty())
-    throw UsageError(
-        fmt::format("{} has neither [[panel]] nor [[graph]] nor [[chart]]", scene.file));
-
-  const bool single = options.still || options.strobe || options.sheet || options.panels ||
-                      options.events || !options.video.empty() || !options.html.empty();
+  const bool others = options.still || options.strobe || options.sheet || options.events ||
+                      !options.video.empty() || !options.html.empty();
+  if (options.panels && scene.panels.empty() && scene.graphs.empty() && scene.charts.empty()) {
+    const std::string none =
+        fmt::format("{} has neither [[panel]] nor [[graph]] nor [[chart]]", scene.file);
+    if (!others) throw UsageError(none);
+    note("no --panels: " + none);
+    options.panels = false;
+  }
+  const bool single = others || options.panels;
   if (single && (options.jobs > 1 || !options.shard.empty()))
     throw UsageError("--jobs and --shard divide a sequence; leave them out or the single pictures");
   const std::vector<int> images = imagesOf(options, sampleCount(scene, scene.image.rate));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 
 #include "app/claim/verdict.h"
 #include "app/command/command.h"
@@ -66,6 +67,16 @@ Image drawSweep(const Scene& scene, const std::deque<VariantRun>& runs, Studio& 
                    studio.fonts());
 }
 
+// Takes away what a sweep over more values left: its strobes would pass for some of this one.
+void removeLater(const std::string& folder, std::size_t count) {
+  std::error_code ignored;
+  for (std::size_t k = count;; ++k) {
+    const std::filesystem::path place = fmt::format("{}/sweep-{}", folder, k);
+    if (!std::filesystem::remove(place / "strobe.png", ignored)) return;
+    std::filesystem::remove(place, ignored);  // unless something else is in it
+  }
+}
+
 }  // namespace
 
 SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<int, int> part,
@@ -96,6 +107,7 @@ SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<in
   }
 
   const bool whole = part.second == 1;
+  if (whole) removeLater(folder, sweep.values.size());
   result.files.push_back(
       whole ? folder + "/sweep.csv"
             : fmt::format("{}/sweep-{}-of-{}.csv", folder, part.first, part.second));

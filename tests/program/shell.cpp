@@ -226,3 +226,24 @@ TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in whic
   CAPTURE(check.out, check.err);
   CHECK(holds(check.out, "nothing moved"));
 }
+
+TEST_CASE("panels that a scene has not got keep no other picture from being drawn") {
+  const Scratch scratch;
+  scratch.file("ball.toml", kBall);
+  CHECK(tumbleRun(scratch, "render ball.toml --panels -o out").code == 2);
+  const Outcome outcome = tumbleRun(scratch, "render ball.toml --strobe --panels -o out");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.says("note: no --panels: ball.toml has neither [[panel]]"));
+  CHECK(std::filesystem::exists(scratch / "out/strobe.png"));
+}
+
+TEST_CASE("a sweep over fewer values leaves nothing of one over more") {
+  const Scratch scratch;
+  scratch.file("ball.toml",
+               kBall + "[sweep]\nparameter = \"body.ball.mass\"\nvalues = [1, 2, 3]\n");
+  CHECK(tumbleRun(scratch, "sweep ball.toml -o out").code == 0);
+  CHECK(filesBelow(scratch / "out") == 5);
+  CHECK(tumbleRun(scratch, "sweep ball.toml -o out --set sweep.values=[4]").code == 0);
+  CHECK(filesBelow(scratch / "out") == 3);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out/sweep-1"));
+}
