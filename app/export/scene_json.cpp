@@ -94,7 +94,10 @@ std::string sceneJson(const Scene& scene) {
     joints.push_back({{"name", joint.name},
                       {"kind", jointName(joint.kind).name},
                       {"a", world.bodies[joint.a].name},
-                      {"b", joint.b == kNoBody ? Json() : Json(world.bodies[joint.b].name)}});
+                      {"b", joint.b == kNoBody ? Json() : Json(world.bodies[joint.b].name)},
+                      {"anchor_a", list(joint.anchorA)},
+                      {"anchor_b", list(joint.anchorB)},
+                      {"axis", list(joint.axis)}});
   const Json json = {{"version", TUMBLE_VERSION},      {"scene", scene.line},
                      {"title", scene.title},           {"claim", scene.claim},
                      {"gravity", list(world.gravity)}, {"duration", world.duration},
