@@ -36,9 +36,9 @@ std::string captionOf(const std::string& shows) {
 }  // namespace
 
 double shownOf(const std::string& shows, const Sample& sample, int body) {
+  if (shows == "energy") return sample.kinetic + sample.potential;
   const BodySample& shown = sample.bodies[static_cast<std::size_t>(body)];
   if (shows == "velocity") return shown.v.y();
-  if (shows == "energy") return sample.kinetic + sample.potential;
   if (shows == "height") return shown.x.y();
   Vec3 sum = Vec3::Zero();
   if (shows == "joint") {
@@ -121,7 +121,7 @@ bool movesBy(const std::string& shows) {
 
 void addShown(const Scene& scene, const GraphDef& graph, const std::string& label,
               std::vector<GraphSeries>& all) {
-  const int body = bodyNamed(scene, graph.body);
+  const int body = graph.body.empty() ? kNoBody : bodyNamed(scene, graph.body);
   const bool whole = graph.shows == "energy", jumps = whole || movesBy(graph.shows);
   GraphSeries& series = all.emplace_back();
   series.label = label;

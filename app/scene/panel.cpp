@@ -244,8 +244,11 @@ void readGraphs(Section& root, const std::vector<std::string>& parts, Scene& sce
     section.read("slides", graph.slides);
     const auto named = [&](const BodyDef& body) { return body.name == graph.body; };
     const bool ofAll = graph.shows == "planes" || graph.shows == "pairs" ||
-                       graph.shows == "holds" || graph.shows == "values";
-    if (!ofAll && std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
+                       graph.shows == "holds" || graph.shows == "values" ||
+                       (graph.shows == "energy" && graph.body.empty());
+    if (!ofAll && graph.body.empty())
+      section.complain("body", "missing; expected the name of the body that it is of");
+    else if (!ofAll && std::none_of(scene.world.bodies.begin(), scene.world.bodies.end(), named))
       section.complain("body", "expected the name of a body, found " + inQuotes(graph.body));
     readGraphCurves(section, "graph[" + index + "]", parts, graph);
     section.finish();

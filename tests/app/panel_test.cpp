@@ -326,7 +326,7 @@ position = [0, 1, 0]
 )";
   const std::string graph =
       "[[graph]]\nbody = \"ball\"\nshows = \"height\"\ncurves = [ { label = \"a\" } ]\n"
-      "[[graph]]\nbody = \"ball\"\nshows = \"energy\"\ncurves = [ { label = \"a\" } ]\n";
+      "[[graph]]\nshows = \"energy\"\ncurves = [ { label = \"a\" } ]\n";
   const Folder folder;
   writeFile(folder / "ball.toml", ball + graph);
   const Scene scene = readScene(folder / "ball.toml", {"world.method=" + method});

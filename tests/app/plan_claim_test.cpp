@@ -177,6 +177,9 @@ TEST_CASE("a graph that names no body or nothing to show is refused") {
     return "";
   };
   CHECK(complaint("[[graph]]\nbody = \"floor\"\ncurves = [{ label = \"a\" }]\n").empty());
+  CHECK(complaint("[[graph]]\nshows = \"energy\"\ncurves = [{ label = \"a\" }]\n").empty());
+  CHECK(complaint("[[graph]]\nshows = \"height\"\ncurves = [{ label = \"a\" }]\n")
+            .find("graph.0.body: missing; expected the name") != std::string::npos);
   CHECK(complaint("[[graph]]\nbody = \"flor\"\ncurves = [{ label = \"a\" }]\n")
             .find("graph.0.body: expected the name of a body, found") != std::string::npos);
   CHECK(complaint("[[graph]]\nbody = \"floor\"\nshows = \"mood\"\ncurves = [{ label = \"a\" }]\n")
