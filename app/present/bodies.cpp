@@ -128,6 +128,8 @@ std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& r
       addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
       addSurroundings(scene.show, bodies[i], sample.bodies[i], points);
     }
+  for (const JointDef& joint : scene.world.joints)
+    if (joint.b == kNoBody) points.push_back(joint.anchorB);
 
   Aabb motion{Vec3::Zero(), Vec3::Zero()};
   if (!points.empty()) motion = {points[0], points[0]};

@@ -134,12 +134,49 @@ std::vector<Vec3> forcesOutward(const Scene& scene, const Sample& sample) {
   return forces;
 }
 
+// Where the straight way from p inside a body to q comes out of it, if the body is a ball or an
+// ellipsoid, which are drawn as deep as their outlines; others hide what is inside them.
+Vec3 wayOut(const BodyDef& body, const BodySample& at, const Vec3& p, const Vec3& q) {
+  Vec3 half;
+  if (const Sphere* sphere = std::get_if<Sphere>(&body.shape))
+    half.setConstant(sphere->r);
+  else if (const Ellipsoid* ellipsoid = std::get_if<Ellipsoid>(&body.shape))
+    half = ellipsoid->half;
+  else
+    return p;
+  // |u + s w| = 1 in units of the semi-axes.
+  const Vec3 u = (at.q.conjugate() * (p - at.x)).cwiseQuotient(half);
+  const Vec3 w = (at.q.conjugate() * (q - p)).cwiseQuotient(half);
+  const double a = w.squaredNorm(), b = u.dot(w), c = u.squaredNorm() - 1.0;
+  if (c >= 0.0 || a == 0.0) return p;
+  return p + std::min(1.0, (std::sqrt(b * b - a * c) - b) / a) * (q - p);
+}
+
+void addRod(const Vec3& p, const Vec3& q, double radius, Picture& picture) {
+  if ((q - p).norm() > radius) picture.instances.push_back(rodFrom(p, q, radius, kRod));
+}
+
+// From a body that moves to an anchor outside it.
+void addLever(const Scene& scene, const Sample& sample, int body, const Vec3& anchor, double radius,
+              Picture& picture) {
+  constexpr double kOn = 1.0 + 1e-6;  // of the way to a surface
+  if (body == kNoBody || !moves(scene.world.bodies[body])) return;
+  const BodyDef& def = scene.world.bodies[body];
+  const BodySample& at = sample.bodies[body];
+  const Vec3 lever = anchor - at.x;
+  if (lever.norm() > kOn * reach(def.shape, at.q, lever.stableNormalized()))
+    addRod(wayOut(def, at, at.x, anchor), anchor, radius, picture);
+}
+
 }  // namespace
 
 void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture) {
-  const double pin = 0.010 * size;
+  const double pin = 0.010 * size, thin = 0.35 * pin;
   for (const JointDef& def : scene.world.joints) {
     const Posed at = posed(scene, sample, def);
+    const bool atOnePoint = def.kind != JointKind::Distance && def.kind != JointKind::Slider;
+    if (atOnePoint)
+      for (const int body : {def.a, def.b}) addLever(scene, sample, body, at.pa, thin, picture);
     switch (def.kind) {
       case JointKind::Hinge: {
         const double half = throughBody(scene, sample, def, at.axis, pin);
@@ -147,13 +184,19 @@ void addJoints(const Scene& scene, const Sample& sample, double size, Picture& p
             rodFrom(at.pa - half * at.axis, at.pa + half * at.axis, pin, kPin));
         break;
       }
-      case JointKind::Distance:
-        for (const Vec3& p : {at.pa, at.pb}) picture.instances.push_back(ballAt(p, pin, kPin));
-        picture.instances.push_back(rodFrom(at.pa, at.pb, 0.35 * pin, kRod));
+      case JointKind::Distance: {
+        const auto end = [&](int body, const Vec3& p, const Vec3& q) {
+          if (body == kNoBody) return p;
+          return wayOut(scene.world.bodies[body], sample.bodies[body], p, q);
+        };
+        const Vec3 from = end(def.a, at.pa, at.pb), to = end(def.b, at.pb, at.pa);
+        for (const Vec3& p : {from, to}) picture.instances.push_back(ballAt(p, pin, kPin));
+        addRod(from, to, thin, picture);
         break;
+      }
       case JointKind::Slider:
         picture.instances.push_back(
-            rodFrom(at.pb - 0.5 * size * at.axis, at.pb + 0.5 * size * at.axis, 0.35 * pin, kRod));
+            rodFrom(at.pb - 0.5 * size * at.axis, at.pb + 0.5 * size * at.axis, thin, kRod));
         picture.instances.push_back(ballAt(at.pa, pin, kPin));
         break;
       case JointKind::Ball:

@@ -1,4 +1,5 @@
 // Pictures say what the recording says.
+#include <algorithm>
 #include <cmath>
 
 #include "app/present/arrows.h"
@@ -158,6 +159,36 @@ body = { shape = { sphere = 0.1 }, material = "rubber", position = [0, 1, 0], la
   CHECK(labelOf(pair, 1) == "0.9");
   CHECK(labelOf(pair, 2) == "0.9");
   CHECK(bodyColours(pair)[1] == bodyColours(pair)[2]);
+}
+
+// Oracle: geometry. A rod from the surface of the bob to the pivot, 1 m from its centre, both seen.
+TEST_CASE("a pendulum is seen with its pivot and what leads there") {
+  const std::string kind = GENERATE("kind = \"ball\"\nanchor = [0, 1.8, 0]\n",
+                                    "kind = \"distance\"\nanchor = [0.8, 1.2, 0]\n"
+                                    "anchor_b = [0, 1.8, 0]\n");
+  const Scene scene = parseScene(
+      "[world]\nduration = 1.0\n[[body]]\nname = \"bob\"\nmass = 1.0\n"
+      "shape = { sphere = 0.1 }\nposition = [0.8, 1.2, 0]\n"
+      "[[joint]]\na = \"bob\"\n" +
+          kind,
+      "pendulum");
+  const Recording recording = record(scene, 10.0);
+  const Presenter presenter(scene, recording);
+  const Vec3 pivot(0.0, 1.8, 0.0);
+  for (int k = 0; k < presenter.count(); ++k) {
+    const Picture picture = presenter.image(k);
+    const auto seen = Projection(picture.camera, 1280, 720).project(pivot);
+    REQUIRE(seen);
+    CHECK(Eigen::AlignedBox2d(Eigen::Vector2d(20, 80), Eigen::Vector2d(1260, 700))
+              .contains(seen->head<2>()));
+    const auto rod =
+        std::find_if(picture.instances.begin(), picture.instances.end(),
+                     [](const Instance& instance) { return instance.form == Form::Cylinder; });
+    REQUIRE(rod != picture.instances.end());
+    const Vec3 bob = recording.samples[static_cast<std::size_t>(k)].bodies[0].x;
+    CHECK(rod->scale.y() == Approx(0.45).epsilon(1e-6));
+    CHECK((rod->position - (pivot + 0.45 * (bob - pivot))).norm() < 1e-6);
+  }
 }
 
 TEST_CASE("only what turns in the run has a band to see it by") {
