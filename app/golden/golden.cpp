@@ -23,7 +23,7 @@ std::string Finding::verdict() const {
   if (!remark.empty()) return remark;
   if (numbers) {
     if (numbers->exact) return "equal to the last bit";
-    return fmt::format("{:.3g} of what is allowed at {}", numbers->worst, numbers->where);
+    return fmt::format("{:.3g} times what is allowed at {}", numbers->worst, numbers->where);
   }
   if (!image.sameSize) return "the sizes differ";
   if (image.exact) return "equal to the last bit";

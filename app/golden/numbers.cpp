@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -48,6 +49,15 @@ void note(NumberDifference& difference, double worst, const std::string& where,
   difference.column = column;
 }
 
+// What a row is of: " (t = 0.2, body = ball)", or "".
+std::string rowOf(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
+  std::string keys;
+  for (std::size_t i = 0; i < std::min(names.size(), fields.size()); ++i)
+    if (names[i] == "t" || names[i] == "body" || names[i] == "curve")
+      keys += fmt::format("{}{} = {}", keys.empty() ? " (" : ", ", names[i], fields[i]);
+  return keys.empty() ? "" : keys + ")";
+}
+
 void compareLine(NumberDifference& difference, std::size_t line,
                  const std::vector<std::string>& names, const std::string& expected,
                  const std::string& actual) {
@@ -61,7 +71,8 @@ void compareLine(NumberDifference& difference, std::size_t line,
     const double worst = deviation(e[i], a[i]);
     if (worst == 0.0) continue;
     const std::string name = i < names.size() ? names[i] : std::to_string(i + 1);
-    note(difference, worst, fmt::format("line {}, {}: {}, expected {}", line, name, a[i], e[i]),
+    note(difference, worst,
+         fmt::format("line {}{}, {}: {}, expected {}", line, rowOf(names, e), name, a[i], e[i]),
          line, i + 1);
   }
 }

@@ -16,10 +16,14 @@ TEST_CASE(
   CHECK(near.worst == Approx(0.5).epsilon(1e-3));  // 1e-9 off, 2e-9 + 1e-12 allowed
 }
 
-TEST_CASE("a number off by more than 1e-9 of itself fails and is named by line and column") {
+TEST_CASE(
+    "a number off by more than 1e-9 of itself fails and is named by line, instant, body and "
+    "column") {
   const auto far = compareNumbers("t,x\n0,2\n1,-4\n", "t,x\n0,2\n1,-4.00000001\n");
   CHECK_FALSE(far.passes());
-  CHECK(far.where == "line 3, x: -4.00000001, expected -4");
+  CHECK(far.where == "line 3 (t = 1), x: -4.00000001, expected -4");
+  CHECK(compareNumbers("t,body,x\n1,ball,-4\n", "t,body,x\n1,ball,4\n").where ==
+        "line 2 (t = 1, body = ball), x: 4, expected -4");
 }
 
 TEST_CASE("near zero the absolute part decides") {
