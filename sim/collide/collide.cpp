@@ -150,6 +150,7 @@ void collideParts(const PartView& a, const PartView& b, double margin, Manifold&
   }
   if (known) known->swap(held);
   uncover(a, b, left.covered, left.beside, margin, left.deepest, out);
+  leaveBeside(a, b, out);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ namespace {
 constexpr double kReach = 1e3, kFarthest = 1e-2;
 // Points of a part that are off its face by no more than this, per size and place, are on it.
 constexpr double kOnFace = 1e-13;
+// Normals of a ball that lean by less against each other are not told apart by what its part shows.
+constexpr double kAlike = 1e-6;
 
 // Whether a solid holds the point p to `slack` [m], own frame.
 bool holds(const Sphere& s, const Vec3& p, double slack) {
@@ -297,6 +299,20 @@ bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const
     if (freeAt(x * u + y * v)) return true;
   }
   return false;
+}
+
+void leaveBeside(const PartView& a, const PartView& b, Manifold& out) {
+  const double reach = kReach * std::max(levelOf(a), levelOf(b));
+  const auto isFace = [](const ContactPoint& c) {
+    return c.tie == NormalTie::FaceOfA || c.tie == NormalTie::FaceOfB;
+  };
+  const auto isBeside = [&](const ContactPoint& c) {
+    return !isFace(c) && c.ra + c.rb > 0.0 &&
+           std::any_of(out.begin(), out.end(), [&](const ContactPoint& d) {
+             return isFace(d) && (c.p - d.p).norm() <= reach && (c.n - d.n).norm() <= kAlike;
+           });
+  };
+  std::erase_if(out, isBeside);  // faces stay, and they alone decide
 }
 
 Left leaveCovered(const PartView& a, int i, const PartView& b, int j, std::size_t first,

@@ -33,6 +33,10 @@ enum class Left : std::uint8_t {
 Left leaveCovered(const PartView& a, int i, const PartView& b, int j, std::size_t first,
                   Manifold& out);
 
+/// Takes away the points of balls and capsules on edges that a face beside them is flush with,
+/// where that face has a point: the normal leans too little for an edge within the face to tell.
+void leaveBeside(const PartView& a, const PartView& b, Manifold& out);
+
 /// What contact of the solids is looked for, [m].
 struct Sought {
   double margin = 0.0;   ///< no wider apart
