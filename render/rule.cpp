@@ -168,8 +168,13 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
   if (!rail) return;
   // As near to the bodies as other writing allows; where it never does, just in front of them.
   const Boxes boxes = writtenBoxes(picture, projection, canvas);
-  const double nearest = 0.12 * picture.radius;
+  double nearest = 0.12 * picture.radius;
   Ticks chosen = ticksAt(*rail, nearest, picture, projection, canvas);
+  // What comes nearer than the image reaches leaves no room before it: then further back.
+  while (chosen.size() < 3 && nearest > -2.0 * picture.radius) {
+    nearest -= 0.04 * picture.radius;
+    chosen = ticksAt(*rail, nearest, picture, projection, canvas);
+  }
   for (double gap = nearest; gap < picture.radius; gap += 0.04 * picture.radius) {
     const Ticks ticks = ticksAt(*rail, gap, picture, projection, canvas);
     if (ticks.size() < 2 || 5 * ticks.size() < 3 * chosen.size()) break;  // too much of it is lost

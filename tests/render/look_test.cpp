@@ -368,6 +368,16 @@ TEST_CASE("labels at one point stand above each other, not on each other") {
   CHECK(ink() == Approx(3 * one).epsilon(0.1));
 }
 
+// A body that comes to the eye in the course of the run takes the rule with it, out of the image.
+TEST_CASE("the rule is seen even where bodies come nearer than the image reaches") {
+  Picture picture = stage();
+  picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid)};
+  picture.floor.motion = {Vector3d(-2.0, 0.0, -2.0), Vector3d(2.0, 1.0, 7.0)};
+  const Image without = studio().draw(picture, kFull);
+  picture.floor.rule = true;
+  CHECK_FALSE(compare(without, studio().draw(picture, kFull)).exact);
+}
+
 // Oracle: the place of the label. The rule, all that its picture has more, passes through it where
 // only the rule is drawn, and nowhere near once the label is.
 TEST_CASE("the rule keeps clear of a label that would stand on it") {
