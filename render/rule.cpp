@@ -23,6 +23,8 @@ struct Tick {
   double value;
   Vector2d place, inward;  ///< on the image, and the unit direction back to the bodies
 };
+constexpr double kNumber = 32.0;  ///< [px] across that a number under a tick may take
+
 using Ticks = std::vector<Tick>;
 using Boxes = std::vector<Eigen::AlignedBox2d>;
 
@@ -121,6 +123,11 @@ Boxes writtenBoxes(const Picture& picture, const Projection& projection, Canvas&
   return boxes;
 }
 
+/// Pixels from tick to tick, on the mean.
+double spacing(const Ticks& ticks) {
+  return (ticks.back().place - ticks.front().place).norm() / static_cast<double>(ticks.size() - 1);
+}
+
 bool collides(const Ticks& ticks, const Boxes& boxes) {
   const Vector2d from = ticks.front().place, along = ticks.back().place - from;
   for (const Eigen::AlignedBox2d& box : boxes) {
@@ -182,7 +189,7 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
     chosen = ticks;
     break;
   }
-  if (chosen.size() >= 2) drawTicks(chosen, rail->step, canvas);
+  if (chosen.size() >= 2 && spacing(chosen) > kNumber) drawTicks(chosen, rail->step, canvas);
 }
 
 }  // namespace tumble
