@@ -177,8 +177,10 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
   const Boxes boxes = writtenBoxes(picture, projection, canvas);
   double nearest = 0.12 * picture.radius;
   Ticks chosen = ticksAt(*rail, nearest, picture, projection, canvas);
-  // What comes nearer than the image reaches leaves no room before it: then further back.
-  while (chosen.size() < 3 && nearest > -2.0 * picture.radius) {
+  // What comes nearer than the image reaches leaves no room before it: then further back, up to
+  // half way to the middle.
+  const double depth = rail->outward * (rail->start - picture.centre[rail->other]);
+  while (chosen.size() < 3 && nearest > -0.5 * depth) {
     nearest -= 0.04 * picture.radius;
     chosen = ticksAt(*rail, nearest, picture, projection, canvas);
   }
