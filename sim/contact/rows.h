@@ -18,15 +18,22 @@ inline Vec3 turnAbout(const Vec3& x, const Vec3& p, const Vec3& d) {
   return turn;
 }
 
-/// The row  u = d·(ṗa − ṗb) + bias  of bodies ia and ib at world point p [m] along unit d.
-inline Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec3& p, const Vec3& d,
+/// The row  u = d·(ṗa − ṗb) + bias  of bodies ia and ib, whose centres are at xa and xb [m], at
+/// world point p [m] along unit d.
+inline Row pointRow(int ia, int ib, const Vec3& xa, const Vec3& xb, const Vec3& p, const Vec3& d,
                     double bias) {
   return {.a = ia,
           .b = ib,
           .linear = d,
-          .angularA = turnAbout(bodies[ia].x, p, d),
-          .angularB = -turnAbout(bodies[ib].x, p, d),
+          .angularA = turnAbout(xa, p, d),
+          .angularB = -turnAbout(xb, p, d),
           .bias = bias};
+}
+
+/// The same of bodies where they are.
+inline Row pointRow(std::span<const RigidBody> bodies, int ia, int ib, const Vec3& p, const Vec3& d,
+                    double bias) {
+  return pointRow(ia, ib, bodies[ia].x, bodies[ib].x, p, d, bias);
 }
 
 /// Empties the problem and writes inverse masses and inertias; vStar = twists of the bodies now.

@@ -173,7 +173,7 @@ TEST_CASE("scenes whose end an order, a frame or rounding could choose end alike
   requireAlike(lookFromElsewhere("stepping", {124, 219, 664, 673, 761}));
 }
 
-// Measured: 4 mirrored, 0 permuted, 18 shifted and 14 turned end more than 100 times as far apart.
+// Measured: 7 mirrored, 1 permuted, 25 shifted and 11 turned end more than 100 times as far apart.
 TEST_CASE("a thousand random scenes end alike from wherever they are seen", "[long]") {
   constexpr int kScenes = 1000;
   const Histogram found = lookFromElsewhere("stepping", seedsFrom(1, kScenes));

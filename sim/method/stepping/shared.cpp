@@ -1,0 +1,98 @@
+// What the answer of an island gives to its bodies, its contacts and the books.
+#include "sim/method/stepping/stepping.h"
+#include "sim/problem/cone.h"
+
+namespace tumble {
+
+/// Gives the solution to the contacts and bodies of an island, and remembers it.
+void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
+  memory.length = memory.solved = h;
+  memory.cones = work_.problem.cones.size();
+  memory.step = step_;
+  for (const int i : work_.movers) work_.after[i] = work_.solution.v[work_.local[i]];
+  remember(memory, links);
+  std::size_t cone = 0;
+  for (const Link link : links) {
+    if (!isPair(link)) {
+      work_.bonds.lambda[link - state_.near.size()] =
+          work_.solution.lambda[work_.problem.cones[cone++].row];
+      continue;
+    }
+    for (Touch& touch : memory_.pairs[link].touches)
+      if (!flies(touch, h) && !isAside(touch))
+        shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
+  }
+  for (const int i : work_.bodies) work_.local[i] = -1;
+}
+
+/// What an island saw when it found the velocities `after`.
+void Stepping::remember(IslandMemory& memory, std::span<const Link> links) {
+  memory.books = {};
+  memory.seen.clear();
+  for (const Link link : links) {
+    IslandMemory::Seen& seen = memory.seen.emplace_back();
+    if (isPair(link)) seen = {.look = memory_.pairs[link].look, .form = memory_.pairs[link].form};
+  }
+  memory.movers.clear();
+  for (const int i : work_.movers)
+    memory.movers.push_back({.body = i,
+                             .Iinv = state_.bodies[i].Iinv,
+                             .vStar = work_.star[i],
+                             .v = work_.after[i],
+                             .push = work_.after[i] - work_.star[i]});
+}
+
+void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h) {
+  Vec3 impulse = Vec3::Zero(), pull = Vec3::Zero(), ofA = Vec3::Zero(), ofB = Vec3::Zero();
+  const Vec6 twistA = 0.5 * (work_.before[touch.contact.a] + work_.after[touch.contact.a]),
+             twistB = 0.5 * (work_.before[touch.contact.b] + work_.after[touch.contact.b]);
+  for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
+    const Row& row = work_.problem.rows[r];
+    impulse += work_.solution.lambda[r] * row.linear;
+    if (!work_.solution.pull.empty()) pull += work_.solution.pull[r] * row.linear;
+    ofA += (row.linear.dot(twistA.head<3>()) + row.angularA.dot(twistA.tail<3>())) * row.linear;
+    ofB += (row.linear.dot(twistB.head<3>()) - row.angularB.dot(twistB.tail<3>())) * row.linear;
+  }
+  touch.impulse = impulse;
+  touch.pull = work_.solution.pull.empty() ? unknown() : pull;
+  touch.length = h;
+  touch.contact.force = impulse / h;
+  bookTouch(touch, ofA, ofB, books);
+}
+
+/// What the impulse of a touch does: its work is that by the mean of the velocities [m/s] of the
+/// two bodies before the step and after it.
+void Stepping::bookTouch(Touch& touch, const Vec3& ofA, const Vec3& ofB, IslandBooks& books) const {
+  Contact& contact = touch.contact;
+  const bool fixedA = model_.fixed(contact.a), fixedB = model_.fixed(contact.b);
+  const Vec3 rate = ofA - ofB;
+  const double lostImpact = touch.impulse.dot(contact.point.n) * contact.point.n.dot(rate);
+  books.lostImpact -= lostImpact;
+  books.lostFriction -= touch.impulse.dot(rate) - lostImpact;
+  if (fixedA) books.work -= touch.impulse.dot(ofA);
+  if (fixedB) books.work += touch.impulse.dot(ofB);
+  if (fixedB) books.external += touch.impulse;
+  if (fixedA) books.external -= touch.impulse;
+  contact.sliding = contact.friction > 0.0 && slides(touch);
+  contact.lasting = !arrives(touch);
+}
+
+/// Of a body at a contact point.
+Vec3 Stepping::speedAt(const Contact& contact, int body, std::span<const Vec6> twists) const {
+  const Vec6& twist = twists[body];
+  return twist.head<3>() + twist.tail<3>().cross(contact.point.p - state_.bodies[body].x);
+}
+
+/// Whether the friction of a touch is all that its cone gives, and its bodies slip.
+bool Stepping::slides(const Touch& touch) const {
+  const Contact& contact = touch.contact;
+  const Vec3& n = contact.point.n;
+  const double j = touch.impulse.dot(n);
+  const Vec3 tangential = touch.impulse - j * n, rate = rateAt(contact, work_.after);
+  const Vec3 slip = rate - rate.dot(n) * n;
+  constexpr double kEdge = 1e-9;  // of the cone: nearer is on its edge
+  return tangential.norm() >= contact.friction * j * (1.0 - kEdge) &&
+         slip.norm() > tolerance_.stick;
+}
+
+}  // namespace tumble
