@@ -54,7 +54,7 @@ void Stepping::recordEvents(double t) {
     if (!allKept_ && tells) recordImpact(t, pair, landing);
     for (Touch& touch : pair.touches) {
       const double j = touch.impulse.dot(touch.contact.point.n);
-      if (j > 0.0 && touch.rebounds && reboundsInStep()) bookShift(touch);
+      if (j > 0.0 && reboundsInStep()) touch.rebounds ? bookShift(touch) : tellPassedOn(touch, j);
       if (j > 0.0) {
         contacts.push_back(touch.contact);
         if (!lasting && touch.contact.lasting) lasting = &touch.contact;

@@ -122,7 +122,8 @@ void Stepping::stepTo(double t1, double h) {
   if (report_.stopped) return;
   findCrowded(h);
   work_.met.clear();
-  if (model_.def.stepping.divides && findClusters(h))
+  crowd_ = isCrowd();
+  if (divides() && findClusters(h))
     stepClusters(t1, h);
   else
     go(t1, h);
@@ -142,14 +143,13 @@ void Stepping::go(double t1, double h) {
   const int every = std::clamp(kBodies / n, kFew, kMany);
   const int most = std::max(every, static_cast<int>(kPairs / n / n));
   crowd_ = isCrowd();
-  const bool divides = model_.def.stepping.divides;
   divided_ = false;
   int parts = 1;
   for (; !halted(); ++parts) {
     const bool all = n == 1 && parts <= every;
-    const double part = meet(h, !divides || strikesAsCrowd() || parts > most ? Hits::None
-                                : all                                        ? Hits::All
-                                                                             : Hits::Fast);
+    const double part = meet(h, !divides() || strikesAsCrowd() || parts > most ? Hits::None
+                                : all                                          ? Hits::All
+                                                                               : Hits::Fast);
     if (part >= h) break;
     divided_ = true;
     moveTo(state_.t + part, part);

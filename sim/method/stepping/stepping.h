@@ -137,8 +137,8 @@ class Stepping {
   double untilHit(double soon, double h, double least);
   void findHeld();
   void hold(const Contact& contact);
-  /// Holds the bodies of hits that the contact problem of the next h seconds stops, or of all.
-  void holdStopped(double h, bool all);
+  /// Holds the bodies of hits that the contact problem of the next h seconds stops.
+  void holdStopped(double h);
   /// Which points of a pair rebound faster than `least` [m/s], and when they are due.
   void foresee(std::size_t pair, double least);
   /// The same of one point; a and b are its bodies as underWay has them.
@@ -159,11 +159,17 @@ class Stepping {
   RigidBody underWay(int body) const;
   bool anyHit(double within) const;
   /// Applies the law of impact to what touches, and to what is due within that time [s].
+  /// @return whether it changed anything
   bool strike(double within);
+  /// How often blows may go on from body to body within a step.
+  int mostBlows() const;
   /// Of a hit that the contact problem of a whole step of h seconds takes in: it gives back what
   /// restitution asks for from the speed `vrel` [m/s] at which the step begins (Newton's law).
   void rebound(Touch& touch, double vrel, double h, Row& normal) const;
   void bookShift(const Touch& touch);
+  /// Says so of a touch that the contact problem pushed by j [N·s], if that stopped, without a
+  /// rebound, what another hit sent.
+  void tellPassedOn(const Touch& touch, double j);
   /// Whether a touch is left out of the contact problem of a step: it is struck at its end or
   /// later, or a chain is not known to meet it.
   bool flies(const Touch& touch, double h) const {
@@ -181,6 +187,11 @@ class Stepping {
   static int weightOf(const PairMemory& pair);
   /// Whether their hits divide no step.
   bool strikesAsCrowd() const;
+  /// Whether their hits may divide a step: where bodies are few they may, whatever the preset.
+  bool divides() const {
+    constexpr std::size_t kFew = 32;
+    return model_.def.stepping.divides || (!crowd_ && work_.solids.size() <= kFew);
+  }
   /// Whether they are in such haste that a step is taken whole, without a second look.
   bool isDrafted() const { return crowd_ && isHasty() && !model_.def.stepping.divides; }
   /// Whether the contact problem of a step takes in what hits.
