@@ -1,5 +1,5 @@
-// Balls that roll and slide, by the exact method: closed forms, at a cost that does not grow with
-// how fast they turn.
+// What rolls and slides, and what rolls under it: closed forms, at a cost that does not grow with
+// how fast it turns.
 #include <cmath>
 
 #include "tests/catch.h"
@@ -64,4 +64,34 @@ TEST_CASE("a ball that spins about other axes than it rolls about turns as in sh
   CAPTURE((end.x - last.position).norm(), turnApart(end.q, last.orientation));
   CHECK((end.x - last.position).norm() < 1e-12);
   CHECK(turnApart(end.q, last.orientation) < 1e-11);
+}
+
+// Oracle: two methods agree. A board on two rollers that turn against each other slides to and fro,
+// level all the time: their spin turns no normal. Measured 1e-6 m along, by the second order of a
+// step, 4e-14 m of height; where the spin led the normals round, it climbed 0.05 and 0.4 mm.
+TEST_CASE("stepping: a board on rollers stays level, however fast they spin") {
+  const double spin = GENERATE(20.0, 200.0);
+  const Shape shape = GENERATE(as<Shape>(), Sphere{0.1}, Cylinder{0.1, 0.5}, Capsule{0.1, 0.5},
+                               Ellipsoid{{0.1, 0.2, 0.1}});
+  WorldDef def = worldOf("stepping", 1.0, {});
+  for (const double x : {-0.5, 0.5}) {
+    for (const double z : {-0.3, 0.3}) {
+      BodyDef& roller = def.bodies.emplace_back();
+      roller.name = "roller." + std::to_string(def.bodies.size());
+      roller.shape = shape;
+      roller.fixed = true;
+      roller.friction = 0.2;
+      roller.position = {x, 0.0, z};
+      roller.orientation = fromAxisAngle(Vec3::UnitX(), 0.5 * std::numbers::pi);
+      roller.angularVelocity = {0.0, 0.0, std::copysign(spin, x)};
+    }
+  }
+  def.bodies.push_back(box("board", {3.0, 0.05, 0.8}, {0.2, 0.125, 0.0}, 0.0, 0.2));
+  WorldDef exact = def;
+  exact.method = "exact";
+  World one(def), other(exact);
+  const Vec3 x = run(one).bodies.back().x, expected = run(other).bodies.back().x;
+  CAPTURE(spin, shape.index(), x.x() - expected.x(), x.y() - 0.125);
+  CHECK(std::abs(x.x() - expected.x()) < 1e-5);
+  CHECK(std::abs(x.y() - 0.125) < 1e-11);
 }
