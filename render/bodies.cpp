@@ -1,6 +1,7 @@
 #include "render/bodies.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 namespace tumble {
@@ -15,9 +16,6 @@ constexpr int kStride = 21;
 /// the corners stand out by at most 0.13, 0.15 and, at 200 px, 0.12 px.
 constexpr double kSmallBallRadius = 10.0, kBallRadius = 45.0;
 
-/// Ghosts that slide over one plane share it: the later one lies before the earlier by this depth,
-/// some units of the depth buffer, or their faces would fight.
-constexpr float kGhostLayer = 1e-6f;
 /// What shines through the floor of a body that sank below it.
 constexpr float kSunkOpacity = 0.35f;
 constexpr float kFarSideOpacity = 0.35f;
@@ -144,11 +142,11 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
       drawn_.push_back(&surfaces_.at(body.facets));
   }
 
-  // Groups and shapes stand together; within them glass goes from far to near, solids go from near
-  // to far, so that what is hidden is seldom shaded, and ghosts keep their order.
+  // Groups, layers and shapes stand together; within them glass goes from far to near, solids go
+  // from near to far, so that what is hidden is seldom shaded, and ghosts keep their order.
   const std::vector<Cover::Faces> hidden = hiddenFaces(picture, stage);
   struct Key {
-    int group, shape;
+    int group, layer, shape;
     double nearness;
     std::size_t index;
   };
@@ -161,18 +159,19 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
     const double distance = (instance.position - stage.projection.eye()).norm();
     const int shape = instance.form == Form::Facets ? numbers.at(instance.facets.get())
                                                     : shapeOf(instance, stage);
-    order.push_back({group, shape,
+    order.push_back({group, instance.layer, shape,
                      group == kGlass   ? -distance
                      : group == kSolid ? distance
                                        : 0.0,
                      i});
   }
   std::stable_sort(order.begin(), order.end(), [](const Key& a, const Key& b) {
-    return std::tie(a.group, a.shape, a.nearness) < std::tie(b.group, b.shape, b.nearness);
+    return std::tie(a.group, b.layer, a.shape, a.nearness) <
+           std::tie(b.group, a.layer, b.shape, b.nearness);
   });
 
   instances_.clear();
-  for (std::vector<Range>& ranges : ranges_) ranges.assign(drawn_.size(), {});
+  for (std::vector<Batch>& batches : batches_) batches.clear();
   for (const Key& key : order) {
     const Instance& from = picture.instances[key.index];
     const Eigen::Vector3f centre = stage.toStage(from.position), half = from.scale.cast<float>();
@@ -180,9 +179,10 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
     const bool ghost = from.finish == Finish::Ghost;
     const float alpha = ghost ? from.alpha : from.finish == Finish::Glass ? 0.35f : 1.0f;
     const Colour& back = from.back ? *from.back : from.colour;
-    Range& range = ranges_[key.group][key.shape];
-    if (range.count == 0) range.first = static_cast<int>(instances_.size());
-    ++range.count;
+    std::vector<Batch>& batches = batches_[key.group];
+    if (batches.empty() || batches.back().layer != key.layer || batches.back().shape != key.shape)
+      batches.push_back({key.layer, key.shape, static_cast<int>(instances_.size()), 0});
+    ++batches.back().count;
     instances_.push_back({{centre.x(), centre.y(), centre.z()},
                           alpha,
                           {turn.x(), turn.y(), turn.z(), turn.w()},
@@ -198,31 +198,28 @@ void Bodies::load(const Picture& picture, const Stage& stage) {
 }
 
 void Bodies::draw(Use use, Group group, float opacity, float keepAbove) const {
-  for (int shape = 0; shape < static_cast<int>(drawn_.size()); ++shape) {
-    const Range& range = ranges_[group][shape];
-    if (range.count == 0) continue;
-    const Surface surface = surfaceOf(shape);
-    const gl::Program& program = programs_[static_cast<std::size_t>(use) * kSurfaces + surface];
-    program.use();
-    program.set("opacity", opacity);
-    program.set("keepAbove", keepAbove);
-    program.set("layer", group == kGhost ? kGhostLayer : 0.0f);
-    drawn_[shape]->draw(buffer_, kStride, kAttributes, range.first, range.count);
-  }
+  for (const Batch& batch : batches_[group]) draw(use, batch, opacity, keepAbove);
+}
+
+void Bodies::draw(Use use, const Batch& batch, float opacity, float keepAbove) const {
+  const Surface surface = surfaceOf(batch.shape);
+  const gl::Program& program = programs_[static_cast<std::size_t>(use) * kSurfaces + surface];
+  program.use();
+  program.set("opacity", opacity);
+  program.set("keepAbove", keepAbove);
+  drawn_[batch.shape]->draw(buffer_, kStride, kAttributes, batch.first, batch.count);
 }
 
 void Bodies::drawMasks() {
   if (masks_.empty())
     for (const char* surface : kSurfaceWords)
       masks_.emplace_back(shaders_, "body.vert", "mask.frag", std::vector<std::string>{surface});
-  for (const std::vector<Range>& ranges : ranges_) {
-    for (int shape = 0; shape < static_cast<int>(drawn_.size()); ++shape) {
-      if (ranges[shape].count == 0) continue;
-      const gl::Program& program = masks_[surfaceOf(shape)];
+  for (const std::vector<Batch>& batches : batches_) {
+    for (const Batch& batch : batches) {
+      const gl::Program& program = masks_[surfaceOf(batch.shape)];
       program.use();
       program.set("keepAbove", 0.0f);
-      program.set("layer", 0.0f);
-      drawn_[shape]->draw(buffer_, kStride, kAttributes, ranges[shape].first, ranges[shape].count);
+      drawn_[batch.shape]->draw(buffer_, kStride, kAttributes, batch.first, batch.count);
     }
   }
 }
@@ -240,28 +237,50 @@ void Bodies::drawFromAbove() const {
   glDisable(GL_CULL_FACE);
 }
 
+// Solids of a layer claim the samples where they are seen: no ghost of a lower one comes there.
+void Bodies::drawAndClaim(Group group, float opacity, float keepAbove) const {
+  for (const Batch& batch : batches_[group]) {
+    glStencilFunc(GL_ALWAYS, batch.layer > 0 ? 1 : 0, ~0u);
+    draw(kSolidUse, batch, opacity, keepAbove);
+  }
+}
+
 void Bodies::drawSolids() const {
   glEnable(GL_CULL_FACE);
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   glDisable(GL_BLEND);
-  draw(kSolidUse, kSolid);
+  drawAndClaim(kSolid);
   glEnable(GL_BLEND);
   glEnable(GL_CLIP_DISTANCE0);
-  draw(kSolidUse, kSunk, 1.0f, 1.0f);
-  draw(kSolidUse, kSunk, kSunkOpacity, -1.0f);
+  drawAndClaim(kSunk, 1.0f, 1.0f);
+  drawAndClaim(kSunk, kSunkOpacity, -1.0f);
   glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_STENCIL_TEST);
   glDisable(GL_CULL_FACE);
 }
 
+// From the highest layer down; each claims the samples where it is seen.
 void Bodies::drawGhosts() const {
+  const std::vector<Batch>& ghosts = batches_[kGhost];
   glEnable(GL_CULL_FACE);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  draw(kDepthUse, kGhost);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDepthMask(GL_FALSE);
-  glDepthFunc(GL_EQUAL);
-  draw(kGhostUse, kGhost);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_TRUE);
+  glEnable(GL_STENCIL_TEST);
+  for (auto first = ghosts.begin(), last = first; first != ghosts.end(); first = last) {
+    last =
+        std::find_if(first, ghosts.end(), [&](const Batch& b) { return b.layer != first->layer; });
+    glStencilFunc(GL_EQUAL, 0, ~0u);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    for (const Batch& batch : std::span(first, last)) draw(kDepthUse, batch);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+    for (const Batch& batch : std::span(first, last)) draw(kGhostUse, batch);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+  }
+  glDisable(GL_STENCIL_TEST);
   glDisable(GL_CULL_FACE);
 }
 

@@ -26,7 +26,7 @@ class Bodies {
   void drawFromLight() const;  ///< depth of what is solid, into the shadow map
   void drawFromAbove() const;  ///< contact, height and cast shadow, into the map from above
   void drawSolids() const;     ///< with what sank below the floor shown through it
-  void drawGhosts() const;     ///< at each sample the nearest ghost alone
+  void drawGhosts() const;     ///< at each sample one: the nearest of the highest layer
   void drawGlass() const;      ///< far sides, then at each sample the nearest near side
   void drawMasks();            ///< all, each in its own colour, and how far they are
   bool drawsInColour() const { return !instances_.empty(); }
@@ -53,8 +53,9 @@ class Bodies {
     float back[3], banded;
     float hidden;
   };
-  struct Range {
-    int first = 0, count = 0;
+  /// Instances of one group, layer and shape, which stand together.
+  struct Batch {
+    int layer, shape, first, count;
   };
 
   static Group groupOf(const Instance& instance, const Stage& stage, bool hasFloor);
@@ -63,6 +64,8 @@ class Bodies {
   static std::vector<Cover::Faces> hiddenFaces(const Picture& picture, const Stage& stage);
   void keepSurfaces(const Picture& picture);
   void draw(Use use, Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
+  void draw(Use use, const Batch& batch, float opacity = 1.0f, float keepAbove = 0.0f) const;
+  void drawAndClaim(Group group, float opacity = 1.0f, float keepAbove = 0.0f) const;
 
   std::string shaders_;
   std::vector<gl::Program> programs_;                             // [use][surface]
@@ -72,7 +75,7 @@ class Bodies {
   std::vector<const MeshBuffer*> drawn_;  // [shape], facets behind the others
   gl::Object buffer_;
   std::vector<Body> instances_;
-  std::array<std::vector<Range>, kGroups> ranges_;  // [group][shape]
+  std::array<std::vector<Batch>, kGroups> batches_;  // [group], higher layers first
 };
 
 }  // namespace tumble

@@ -41,6 +41,9 @@ struct Instance {
   std::optional<Colour> back = {};  ///< of the half with z < 0 in the body frame; none: as in front
   bool banded = true;               ///< a ball or cylinder gets a band that its spin can be seen by
   float alpha = 1.0f;               ///< of a ghost
+  /// What has a higher layer hides ghosts of lower ones wherever it stands; within a layer the
+  /// nearer hides.
+  int layer = 0;
   Finish finish = Finish::Solid;
   std::shared_ptr<const Facets> facets =
       nullptr;  ///< of Form::Facets, drawn `scale` times as large

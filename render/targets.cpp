@@ -23,7 +23,7 @@ void Targets::resize(int width, int height, int samples) {
   bodies_ = gl::makeFramebuffer();
   glBindFramebuffer(GL_FRAMEBUFFER, bodies_);
   attach(colour_, GL_RGBA8, GL_COLOR_ATTACHMENT0, samples, width, height);
-  attach(depth_, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT, samples, width, height);
+  attach(depth_, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT, samples, width, height);
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   gl::checkFramebuffer(size +
                        (samples > 1 ? ", " + std::to_string(samples) + " samples each" : ""));
@@ -46,7 +46,7 @@ void Targets::begin(GLuint framebuffer, const gl::Rectangle& place) const {
 
 void Targets::beginBodies(const gl::Rectangle& place) {
   begin(bodies_, place);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
 void Targets::beginFloor(const gl::Rectangle& place) {

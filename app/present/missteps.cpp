@@ -17,12 +17,13 @@ constexpr double kCover = 1.002;
 // The arrow passes the body on its left, this many of its reaches from the centre.
 constexpr double kAside = 1.3;
 
-Instance ghostOf(const BodyDef& body, const Pose& pose, const Colour& colour, float alpha) {
+Instance ghostOf(const BodyDef& body, const Pose& pose, const Colour& colour, int layer) {
   Instance ghost =
       instanceOf(body, pose.x, pose.q, colour, Vec3::Zero(), 1.0, facetsOf(body.shape));
   ghost.scale *= kCover;
   ghost.finish = Finish::Ghost;
-  ghost.alpha = alpha;
+  ghost.alpha = 0.85f;
+  ghost.layer = layer;
   ghost.banded = false;  // it is no body that spins
   return ghost;
 }
@@ -52,17 +53,18 @@ std::string mendedText(const Misstep& misstep) {
 
 void addMissteps(const Scene& scene, const Recording& recording, double t, Picture& picture) {
   std::set<int> shown;
+  int layer = 0;
   for (const Misstep& misstep : recording.report.missteps) {
     if (misstep.t > t || !shown.insert(misstep.body).second) continue;
     const BodyDef& body = scene.world.bodies[misstep.body];
-    picture.instances.push_back(ghostOf(body, misstep.pose, colour::kForce, 0.85f));
+    picture.instances.push_back(ghostOf(body, misstep.pose, colour::kForce, ++layer));
     picture.labels.push_back(labelAt(beside(body, misstep.pose, 1.0), Align::Left,
                                      "t = " + fourDigits(misstep.t) + " s: " +
                                          fourDigits(-1e3 * misstep.separation) + " mm too deep",
                                      colour::kInk));
     picture.labels.back().offset = {16.0, -10.0};  // above the ruler, which passes the body
     if (misstep.mendedAt > t) continue;
-    picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), 0.85f));
+    picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), ++layer));
     const Vec3 tip = beside(body, misstep.mended, -kAside);
     const bool later = misstep.mendedAt > misstep.t;
     picture.labels.push_back(labelAt(later ? beside(body, misstep.mended, 1.0) : tip,

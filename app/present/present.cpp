@@ -184,7 +184,7 @@ int Presenter::count() const {
 Picture Presenter::image(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
   Picture picture = blank(framingAt(sample));
-  addBodies(sample, false, picture);
+  addBodies(sample, false, 0, picture);
   addJoints(scene_, sample, framing_.radius, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
   addTheory(picture);
@@ -204,7 +204,7 @@ Picture Presenter::bodiesAlone(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
   Picture picture = blank(framingAt(sample));
   picture.instances.clear();
-  addBodies(sample, false, picture);
+  addBodies(sample, false, 0, picture);
   return picture;
 }
 
@@ -264,15 +264,20 @@ Instance Presenter::body(const Sample& sample, std::size_t i) const {
   return instance;
 }
 
-void Presenter::addBodies(const Sample& sample, bool byTime, Picture& picture) const {
+// What moves stands in that layer.
+void Presenter::addBodies(const Sample& sample, bool byTime, int layer, Picture& picture) const {
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
     const BodyDef& def = scene_.world.bodies[i];
     if (isFloor(def) || inSurface_[i] || hides(def, picture.camera.eye)) continue;
-    picture.instances.push_back(body(sample, i));
-    if (byTime && moves(def)) picture.instances.back().colour = timeStops().back();
+    Instance& drawn = picture.instances.emplace_back(body(sample, i));
+    if (!moves(def)) continue;
+    drawn.layer = layer;
+    if (byTime) drawn.colour = timeStops().back();
   }
-  for (Instance& surface : bentSurfaces(scene_, sample, colours_, strained_))
+  for (Instance& surface : bentSurfaces(scene_, sample, colours_, strained_)) {
+    surface.layer = layer;
     picture.instances.push_back(std::move(surface));
+  }
 }
 
 Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {

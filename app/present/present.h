@@ -73,7 +73,7 @@ class Presenter {
   Polyline expectedLine(const Expectation& one) const;
   void finish(Picture& picture) const;
   std::shared_ptr<const Facets> surfaceOf(std::size_t i, const BodySample& body) const;
-  void addBodies(const Sample& sample, bool byTime, Picture& picture) const;
+  void addBodies(const Sample& sample, bool byTime, int layer, Picture& picture) const;
   void addGhosts(bool byTime, Picture& picture) const;
   Colour colourOf(const Sample& sample, std::size_t i) const;
   double forceScale(double length) const;

@@ -24,8 +24,12 @@ Picture Presenter::strobe() const {
   const bool byTime =
       movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed && strained_ == 0.0;
   addGhosts(byTime, picture);
-  addBodies(last, byTime, picture);
+  const int top = static_cast<int>(ghosts().size()) + 1;
+  addBodies(last, byTime, top, picture);
+  const auto bodies = static_cast<std::ptrdiff_t>(picture.instances.size());
   addJoints(scene_, last, framing_.radius, picture);
+  std::for_each(picture.instances.begin() + bodies, picture.instances.end(),
+                [&](Instance& part) { part.layer = top; });
   if (scene_.show.path) addPaths(scene_, recording_, colours_, count() - 1, picture);
   if (scene_.show.planes) addPlanes(scene_, recording_, count() - 1, picture);
   addTheory(picture);
@@ -76,7 +80,8 @@ Framing Presenter::framingOfStrobe() const {
   return framing;
 }
 
-// Bodies are coloured by time, or keep their colours; all are paler the longer ago.
+// Bodies are coloured by time, or keep their colours; all are paler the longer ago, and behind what
+// came later.
 void Presenter::addGhosts(bool byTime, Picture& picture) const {
   const bool single = movingCount(scene_) == 1;
   const double end = recording_.samples.back().t;
@@ -84,6 +89,7 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
   for (std::size_t n = 0; n < shown.size(); ++n) {
     const Sample& sample = recording_.samples[shown[n]];
     const double u = end > 0.0 ? sample.t / end : 1.0;
+    const int layer = static_cast<int>(n) + 1;
     for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
       const BodyDef& body = scene_.world.bodies[i];
       if (!moves(body) || inSurface_[i]) continue;
@@ -94,11 +100,13 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
       ghost.back = backOf(scene_, i);
       ghost.banded = turns_[i];
       ghost.finish = Finish::Ghost;
+      ghost.layer = layer;
       ghost.alpha = static_cast<float>(single ? 0.55 + 0.35 * u : 0.22 + 0.48 * u);
       picture.instances.push_back(ghost);
     }
     for (Instance& surface : bentSurfaces(scene_, sample, colours_, strained_)) {
       surface.finish = Finish::Ghost;
+      surface.layer = layer;
       surface.alpha = static_cast<float>(0.22 + 0.48 * u);
       picture.instances.push_back(std::move(surface));
     }

@@ -18,7 +18,6 @@ flat out float thickness;
 #endif
 uniform float opacity;            // of the whole pass
 uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below, 0 all
-uniform float layer;              // depth by which each body lies before the one drawn before it
 
 // A ball is a disc that faces the onlooker, for the camera the circle where its rays touch the ball.
 vec3 ballCorner(vec3 c, float r) {
@@ -79,7 +78,6 @@ void main() {
   gl_Position = vec4(fallen.x, -fallen.z, 0.0, extent.y);
 #else
   gl_Position = viewProjection * vec4(worldPoint, 1.0);
-  gl_Position.z -= layer * float(gl_InstanceID) * gl_Position.w;
 #ifdef BOX
   int face = int(dot(abs(cornerNormal), vec3(0, 2, 4))) + (cornerNormal.x + cornerNormal.y + cornerNormal.z > 0.0 ? 1 : 0);
   if ((int(hidden) >> face & 1) == 1) gl_Position = vec4(0, 0, 0, 1);

@@ -215,6 +215,33 @@ TEST_CASE("two ghosts in line are no denser than the nearer one") {
   CHECK(brightnessAt(both, one, {0.0, 0.5, 0.8}) == brightnessAt(alone, one, {0.0, 0.5, 0.8}));
 }
 
+// Oracle: by hand. What was earlier does not cover what came later, though it is nearer; what
+// stands before them hides both.
+TEST_CASE("a ghost is hidden by what has a higher layer, and by what stands before it") {
+  const auto layered = [](const Vector3d& place, Finish finish, int layer, float red) {
+    Instance body = box(place, finish);
+    body.layer = layer;
+    body.colour = {red, 0.5f, 0.7f};
+    return body;
+  };
+  const Vector3d inside(0.0, 0.5, -0.2), beside(0.45, 0.5, 1.2), before(0.0, 0.5, 2.3);
+  for (const Finish later : {Finish::Ghost, Finish::Solid}) {
+    Picture alone = stage();
+    alone.floor.visible = false;
+    alone.instances = {layered({0.0, 0.5, -0.5}, later, 2, 0.9f)};
+    Picture both = alone;
+    both.instances.push_back(layered({0.2, 0.5, 0.9}, Finish::Ghost, 1, 0.2f));
+    const Image one = studio().draw(alone, kFull), two = studio().draw(both, kFull);
+    CHECK(brightnessAt(two, alone, inside) == brightnessAt(one, alone, inside));
+    CHECK(brightnessAt(two, alone, beside) < brightnessAt(one, alone, beside));
+    Picture wall = alone;
+    wall.instances = {layered({0.0, 0.5, 2.0}, Finish::Solid, 0, 0.9f)};
+    both.instances.push_back(wall.instances.front());
+    CHECK(brightnessAt(studio().draw(both, kFull), wall, before) ==
+          brightnessAt(studio().draw(wall, kFull), wall, before));
+  }
+}
+
 // Oracle: symmetry. A body at rest is in one place at all times: its ghosts must not add up.
 TEST_CASE("ghosts in one place are drawn once, and not over the body that stands there") {
   Picture one = stage(), many = one;
