@@ -1,4 +1,6 @@
 // Contacts as constraints: the forces that keep what lasts from giving way.
+#include <limits>
+
 #include "sim/contact/rest.h"
 #include "sim/method/course/contact_model.h"
 
@@ -7,6 +9,7 @@ namespace {
 
 /// Time constant of the pull that keeps lasting contacts at zero, in steps.
 constexpr double kPullSteps = 4.0;
+constexpr double kNoPull = std::numeric_limits<double>::infinity();
 
 class ConstraintForces : public ContactForces {
  public:
@@ -16,6 +19,7 @@ class ConstraintForces : public ContactForces {
     contacts_.assign(lasting.begin(), lasting.end());
     limits_.assign(limits.begin(), limits.end());
     rest_ = RestForces();
+    pulls_.clear();
   }
 
   SolveReport apply(std::span<RigidBody> bodies) override {
@@ -24,7 +28,7 @@ class ConstraintForces : public ContactForces {
       for (const int i : {c.a, c.b}) bodies[i].q.normalize();
       follow(bodies[c.a], bodies[c.b], c);
     }
-    restBonds(bodies, joints_, limits_, tau_, bonds_);
+    followJoints(bodies);
     return rest_.apply(bodies, contacts_, &bonds_);
   }
 
@@ -43,12 +47,29 @@ class ConstraintForces : public ContactForces {
   }
 
  private:
+  // Rows move with the bodies; the pull towards zero stays what it was when the stretch began, as
+  // that of contacts does. Between stages an integrator leaves joints by O(h²), so that a pull that
+  // followed, with τ ∝ h, would answer by O(1) and leave order 2 of any integrator.
+  void followJoints(std::span<const RigidBody> bodies) {
+    const bool first = pulls_.empty();
+    if (first) {
+      restBonds(bodies, joints_, limits_, tau_, bonds_);
+      for (const Row& row : bonds_.rows) pulls_.push_back(row.bias);
+    }
+    restBonds(bodies, joints_, limits_, kNoPull, bonds_);
+    for (std::size_t k = 0; k < pulls_.size(); ++k) {
+      if (first) pulls_[k] -= bonds_.rows[k].bias;
+      bonds_.rows[k].bias += pulls_[k];
+    }
+  }
+
   std::vector<Joint> joints_;
   double tau_;
   RestForces rest_;
   std::vector<Contact> contacts_;
   std::vector<Limit> limits_;
   Bonds bonds_;
+  std::vector<double> pulls_;  // [m/s²], per row of the joints
 };
 
 }  // namespace
