@@ -66,6 +66,15 @@ double Meter::operator()(const Sample& sample, const Certificate* soFar) {
   return formula_(numbers_);
 }
 
+bool Meter::jumpsAt(const Event& impact) const {
+  return std::any_of(sources_.begin(), sources_.end(), [&](const Source& source) {
+    if (!source.gauge) return false;
+    const std::optional<int> body = source.gauge->body();
+    return body ? *body == impact.a || *body == impact.b
+                : std::string(source.gauge->quantity().name) != "t";
+  });
+}
+
 const Gauge* Meter::alone() const {
   const bool one = sources_.size() == 1 && formula_.names().front() == text_;
   return one && sources_.front().gauge ? &*sources_.front().gauge : nullptr;

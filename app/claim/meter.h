@@ -26,6 +26,9 @@ class Meter {
   /// @param soFar  what the run says of itself at the sample; without it, its quantities are NaN
   double operator()(const Sample& sample, const Certificate* soFar = nullptr);
 
+  /// Whether an impact can make it jump: it reads a body that is struck, or all of them.
+  bool jumpsAt(const Event& impact) const;
+
   /// The one quantity that is the whole formula, or null.
   const Gauge* alone() const;
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "app/claim/holds.h"
 #include "app/claim/meter.h"
@@ -73,6 +72,35 @@ void addPlaneCounts(const Scene& scene, const GraphDef& graph, const std::string
   all.push_back(std::move(anew));
 }
 
+// Runs a scene and reads a curve off it: at every sample, and on both sides of each impact that it
+// jumps at.
+template <class Jumps, class Read>
+void readCurve(const Scene& scene, const Jumps& jumps, const Read& read, GraphSeries& series) {
+  World world = makeWorld(scene);
+  const int count = sampleCount(scene, scene.image.rate);
+  std::size_t known = 0;  // events
+  double last = 0.0;      // instant that was read
+  for (int k = 0; k < count; ++k) {
+    const double t = k / scene.image.rate;
+    world.advance(t);
+    if (world.report().stopped) break;
+    const auto readAt = [&](double when) {
+      last = when;
+      series.curve.push_back(read(world.sample(when), world.report().certificate));
+    };
+    const std::vector<Event>& events = world.report().events;
+    for (; known < events.size() && events[known].t <= t; ++known) {
+      const Event& event = events[known];
+      if (event.kind != EventKind::Impact || !jumps(event)) continue;
+      if (!(event.t > last)) continue;
+      readAt(std::nextafter(event.t, 0.0));
+      readAt(event.t);
+    }
+    readAt(t);
+    series.points.push_back(series.curve.back());
+  }
+}
+
 // What a formula comes to, with the certificate as it stands at each sample.
 void addValues(const Scene& scene, const GraphDef& graph, const GraphCurve& curve,
                std::vector<GraphSeries>& all) {
@@ -83,16 +111,12 @@ void addValues(const Scene& scene, const GraphDef& graph, const GraphCurve& curv
   Meter across(scene, against), upward(scene, curve.value);
   GraphSeries& series = all.emplace_back();
   series.label = curve.variant.title;
-  World world = makeWorld(scene);
-  const int count = sampleCount(scene, scene.image.rate);
-  for (int k = 0; k < count; ++k) {
-    const double t = k / scene.image.rate;
-    world.advance(t);
-    if (world.report().stopped) break;
-    const Sample sample = world.sample(t);
-    const Certificate& soFar = world.report().certificate;
-    series.points.emplace_back(across(sample, &soFar), upward(sample, &soFar));
-  }
+  readCurve(
+      scene, [&](const Event& impact) { return across.jumpsAt(impact) || upward.jumpsAt(impact); },
+      [&](const Sample& sample, const Certificate& soFar) {
+        return Eigen::Vector2d(across(sample, &soFar), upward(sample, &soFar));
+      },
+      series);
 }
 
 // What each way to hold points leaves of the step in which most are held, the more the less is
@@ -122,32 +146,20 @@ bool movesBy(const std::string& shows) {
 void addShown(const Scene& scene, const GraphDef& graph, const std::string& label,
               std::vector<GraphSeries>& all) {
   const int body = graph.body.empty() ? kNoBody : bodyNamed(scene, graph.body);
-  const bool whole = graph.shows == "energy", jumps = whole || movesBy(graph.shows);
+  const bool whole = graph.shows == "energy", moved = movesBy(graph.shows);
   GraphSeries& series = all.emplace_back();
   series.label = label;
-  World world = makeWorld(scene);
-  const auto shown = [&](double t) {
-    return Eigen::Vector2d(t, shownOf(graph.shows, world.sample(t), body));
-  };
-  const int count = sampleCount(scene, scene.image.rate);
-  std::size_t known = 0;  // events
-  for (int k = 0; k < count; ++k) {
-    const double before = (k - 1) / scene.image.rate, t = k / scene.image.rate;
-    world.advance(t);
-    if (world.report().stopped) break;
-    // Between two samples each impact has a state before it, and one after.
-    const std::vector<Event>& events = world.report().events;
-    for (; known < events.size() && events[known].t <= t; ++known) {
-      const Event& event = events[known];
-      const bool own = event.a == body || event.b == body;
-      if (event.kind != EventKind::Impact) continue;
-      if (own) series.impacts.push_back(event);
-      if (!jumps || !(own || whole) || !(event.t > std::max(before, 0.0))) continue;
-      series.jumps.push_back(shown(std::nextafter(event.t, 0.0)));
-      series.jumps.push_back(shown(event.t));
-    }
-    series.points.push_back(shown(t));
-  }
+  readCurve(
+      scene,
+      [&](const Event& impact) {
+        const bool own = impact.a == body || impact.b == body;
+        if (own) series.impacts.push_back(impact);
+        return whole || (own && moved);
+      },
+      [&](const Sample& sample, const Certificate&) {
+        return Eigen::Vector2d(sample.t, shownOf(graph.shows, sample, body));
+      },
+      series);
 }
 
 }  // namespace
@@ -221,10 +233,7 @@ Chart graphOf(const GraphDef& graph, const std::vector<GraphSeries>& series) {
     curve.label = series[i].label;
     curve.colour = seriesColour(i);
     curve.marked = holds;
-    const std::vector<Eigen::Vector2d>&points = series[i].points, &jumps = series[i].jumps;
-    std::merge(points.begin(), points.end(), jumps.begin(), jumps.end(),
-               std::back_inserter(curve.points),
-               [](const auto& a, const auto& b) { return a.x() < b.x(); });
+    curve.points = series[i].curve.empty() ? series[i].points : series[i].curve;
     if (small)
       for (Eigen::Vector2d& point : curve.points) point.y() *= 1e3;
     if (graph.shows != "force") continue;

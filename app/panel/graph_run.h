@@ -11,7 +11,8 @@ struct GraphSeries {
   std::string label;
   std::vector<Eigen::Vector2d> points = {};  ///< (t [s], what is shown)
   std::vector<Event> impacts = {};           ///< of the body
-  std::vector<Eigen::Vector2d> jumps = {};   ///< the same just before and just after impacts
+  std::vector<Eigen::Vector2d> curve = {};   ///< with what is just before and after impacts; or as
+                                             ///< the points
 };
 
 /// What a graph shows of a body at a sample: height of its centre [m], velocity [m/s] upward, size

@@ -326,7 +326,9 @@ position = [0, 1, 0]
 )";
   const std::string graph =
       "[[graph]]\nbody = \"ball\"\nshows = \"height\"\ncurves = [ { label = \"a\" } ]\n"
-      "[[graph]]\nshows = \"energy\"\ncurves = [ { label = \"a\" } ]\n";
+      "[[graph]]\nshows = \"energy\"\ncurves = [ { label = \"a\" } ]\n"
+      "[[graph]]\nshows = \"values\"\naxis = \"v\"\nagainst = \"ball.y\"\nacross = \"y\"\n"
+      "curves = [ { label = \"a\", value = \"ball.vy\" } ]\n";
   const Folder folder;
   writeFile(folder / "ball.toml", ball + graph);
   const Scene scene = readScene(folder / "ball.toml", {"world.method=" + method});
@@ -346,6 +348,13 @@ position = [0, 1, 0]
   CHECK(before->y() == Approx(kGravity).epsilon(1e-12));
   CHECK((before + 1)->x() == Approx(hit).margin(1e-9));
   CHECK((before + 1)->y() == Approx(kGravity * (0.12 + 0.25 * 0.88)).epsilon(1e-9));
+  // In the plane of place and velocity the ball turns at the floor, from 2gh to half of it.
+  const auto phase = curveOf(2);
+  const auto struck = std::find_if(phase.begin(), phase.end(),
+                                   [](const auto& point) { return point.x() < 0.12 + 1e-9; });
+  REQUIRE(struck != phase.end());
+  CHECK(struck->y() == Approx(-kGravity * hit).epsilon(1e-9));
+  CHECK((struck + 1)->y() == Approx(0.5 * kGravity * hit).epsilon(1e-9));
 }
 
 TEST_CASE("heights of less than ten centimetres are drawn in millimetres") {
