@@ -30,9 +30,14 @@ std::string csvHeader() {
   return header + "cpu_seconds,stopped,claims,claims_failed,worst_claim,worst_error_share\n";
 }
 
+// A value stands bare where it can, as numbers do; lists and texts with commas are quoted.
+std::string csvValue(const std::string& text) {
+  return text.find_first_of(",\"\n") == std::string::npos ? text : csvQuoted(text);
+}
+
 std::string csvRow(const Sweep& sweep, std::size_t k, const Recording& recording,
                    const Verdict& verdict) {
-  std::string row = fmt::format("{},{},", sweep.parameter, csvQuoted(sweep.values[k]));
+  std::string row = fmt::format("{},{},", sweep.parameter, csvValue(sweep.values[k]));
   const Report& report = recording.report;
   for (const auto& [key, number] : kCertificateFields) {
     if (const auto* count = std::get_if<long Certificate::*>(&number))
