@@ -61,7 +61,7 @@ Camera frame(std::span<const Eigen::Vector3d> points, double azimuth, double ele
   const double depth = std::min(limit, nearest - std::max(room, 0.05 * (farthest - nearest)));
   const double z = points.size() == 1 ? nearest - 1.0 : depth;
   const Eigen::Vector3d eye = right * across.middle(z) + up * upright.middle(z) + forward * z;
-  return {eye, eye + forward * (0.5 * (nearest + farthest) - z), fov};
+  return {eye, eye + forward * (0.5 * (nearest + farthest) - z), fov, azimuth};
 }
 
 Projection::Projection(const Camera& camera, double width, double height)
@@ -73,9 +73,11 @@ Projection::Projection(const Camera& camera, double width, double height)
   const double distance = sight.norm();
   if (!(distance > 0.0)) throw std::invalid_argument("the camera's eye and target are one point");
   forward_ = sight / distance;
-  // Straight up or down, the top of the image is −Z.
+  // Straight down, the top of an unturned image is −Z.
   const Eigen::Vector3d across = forward_.cross(Eigen::Vector3d::UnitY());
-  right_ = across.norm() > 1e-6 ? across.normalized().eval() : Eigen::Vector3d::UnitX().eval();
+  const double a = camera.azimuth * kDegree;
+  right_ = across.norm() > 1e-6 ? across.normalized().eval()
+                                : Eigen::Vector3d(std::cos(a), 0.0, -std::sin(a));
   up_ = right_.cross(forward_);
   near_ = 0.1 * distance;
   far_ = 6.0 * distance;

@@ -23,7 +23,7 @@ struct Margins {
 /// @param points     world points [m], at least one, such as the corners of the bounding box of a
 /// motion
 /// @param azimuth    [deg] of the eye about the vertical; 0 looks along −Z, 90 along −X
-/// @param elevation  [deg] of the eye above the horizon, in (−90, 90)
+/// @param elevation  [deg] of the eye above the horizon, in [−90, 90]
 /// @param fov        [deg] vertical, in (0, 180)
 /// @param aspect     width / height
 /// @throws std::invalid_argument without points, or if margins leave no room.

@@ -137,6 +137,8 @@ struct ColourBar {
 struct Camera {
   Eigen::Vector3d eye = {0.0, 2.0, 8.0}, target = {0.0, 1.0, 0.0};
   double fov = 24.0;  ///< [deg] vertical
+  /// [deg] of one that looks straight up or down: at 0 its right is +X, at 90 −Z
+  double azimuth = 0.0;
 };
 
 /// The floor y = height, drawn as a disc that fades into the page, with grid and rule.

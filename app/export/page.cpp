@@ -113,7 +113,8 @@ class Writer {
     json_["count"] = recording_.samples.size();
     json_["camera"] = {{"eye", list(picture.camera.eye)},
                        {"target", list(picture.camera.target)},
-                       {"fov", picture.camera.fov}};
+                       {"fov", picture.camera.fov},
+                       {"azimuth", picture.camera.azimuth}};
     json_["centre"] = list(picture.centre);
     json_["origin"] = list({picture.centre.x(), picture.floor.height, picture.centre.z()});
     json_["radius"] = brief(picture.radius);

@@ -58,7 +58,7 @@ CameraView readOneCamera(const Node& node, const std::string& key, Section& root
   section.read("eye", camera.eye, any("m"));
   section.read("target", camera.target, any("m"));
   section.read("azimuth", camera.azimuth, any("deg"));
-  section.read("elevation", camera.elevation, {-89.0, 89.0, false, "deg"});
+  section.read("elevation", camera.elevation, {-90.0, 90.0, false, "deg"});
   section.read("fov", camera.fov, kFov);
   if (camera.eye && camera.target) complainOfNoSight(section, *camera.eye, *camera.target);
   readKeys(section, camera);

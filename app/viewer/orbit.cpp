@@ -13,7 +13,8 @@ Orbit Orbit::of(const Camera& camera) {
   Orbit orbit;
   orbit.target = camera.target;
   orbit.distance = back.norm();
-  orbit.azimuth = std::atan2(back.x(), back.z());
+  const bool upright = std::hypot(back.x(), back.z()) <= 1e-6 * orbit.distance;
+  orbit.azimuth = upright ? camera.azimuth * pi / 180.0 : std::atan2(back.x(), back.z());
   orbit.elevation = std::asin(back.y() / orbit.distance);
   orbit.fov = camera.fov;
   return orbit;
@@ -22,7 +23,10 @@ Orbit Orbit::of(const Camera& camera) {
 Camera Orbit::camera() const {
   const Eigen::Vector3d back = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                 std::cos(elevation) * std::cos(azimuth)};
-  return {.eye = target + distance * back, .target = target, .fov = fov};
+  return {.eye = target + distance * back,
+          .target = target,
+          .fov = fov,
+          .azimuth = azimuth * 180.0 / pi};
 }
 
 void Orbit::turn(double dx, double dy, double height) {

@@ -196,7 +196,7 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
       {"[camera]\nfov = 171.0", "9:7",
        "camera.fov: expected a number [deg] in [1, 170], found 171"},
       {"[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]", "9:7", "camera.eye: stands where"},
-      {"[camera]\nelevation = 90", "9:13", "expected a number [deg] in [-89, 89]"},
+      {"[camera]\nelevation = 91", "9:13", "expected a number [deg] in [-90, 90]"},
       {"[image]\nsize = [15, 100]", "9:9", "expected a number [pixels] in [16, 8192], found 15"},
       {"[image]\nsize = [100, 16385]", "9:14", "found 16385"},
       {"[image]\nsize = [100.5, 100]", "9:8",

@@ -1,6 +1,10 @@
 // Framing: the nearest camera that shows every point.
 #include "render/camera.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -60,6 +64,21 @@ TEST_CASE("azimuth 0 looks along −Z, 90 along −X, and a positive elevation l
   CHECK((sight(0.0, 0.0) - Vector3d(0.0, 0.0, -1.0)).norm() < 1e-12);
   CHECK((sight(90.0, 0.0) - Vector3d(-1.0, 0.0, 0.0)).norm() < 1e-12);
   CHECK((sight(0.0, 30.0) - Vector3d(0.0, -0.5, -std::sqrt(0.75))).norm() < 1e-12);
+}
+
+// Oracle: by hand. On a map +X is to the right and −Z at the top, and the azimuth turns it.
+TEST_CASE("seen from straight above or below, the azimuth turns the picture") {
+  for (const double elevation : {90.0, -90.0}) {
+    for (const double azimuth : {0.0, 30.0, 90.0, 200.0}) {
+      const Camera camera = frame(kPoints, azimuth, elevation, 24.0, 1.5);
+      const Projection projection(camera, 1500, 1000);
+      const double a = azimuth * std::numbers::pi / 180.0;
+      CHECK((projection.right() - Vector3d(std::cos(a), 0.0, -std::sin(a))).norm() < 1e-12);
+      CHECK(std::abs(projection.forward().y()) == Approx(1.0).epsilon(1e-12));
+      const Shares free = freeShares(camera, 1.5);
+      CHECK(std::min({free.left, free.right, free.top, free.bottom}) > 0.06 - 1e-9);
+    }
+  }
 }
 
 // Oracle: the pinhole, by hand: 0.2 of half a height per metre at ten metres.
