@@ -39,8 +39,8 @@ void readKeys(Section& section, CameraView& camera) {
   for (const char* other : {"eye", "target", "follow"})
     if (section.find(other))
       section.complain(other, "a camera with `keys` goes where these say; keep one");
-  if (tables.size() < 2 || tables.size() > kMostKeys)
-    return section.complain("keys", "expected 2 to 1000 tables { at, eye, target }");
+  if (tables.size() > kMostKeys)
+    return section.complain("keys", "expected 1 to 1000 tables { at, eye, target }");
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const std::string key = section.path("keys") + "." + std::to_string(i);
     camera.keys.push_back(readKey(tables[i], key, camera.fov, section.findings()));

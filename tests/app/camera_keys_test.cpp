@@ -60,9 +60,17 @@ keys = [ { at = 0.5, eye = [0, 1, 8], target = [0, 1, 0] },
   CHECK(presenter.image(0).camera.eye == Vec3(0, 1, 8));
 }
 
+TEST_CASE("a camera with one key stands there, and its strobe shows the whole motion") {
+  const Scene scene = parseScene(
+      kFall + "[camera]\nkeys = [ { at = 0, eye = [0, 1, 1], target = [0, 1, 0] } ]\n", "still");
+  const Recording recording = record(scene, 60.0);
+  const Presenter presenter(scene, recording);
+  CHECK(presenter.image(0).camera.eye == Vec3(0, 1, 1));
+  CHECK(presenter.image(60).camera.eye == Vec3(0, 1, 1));
+  CHECK(presenter.strobe().camera.eye != Vec3(0, 1, 1));
+}
+
 TEST_CASE("keys of a camera that make no sense are refused with their place") {
-  CHECK(complaint(kFall + "[camera]\nkeys = [ { at = 0, eye = [0, 1, 8], target = [0, 1, 0] } ]\n")
-            .find("camera.keys: expected 2 to 1000 tables") != std::string::npos);
   CHECK(complaint(kFall + "[camera]\nkeys = [ { at = 1, eye = [0, 1, 8], target = [0, 1, 0] }, "
                           "{ at = 1, eye = [0, 1, 9], target = [0, 1, 0] } ]\n")
             .find("not after the key before it") != std::string::npos);
