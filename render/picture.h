@@ -148,6 +148,9 @@ struct Floor {
   double grid = 1.0, fineGrid = 0.2;  ///< [m]
   bool rule = true;                   ///< a measured line with numbers in front of the motion
   Eigen::AlignedBox3d motion = {};    ///< [m] that the rule measures; empty: the bodies
+  /// Where something is written in some image of the run, for the rule to make room in all of them.
+  std::vector<Label> labels = {};
+  std::vector<Mark> marks = {};
 };
 
 struct Picture {

@@ -91,9 +91,9 @@ Ticks ticksAt(const Rail& rail, double gap, const Picture& picture, const Projec
 }
 
 /// Where the labels of points stand, about.
-void addLabelBoxes(const Picture& picture, const Projection& projection, Canvas& canvas,
+void addLabelBoxes(const std::vector<Label>& labels, const Projection& projection, Canvas& canvas,
                    Boxes& boxes) {
-  for (const Label& label : picture.labels) {
+  for (const Label& label : labels) {
     if (!label.anchor) continue;
     const auto place = projection.project(*label.anchor);
     if (!place) continue;
@@ -108,12 +108,14 @@ void addLabelBoxes(const Picture& picture, const Projection& projection, Canvas&
   }
 }
 
-/// Where else on the image something is written: marks, labels, colour bar, titles.
+/// Where else something is written on the image, or on any of its run: marks, labels, colour bar,
+/// titles.
 Boxes writtenBoxes(const Picture& picture, const Projection& projection, Canvas& canvas) {
   Boxes boxes;
-  addLabelBoxes(picture, projection, canvas, boxes);
+  const bool run = !picture.floor.motion.isEmpty();
+  addLabelBoxes(run ? picture.floor.labels : picture.labels, projection, canvas, boxes);
   const Vector2d corner(canvas.width(), canvas.height());
-  for (const Mark& mark : picture.marks)
+  for (const Mark& mark : run ? picture.floor.marks : picture.marks)
     if (const auto place = projection.project(mark.position))
       boxes.emplace_back(
           place->head<2>() - Vector2d(52.0, 8.0),

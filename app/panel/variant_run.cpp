@@ -32,18 +32,15 @@ bool comparable(const VariantRun& runA, const VariantRun& runB) {
 
 // The camera that sees the motion of every run that can be compared with this one.
 Framing sharedFraming(const std::deque<VariantRun>& runs, const VariantRun& run) {
-  std::vector<Eigen::Vector3d> points;
-  double fastest = 0.0, strained = 0.0;
+  std::vector<SeenRun> seen;
+  double strained = 0.0;
   for (const VariantRun& other : runs) {
     if (!comparable(run, other)) continue;
-    for (const Eigen::Vector3d& point : motionPoints(other.scene, other.recording))
-      points.push_back(point);
-    fastest = std::max(fastest, fastestOf(other.scene, other.recording));
+    seen.push_back({other.scene, other.recording});
     if (other.scene.show.strain)
       strained = std::max(strained, usualStrain(other.scene, other.recording));
   }
-  Framing framing = framingOf(run.scene, points);
-  framing.fastest = fastest;
+  Framing framing = framingOf(run.scene, seen);
   framing.strained = strained;
   return framing;
 }

@@ -3,11 +3,40 @@
 #include <algorithm>
 
 #include "app/claim/free_body.h"
+#include "app/present/bodies.h"
+#include "app/present/joints.h"
 #include "app/present/named.h"
 #include "app/present/palette.h"
 #include "sim/math/frames.h"
 
 namespace tumble {
+
+ArrowScale arrowScale(const Scene& scene, const Recording& recording, double fastest,
+                      double radius) {
+  constexpr double kLargest = 0.6;  // of the radius
+  return {std::min(typicalHeight(scene), kLargest * radius), fastest,
+          largestContactForce(recording), largestJointForce(recording)};
+}
+
+void addArrows(const Scene& scene, const Sample& sample, const ArrowScale& scale,
+               Picture& picture) {
+  const ShowFlags& show = scene.show;
+  const double length = 0.88 * scale.longest;
+  // Contacts and joints that are shown together have one scale.
+  const double largest =
+      std::max(show.contact_forces ? scale.contact : 0.0, show.joint_forces ? scale.joint : 0.0);
+  const double metresPerNewton = show.force_scale > 0.0 ? show.force_scale
+                                 : largest > 0.0        ? length / largest
+                                                        : 1.0;
+  if (show.joint_forces)
+    addJointForces(scene, sample, metresPerNewton, picture);
+  else if (show.contact_forces)
+    addContactForces(sample, scale.contact, metresPerNewton * scale.contact, picture);
+  if (show.normals) addNormals(sample, length, picture);
+  if (show.velocities) addVelocities(scene, sample, scale.fastest, 2.0 * scale.longest, picture);
+  if (show.forces)
+    addForces(scene, sample, scale.longest, picture, show.force_scale, show.resultant);
+}
 
 double largestContactForce(const Recording& recording) {
   std::vector<double> forces;

@@ -2,10 +2,28 @@
 // side.
 #pragma once
 
+#include <span>
+
 #include "app/record/recording.h"
 #include "render/picture.h"
 
 namespace tumble {
+
+/// How long arrows are, the same in all pictures of a run.
+struct ArrowScale {
+  double longest = 1.0;  ///< [m] of a force of the scene
+  double fastest = 1.0;  ///< [m/s] of the longest velocity, twice as long
+  double contact = 1.0;  ///< [N] of the longest contact force
+  double joint = 0.0;    ///< [N] the largest that a joint exerts
+};
+
+/// About as long as bodies are high, but no longer than a share of the motion's radius [m]: arrows
+/// as large as a picture would make bodies small.
+ArrowScale arrowScale(const Scene& scene, const Recording& recording, double fastest,
+                      double radius);
+
+/// All that the scene's `show` asks for of the following, and what joints exert.
+void addArrows(const Scene& scene, const Sample& sample, const ArrowScale& scale, Picture& picture);
 
 /// The force [N] whose arrow is longest: nearly the largest of the run, impacts that are rare left
 /// out.
@@ -31,8 +49,11 @@ void addForces(const Scene& scene, const Sample& sample, double length, Picture&
 /// A bar for each pair of bodies that touch in the tallest group of touching bodies: the sum of the
 /// pair's contact forces in newtons, as long as it is large, level with the contact.
 /// The picture's camera decides where on a page of that many pixels; rows that do not fit are left
-/// out, evenly.
+/// out, evenly. Bars stand to the right of the ways of other bodies [m] that would cross them.
 void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,
-                    Picture& picture);
+                    std::span<const Eigen::AlignedBox3d> ways, Picture& picture);
+
+/// Whether a ladder stands in any picture of the run.
+bool hasForceLadder(const Scene& scene, const Recording& recording);
 
 }  // namespace tumble

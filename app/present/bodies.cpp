@@ -134,7 +134,8 @@ std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& r
   Aabb motion{Vec3::Zero(), Vec3::Zero()};
   if (!points.empty()) motion = {points[0], points[0]};
   for (const Eigen::Vector3d& p : points) motion = {motion.lo.cwiseMin(p), motion.hi.cwiseMax(p)};
-  const double size = (motion.hi - motion.lo).norm();
+  constexpr double kLargest = 2.0;  // of the motion, as long as what stands is seen with it
+  const double size = kLargest * (motion.hi - motion.lo).norm();
   for (const BodyDef& body : bodies) {
     if (moves(body) || std::holds_alternative<HalfSpace>(body.shape)) continue;
     if (points.empty() || 2.0 * boundingRadius(body.shape) <= size)

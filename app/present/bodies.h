@@ -33,8 +33,8 @@ int movingCount(const Scene& scene);
 /// Median height [m] of the moving bodies at the start, along Y; 1 without any.
 double typicalHeight(const Scene& scene);
 
-/// Corners of the boxes around every moving body in every sample, and around fixed bodies no larger
-/// than the motion. World frame [m].
+/// Corners of the boxes around every moving body in every sample, and around fixed bodies at most
+/// twice as long as the motion. World frame [m].
 std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording);
 
 /// Corners of a box around one body at the start, with room about it for what it does and meets,

@@ -89,6 +89,7 @@ std::vector<Rung> rungsOf(const std::vector<Level>& levels, const Projection& pr
 constexpr double kSpacing = 20.0, kLength = 220.0, kShortest = 90.0;  // [px] of rows and bars
 constexpr double kGap = 0.1015625;  // of the page, between the bodies and the bars
 constexpr double kText = 80.0, kTop = 90.0, kBottom = 40.0, kEdge = 16.0;  // [px] left free
+constexpr double kCaption = 44.0;  // [px] from the first row up
 
 // Every second, fifth, tenth … level from below, so that rows fit on a page of that height. Returns
 // which.
@@ -115,6 +116,33 @@ std::vector<double> rowsOf(const std::vector<Rung>& rungs, double height) {
   return rows;
 }
 
+// Where bars that would stand at the left of a place begin, so that they stand on the way of no
+// body but those of their own levels.
+double besideOthers(const std::vector<Level>& levels, std::span<const Eigen::AlignedBox3d> ways,
+                    const Projection& projection, Eigen::AlignedBox2d bars) {
+  std::vector<Eigen::AlignedBox2d> others;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const auto own = [&](const Level& level) {
+      return level.a == static_cast<int>(i) || level.b == static_cast<int>(i);
+    };
+    if (ways[i].isEmpty() || std::any_of(levels.begin(), levels.end(), own)) continue;
+    Eigen::AlignedBox2d& way = others.emplace_back();
+    for (int corner = 0; corner < 8; ++corner)
+      if (const auto place = projection.project(
+              ways[i].corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))))
+        way.extend(place->head<2>());
+  }
+  std::sort(others.begin(), others.end(),
+            [](const auto& a, const auto& b) { return a.min().x() < b.min().x(); });
+  const double wide = kShortest + kText;
+  for (const Eigen::AlignedBox2d& way : others) {
+    const Eigen::AlignedBox2d least(bars.min(),
+                                    Eigen::Vector2d(bars.min().x() + wide, bars.max().y()));
+    if (way.intersects(least)) bars.min().x() = way.max().x() + kEdge;
+  }
+  return bars.min().x();
+}
+
 void addCaption(double x, double y, int every, double width, Picture& picture) {
   Label caption;
   caption.text = every == 1 ? "sum over the points of a level"
@@ -129,10 +157,18 @@ void addCaption(double x, double y, int every, double width, Picture& picture) {
 
 }  // namespace
 
+bool hasForceLadder(const Scene& scene, const Recording& recording) {
+  if (!scene.show.contact_forces || scene.show.joint_forces || !scene.show.ladder) return false;
+  return std::any_of(recording.samples.begin(), recording.samples.end(), [&](const Sample& sample) {
+    return tallestGroup(scene, levelsOf(sample)).size() > 1;
+  });
+}
+
 void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,
-                    Picture& picture) {
+                    std::span<const Eigen::AlignedBox3d> ways, Picture& picture) {
   const Projection projection(picture.camera, page.x(), page.y());
-  std::vector<Rung> rungs = rungsOf(tallestGroup(scene, levelsOf(sample)), projection);
+  const std::vector<Level> levels = tallestGroup(scene, levelsOf(sample));
+  std::vector<Rung> rungs = rungsOf(levels, projection);
   std::erase_if(rungs, [&](const Rung& rung) {
     return rung.place.x() < 0.0 || rung.place.x() > page.x() || rung.place.y() < kTop / 2 ||
            rung.place.y() > page.y();
@@ -146,16 +182,18 @@ void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vecto
     right = std::max(right, rung.place.x());
   }
   const double end = page.x() - kEdge - kText;
-  const double x = std::min(right + kGap * page.x(), end - kShortest);
-  const double length = std::min(kLength, end - x);
   const std::vector<double> rows = rowsOf(rungs, page.y());
+  const Eigen::AlignedBox2d bars(Eigen::Vector2d(right + kGap * page.x(), rows.front() - kCaption),
+                                 Eigen::Vector2d(end, rows.back()));
+  const double x = std::min(besideOthers(levels, ways, projection, bars), end - kShortest);
+  const double length = std::min(kLength, end - x);
   for (std::size_t k = 0; k < rungs.size(); ++k)
     picture.pageBars.push_back({rungs[k].leader,
                                 {x, rows[k]},
                                 length * rungs[k].force / largest,
                                 fourDigits(rungs[k].force) + " N",
                                 colour::kForce});
-  addCaption(x, std::max(rows.front() - 44.0, 20.0), every, page.x(), picture);
+  addCaption(x, std::max(rows.front() - kCaption, 20.0), every, page.x(), picture);
 }
 
 }  // namespace tumble

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/claim/free_body.h"
-#include "app/present/arrows.h"
 #include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/boxes.h"
@@ -58,63 +57,8 @@ std::vector<bool> turning(const Recording& recording) {
 
 }  // namespace
 
-double aspectOf(const Scene& scene) {
-  return static_cast<double>(scene.image.width) / static_cast<double>(scene.image.height);
-}
-
-double titleHeight(const Scene& scene) {
-  if (!scene.show.title) return 0.0;
-  return scene.expects.empty()
-             ? 80.0
-             : kExpectTop + kExpectLine * static_cast<double>(scene.expects.size() - 1) + 10.0;
-}
-
-Margins marginsOf(const Scene& scene) {
-  bool named = false;
-  for (int i = 0; i < static_cast<int>(scene.world.bodies.size()); ++i)
-    named = named || !labelOf(scene, i).empty();
-  Margins margins{.left = 0.06, .right = named ? 0.10 : 0.06, .top = 0.14, .bottom = 0.14};
-  if (scene.show.joint_forces)
-    margins = {.left = 0.13, .right = 0.06, .top = 0.24, .bottom = 0.12};
-  else if (scene.show.contact_forces)
-    margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
-  if (scene.show.tensors) margins.right = 0.32;
-  if (scene.show.gel > 0.0) margins.bottom = 0.26;
-  margins.top = std::max(margins.top, titleHeight(scene) / 720.0);
-  margins.bottom += diagramShare(scene, {720.0 * aspectOf(scene), 720.0});
-  return margins;
-}
-
-double fastestOf(const Scene& scene, const Recording& recording) {
-  double fastest = 0.0;
-  for (const Sample& sample : recording.samples)
-    for (std::size_t i = 0; i < sample.bodies.size(); ++i)
-      if (moves(scene.world.bodies[i])) fastest = std::max(fastest, sample.bodies[i].v.norm());
-  return fastest > 0.0 ? fastest : 1.0;
-}
-
-Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points) {
-  const CameraView& view = scene.camera;
-  Framing framing;
-  framing.camera =
-      frame(points, view.azimuth, view.elevation, view.fov, aspectOf(scene), marginsOf(scene));
-  if (view.eye) framing.camera.eye = *view.eye;
-  if (view.target) framing.camera.target = *view.target;
-  Eigen::Vector3d low = points.front(), high = points.front();
-  for (const Eigen::Vector3d& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  framing.centre = 0.5 * (low + high);
-  framing.radius = 0.5 * (high - low).norm();
-  framing.page.x() = aspectOf(scene) * framing.page.y();
-  return framing;
-}
-
 Presenter::Presenter(const Scene& scene, const Recording& recording)
-    : Presenter(scene, recording, framingOf(scene, motionPoints(scene, recording))) {
-  alone_ = true;
-}
+    : Presenter(scene, recording, framingOf(scene, {{SeenRun{scene, recording}}})) {}
 
 Presenter::Presenter(const Scene& scene, const Recording& recording, const Framing& framing)
     : scene_(scene),
@@ -128,7 +72,9 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
   if (scene.show.strain)
     strained_ = framing.strained > 0.0 ? framing.strained : usualStrain(scene, recording);
   expectations_ = expectationsOf(scene, recording);
-  extent_ = extent();
+  arrows_ = arrowScale(scene, recording, fastest_, framing.radius);
+  measureWays();
+  gatherWords();
   follow();
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
@@ -139,16 +85,29 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
 }
 
 // Where what is drawn is in the course of the run: one measure for all its pictures.
-Eigen::AlignedBox3d Presenter::extent() const {
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < scene_.world.bodies.size(); ++i) {
+void Presenter::measureWays() {
+  ways_.resize(scene_.world.bodies.size());
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
     const BodyDef& def = scene_.world.bodies[i];
     if (isFloor(def) || hides(def, framing_.camera.eye)) continue;
     const double reach = inSurface_[i] ? 0.0 : reachOf(body(recording_.samples.front(), i));
     for (const Sample& sample : recording_.samples)
-      box.extend(boxAround(sample.bodies[i].x, std::min(reach, framing_.radius)));
+      ways_[i].extend(boxAround(sample.bodies[i].x, std::min(reach, framing_.radius)));
+    extent_.extend(ways_[i]);
   }
-  return box;
+}
+
+// What the ruler makes room for: were it what an image says, the ruler would jump in a film.
+void Presenter::gatherWords() {
+  if (!scene_.show.ruler) return;
+  words_.camera = framing_.camera;
+  for (const int k : {0, count() / 2, count() - 1}) {
+    const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
+    addLabels(scene_, sample, words_);
+    addTexts(scene_, sample, words_);
+    words_.marks.clear();  // the last has them all
+    addAnnotations(sample, words_);
+  }
 }
 
 // The camera that follows a body keeps the distance that shows the room about it.
@@ -227,6 +186,8 @@ Picture Presenter::blank(const Framing& framing) const {
   picture.floor.visible = false;
   picture.floor.rule = scene_.show.ruler;
   picture.floor.motion = extent_;
+  picture.floor.labels = words_.labels;
+  picture.floor.marks = words_.marks;
   for (const BodyDef& body : scene_.world.bodies) {
     if (!scene_.show.floor || !isFloor(body) || picture.floor.visible) continue;
     if (scene_.show.gel > 0.0) {
@@ -316,9 +277,9 @@ void Presenter::addExpectations(Picture& picture) const {
 }
 
 Polyline Presenter::expectedLine(const Expectation& one) const {
-  const Vec3 sight = framing_.camera.target - framing_.camera.eye;
-  const Vec3 along =
-      one.axis == 1 ? Vec3(sight.cross(Vec3::UnitY()).normalized()) : Vec3(Vec3::UnitY());
+  const Vec3 along = one.axis == 1
+                         ? Projection(framing_.camera, framing_.page.x(), framing_.page.y()).right()
+                         : Vec3(Vec3::UnitY());
   const Vec3 half = 0.15 * framing_.radius * along;
   Polyline line;
   line.points = {*one.place - half, *one.place + half};
@@ -337,26 +298,11 @@ void Presenter::addTheory(Picture& picture) const {
   }
 }
 
-// [m/N] of arrows of forces: the scene's own, or such that the largest is as long as that.
-double Presenter::forceScale(double length) const {
-  if (scene_.show.force_scale > 0.0) return scene_.show.force_scale;
-  double largest = largestJointForce(recording_);
-  if (scene_.show.contact_forces) largest = std::max(largest, largestContactForce(recording_));
-  return largest > 0.0 ? length / largest : 1.0;
-}
-
 void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   const ShowFlags& show = scene_.show;
-  const double height = typicalHeight(scene_);
-  const double length = 0.88 * height;
-  if (show.joint_forces) {
-    addJointForces(scene_, sample, forceScale(length), picture);
-  } else if (show.contact_forces) {
-    const double largest = largestContactForce(recording_);
-    const double longest = show.force_scale > 0.0 ? show.force_scale * largest : length;
-    addContactForces(sample, largest, longest, picture);
-    if (show.ladder) addForceLadder(scene_, sample, framing_.page, picture);
-  }
+  addArrows(scene_, sample, arrows_, picture);
+  if (show.contact_forces && show.ladder && !show.joint_forces)
+    addForceLadder(scene_, sample, framing_.page, ways_, picture);
   if (show.matrix) addContactMatrix(scene_, sample, framing_.page, picture);
   if (show.either_or) addEitherOr(scene_, recording_, sample, framing_.page, picture);
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);
@@ -366,9 +312,6 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.ellipsoid) addInertiaEllipsoids(scene_, sample, picture);
   if (show.polhode) addPolhodes(scene_, recording_, sample, picture);
   if (show.momenta) addMomenta(scene_, recording_, sample, picture);
-  if (show.normals) addNormals(sample, length, picture);
-  if (show.velocities) addVelocities(scene_, sample, fastest_, 2.0 * height, picture);
-  if (show.forces) addForces(scene_, sample, height, picture, show.force_scale, show.resultant);
   if (show.missteps) addMissteps(scene_, recording_, sample.t, picture);
   addLessons(sample, picture);
   if (show.impacts) addImpacts(recording_, sample.t, aspectOf(scene_), picture);

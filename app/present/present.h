@@ -8,36 +8,12 @@
 
 #include "app/claim/claim.h"
 #include "app/claim/expect.h"
+#include "app/present/arrows.h"
+#include "app/present/framing.h"
 #include "app/record/recording.h"
-#include "render/camera.h"
 #include "render/picture.h"
 
 namespace tumble {
-
-/// What is to be seen, and from where.
-struct Framing {
-  Camera camera;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
-  double radius = 1.0;                               ///< [m] of all motion about the centre
-  Eigen::Vector2d page = {1280.0, 720.0};            ///< [px] that text and flat shapes stand on
-  double floor = 0.0;     ///< [m] that the grid of the floor is made for; 0: the radius
-  double strained = 0.0;  ///< of the last colour; 0: of the run
-  double fastest = 0.0;   ///< [m/s] of the longest velocity and the last colour; 0: of the run
-};
-
-/// The largest speed [m/s] of the run; 1 if nothing moves.
-double fastestOf(const Scene& scene, const Recording& recording);
-
-/// Width over height of the scene's images.
-double aspectOf(const Scene& scene);
-/// Room for the title above, and for what stands beside and below the bodies.
-Margins marginsOf(const Scene& scene);
-
-/// What title, subtitle and the lines of [[expect]] take from the top of a page 720 px high [px].
-double titleHeight(const Scene& scene);
-
-/// The scene's own camera, or one that the points of the motion fill.
-Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points);
 
 /// Draws one recording; all its pictures share camera, colours and the scale of the arrows.
 /// The scene and the recording must outlive it.
@@ -64,10 +40,10 @@ class Presenter {
 
  private:
   Picture blank(const Framing& framing) const;
-  Eigen::AlignedBox3d extent() const;
+  void measureWays();
+  void gatherWords();
   void follow();
   Framing framingAt(const Sample& sample) const;
-  Framing framingOfStrobe() const;
   std::vector<std::size_t> ghosts() const;
   void addExpectations(Picture& picture) const;
   Polyline expectedLine(const Expectation& one) const;
@@ -76,7 +52,6 @@ class Presenter {
   void addBodies(const Sample& sample, bool byTime, int layer, Picture& picture) const;
   void addGhosts(bool byTime, Picture& picture) const;
   Colour colourOf(const Sample& sample, std::size_t i) const;
-  double forceScale(double length) const;
   void addTheory(Picture& picture) const;
   void addAnnotations(const Sample& sample, Picture& picture) const;
   void addLessons(const Sample& sample, Picture& picture) const;
@@ -90,12 +65,14 @@ class Presenter {
   std::vector<Curve> theory_;
   std::vector<Expectation> expectations_;
   Framing framing_;
-  Eigen::AlignedBox3d extent_;   ///< [m] of bodies in the run
-  bool alone_ = false;           ///< framed for this run alone
-  std::optional<int> followed_;  ///< the body that stays where it is on the image
-  Framing following_;            ///< of it at the start
-  double strained_ = 0.0;        ///< of the last colour, if what bends is coloured by strain
-  double fastest_ = 1.0;  ///< [m/s] speed of the last colour, if bodies are coloured by speed
+  std::vector<Eigen::AlignedBox3d> ways_;  ///< [m] per body: where it comes in the run
+  Eigen::AlignedBox3d extent_;             ///< [m] of all that are drawn
+  Picture words_;                          ///< labels and marks of its start, middle and end
+  std::optional<int> followed_;            ///< the body that stays where it is on the image
+  Framing following_;                      ///< of it at the start
+  double strained_ = 0.0;  ///< of the last colour, if what bends is coloured by strain
+  double fastest_ = 1.0;   ///< [m/s] speed of the last colour, if bodies are coloured by speed
+  ArrowScale arrows_;
 };
 
 /// Takes off what is too small to read, or said by the page, when a picture becomes a panel of a

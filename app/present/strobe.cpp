@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/claim/free_body.h"
-#include "app/present/arrows.h"
 #include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/joints.h"
@@ -20,7 +18,7 @@ namespace tumble {
 
 Picture Presenter::strobe() const {
   const Sample& last = recording_.samples.back();
-  Picture picture = blank(framingOfStrobe());
+  Picture picture = blank(framing_);
   const bool byTime =
       movingCount(scene_) == 1 && !anyBack(scene_) && !scene_.show.speed && strained_ == 0.0;
   addGhosts(byTime, picture);
@@ -55,31 +53,6 @@ std::vector<std::size_t> Presenter::ghosts() const {
   return shown;
 }
 
-// A camera that the scene places may see too little of where bodies were: then it steps back.
-Framing Presenter::framingOfStrobe() const {
-  const double title = titleHeight(scene_);
-  const CameraView& view = scene_.camera;
-  if (!alone_ || !view.eye || !view.target) return framing_;
-  Recording seen;
-  for (const std::size_t k : ghosts()) seen.samples.push_back(recording_.samples[k]);
-  seen.samples.push_back(recording_.samples.back());
-  const std::vector<Eigen::Vector3d> points = motionPoints(scene_, seen);
-  const Projection projection(framing_.camera, framing_.page.x(), framing_.page.y());
-  const auto shown = [&](const Eigen::Vector3d& point) {
-    const std::optional<Eigen::Vector3d> place = projection.project(point);
-    return place && place->x() > 0.0 && place->x() < framing_.page.x() && place->y() > title &&
-           place->y() < framing_.page.y();
-  };
-  if (std::all_of(points.begin(), points.end(), shown)) return framing_;
-  const Vec3 sight = *view.eye - *view.target;
-  const double degrees = 180.0 / std::numbers::pi;
-  Framing framing = framing_;
-  framing.camera = frame(points, degrees * std::atan2(sight.x(), sight.z()),
-                         degrees * std::asin(sight.y() / sight.norm()), view.fov, aspectOf(scene_),
-                         marginsOf(scene_));
-  return framing;
-}
-
 // Bodies are coloured by time, or keep their colours; all are paler the longer ago, and behind what
 // came later.
 void Presenter::addGhosts(bool byTime, Picture& picture) const {
@@ -110,7 +83,7 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
       surface.alpha = static_cast<float>(0.22 + 0.48 * u);
       picture.instances.push_back(std::move(surface));
     }
-    if (scene_.show.forces && n % 5 == 0) addForces(scene_, sample, typicalHeight(scene_), picture);
+    if (scene_.show.forces && n % 5 == 0) addForces(scene_, sample, arrows_.longest, picture);
   }
   if (!byTime) return;
   ColourBar bar{"time / s", {timeStops().begin(), timeStops().end()}, 0.0, end, {}};

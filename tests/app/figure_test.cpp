@@ -97,6 +97,21 @@ TEST_CASE("the ruler measures where bodies come in the run, in every picture of 
     CHECK(picture.floor.motion.isApprox(whole, 0.0));
 }
 
+// Oracle: symmetry. In a film the words of bodies that move must not push the ruler about.
+TEST_CASE("the ruler makes room for the same words in every picture of a run") {
+  const Scene scene = parseScene(kDrop + "[show]\nlabels = true\nimpacts = true\n", "drop");
+  const Recording recording = record(scene, 60.0);
+  const Presenter presenter(scene, recording);
+  const Picture start = presenter.image(0);
+  REQUIRE(!start.floor.labels.empty());
+  for (const Picture& other : {presenter.image(30), presenter.image(90), presenter.strobe()}) {
+    REQUIRE(other.floor.labels.size() == start.floor.labels.size());
+    for (std::size_t i = 0; i < start.floor.labels.size(); ++i)
+      CHECK(*other.floor.labels[i].anchor == *start.floor.labels[i].anchor);
+    CHECK(other.floor.marks.size() == start.floor.marks.size());
+  }
+}
+
 TEST_CASE("a slab of gel stands in place of the floor, with its top at the floor's height") {
   const Scene scene = parseScene(kDrop + "[show]\ngel = 0.5\n", "drop");
   const Recording recording = record(scene, 60.0);

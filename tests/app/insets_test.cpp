@@ -117,7 +117,7 @@ TEST_CASE("the ladder of a tall tower fits on every page") {
        {Eigen::Vector2d(1280.0, 720.0), {800.0, 450.0}, {800.0, 600.0}, {480.0, 270.0}}) {
     Picture picture;
     picture.camera = {.eye = {5.0, 30.0, 200.0}, .target = {5.0, 25.0, 0.0}, .fov = 24.0};
-    addForceLadder(scene, recording.samples.front(), page, picture);
+    addForceLadder(scene, recording.samples.front(), page, {}, picture);
     REQUIRE(picture.pageBars.size() >= 4);
     CHECK(picture.pageBars.back().text == "981.0 N");
     double above = -1e9;
