@@ -15,6 +15,9 @@ namespace tumble {
 
 namespace {
 
+/// P lies along v: drawn together they have to differ.
+constexpr Colour kMomentum = hex(0x1F7A6E);
+
 constexpr double kAbove = 1.004;   // lines lie a little above their surface
 constexpr int kCurvePoints = 120;  // of a closed curve
 
@@ -160,8 +163,7 @@ void addMomenta(const Scene& scene, const Recording& recording, const Sample& sa
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!moves(bodies[i])) continue;
     const BodySample& body = sample.bodies[i];
-    addNamedArrow(body.x, share(P) * massOf(bodies[i]).mass * body.v, colour::kVelocity, "P",
-                  picture);
+    addNamedArrow(body.x, share(P) * massOf(bodies[i]).mass * body.v, kMomentum, "P", picture);
     addNamedArrow(body.x, share(L) * angular(sample, i), colour::kInk, "L", picture);
     // L and ω may point the same way.
     addNamedArrow(body.x, share(omega) * body.omega, colour::kAngular, "ω", picture, true);

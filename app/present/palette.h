@@ -17,7 +17,7 @@ constexpr Colour hex(unsigned rgb) {
 
 namespace colour {
 inline constexpr Colour kForce = hex(0xD5401A);     ///< forces and theory
-inline constexpr Colour kVelocity = hex(0x0A63B0);  ///< velocities and momenta
+inline constexpr Colour kVelocity = hex(0x0A63B0);  ///< velocities
 inline constexpr Colour kInk = hex(0x2B2F36);       ///< normals, paths, text
 inline constexpr Colour kQuiet = hex(0x5C636E);     ///< secondary text
 inline constexpr Colour kAngular = hex(0xB15FD6);   ///< angular velocities and momenta

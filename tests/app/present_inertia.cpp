@@ -112,6 +112,7 @@ TEST_CASE("momenta are drawn along, each kind as long as it is large") {
   const Picture first = run.image(0), later = run.image(130);
   // Book: P, L and ω; the ball does not spin.
   REQUIRE(first.arrows.size() == 4);
+  CHECK(first.arrows[0].colour != colour::kVelocity);
   const auto along = [](const Arrow& arrow) -> Vec3 { return arrow.tip - arrow.base; };
   CHECK(along(first.arrows[0]).normalized().x() == Approx(1.0));
   CHECK(along(first.arrows[3]).normalized().z() == Approx(1.0));
