@@ -224,10 +224,13 @@ void Bodies::drawMasks() {
   }
 }
 
+// Of closed surfaces what faces the light shades all that is behind it. The map is a mirror image.
 void Bodies::drawFromLight() const {
-  draw(kLightUse, kSolid);
-  draw(kLightUse, kSunk);
-  draw(kLightUse, kUnseen);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);
+  for (const Group group : {kSolid, kSunk, kUnseen}) draw(kLightUse, group);
+  glCullFace(GL_BACK);
+  glDisable(GL_CULL_FACE);
 }
 
 void Bodies::drawFromAbove() const {
