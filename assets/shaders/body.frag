@@ -114,6 +114,14 @@ float kept(Surface s) {
 #endif
 }
 
+// Solid balls are as deep as their surface, so that they reach through what stands in their outline.
+#if defined(SOLID) && defined(BALL)
+flat in vec4 depthRow, weightRow;
+void setDepth(vec3 point) {
+  gl_FragDepth = 0.5 + 0.5 * dot(depthRow, vec4(point, 1.0)) / dot(weightRow, vec4(point, 1.0));
+}
+#endif
+
 void main() {
 #if defined(BOX)
   Surface s = boxSurface();
@@ -125,6 +133,9 @@ void main() {
   Surface s = facetSurface();
 #else
   Surface s = cylinderSurface();
+#endif
+#if defined(SOLID) && defined(BALL)
+  setDepth(s.point);
 #endif
   float share = kept(s);
   if (share == 0.0) discard;

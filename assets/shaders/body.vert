@@ -16,6 +16,9 @@ layout(location = 8) in vec3 cornerToEdge;
 out vec3 smoothNormal, toEdge;
 flat out float thickness;
 #endif
+#if defined(SOLID) && defined(BALL)
+flat out vec4 depthRow, weightRow;  // of viewProjection
+#endif
 uniform float opacity;            // of the whole pass
 uniform float keepAbove;          // 1 keeps what is above the floor, −1 what is below, 0 all
 
@@ -57,6 +60,11 @@ void main() {
 #endif
 #ifdef BALL
   worldPoint = ballCorner(centre, half_B.x);
+#ifdef SOLID
+  mat4 rows = transpose(viewProjection);
+  depthRow = rows[2];
+  weightRow = rows[3];
+#endif
   float rise = half_B.x * sqrt(max(0.0, 1.0 - dot(corner, corner)));
 #else
   worldPoint = centre + rotate(turn, bodyPoint);

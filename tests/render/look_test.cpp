@@ -67,6 +67,29 @@ TEST_CASE("a ball casts its shadow where the light says") {
   CHECK(ratio(foot + away * Vector3d(-towards.x(), 0.0, towards.z())) > 0.98);
 }
 
+// Oracle: geometry. The face of the slab stands 0.3 before the middle of a ball of radius 0.5:
+// within 0.4 of its middle the ball stands out of it.
+TEST_CASE("a ball reaches through a face that cuts it before its middle") {
+  Picture picture = stage();
+  picture.camera = {{0.0, 0.5, 12.0}, {0.0, 0.5, 0.0}, 20.0};
+  Instance slab = box({0.0, 0.5, 0.0}, Finish::Solid);
+  slab.colour = {0.9f, 0.9f, 0.9f};
+  Instance ball = slab;
+  ball.form = Form::Sphere;
+  ball.colour = {0.1f, 0.1f, 0.1f};
+  ball.banded = false;
+  ball.scale.setConstant(0.5);
+  slab.scale = {1.0, 1.0, 0.3};
+  picture.instances = {slab, ball};
+  const Image image = studio().draw(picture, kFull);
+  const auto dark = [&](double x) { return brightnessAt(image, picture, {x, 0.5, 0.3}) < 100.0; };
+  CHECK(dark(0.0));
+  CHECK(dark(0.37));
+  CHECK(dark(-0.37));
+  CHECK_FALSE(dark(0.43));
+  CHECK_FALSE(dark(-0.43));
+}
+
 TEST_CASE("a body shades the body behind it in the light, and a ghost does not") {
   Picture picture = stage();
   picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid)};
