@@ -30,14 +30,14 @@ bool Stepping::bend(double h) {
 void Stepping::begin(BendingPart& part, double h) {
   part.anew = part.fresh = true;
   setSide(part, state_.bodies, h);
-  if (!part.sweeps) factorBent(part);
+  if (!part.sweeps) factorBent(part, work_.crushed);
 }
 
-void Stepping::factorBent(BendingPart& part) {
+void Stepping::factorBent(BendingPart& part, std::string& crushed) const {
   if (freeMotion(part, state_.bodies)) return;
-  work_.crushed = "\"" + part.body->name +
-                  "\" left the range of numbers at t = " + shortNumber(state_.t) +
-                  " s; try a smaller stepping.step, or less stiffness";
+  crushed = "\"" + part.body->name +
+            "\" left the range of numbers at t = " + shortNumber(state_.t) +
+            " s; try a smaller stepping.step, or less stiffness";
 }
 
 /// Linearises anew about the motion that was found, Newton's way. @return whether that is needed
@@ -86,43 +86,46 @@ void Stepping::markBent() {
     for (const int p : part.moving) work_.touched[part.bodies[p]] = 1;
 }
 
-bool Stepping::anyBends() const {
-  return std::any_of(work_.movers.begin(), work_.movers.end(),
+bool Stepping::anyBends(const Island& island) const {
+  return std::any_of(island.movers.begin(), island.movers.end(),
                      [this](int body) { return model_.bends(body); });
 }
 
 /// Whether an island is the one that was solved in this step already: no part of it has other
 /// forces, and nothing else is met.
-bool Stepping::keepsBent(const IslandMemory& memory, std::span<const Link> links, double h) {
-  if (memory.step != step_ || !ofSame(memory, links)) return false;
+bool Stepping::keepsBent(const Island& island, double h) {
+  if (island.memory->step != step_ || !ofSame(island)) return false;
   std::size_t cones = 0;
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
-    for (const Touch& touch : memory_.pairs[links[k]].touches) cones += flies(touch, h) ? 0 : 1;
+  for (std::size_t k = 0; k < island.links.size(); ++k) {
+    if (!isPair(island.links[k]) ||
+        island.memory->seen[k].look != memory_.pairs[island.links[k]].look)
+      return false;
+    for (const Touch& touch : memory_.pairs[island.links[k]].touches)
+      cones += flies(touch, h) ? 0 : 1;
   }
-  bool same = cones == memory.cones;
-  forBent([&](const BendingPart& part) { same = same && !part.anew; });
+  bool same = cones == island.memory->cones;
+  forBent(island, [&](const BendingPart& part) { same = same && !part.anew; });
   return same;
 }
 
 /// All points of what bends in an island belong to it. In order of bodies, however they touch: the
 /// structure of its matrix stays.
-void Stepping::collectBent() {
+void Stepping::collectBent(Island& island) {
   constexpr int kAll = 1;  // in the place of the first of a part: all are collected
-  const std::size_t touching = work_.movers.size();
+  const std::size_t touching = island.movers.size();
   for (std::size_t k = 0; k < touching; ++k) {
-    if (!model_.bends(work_.movers[k])) continue;
-    const BendingPart& part = memory_.bendings->partWith(work_.movers[k]);
-    int& first = work_.local[part.bodies[part.moving[0]]];
+    if (!model_.bends(island.movers[k])) continue;
+    const BendingPart& part = memory_.bendings->partWith(island.movers[k]);
+    int& first = island.local[part.bodies[part.moving[0]]];
     if (first == kAll) continue;
     for (const int p : part.moving) {
-      int& local = work_.local[part.bodies[p]];
-      if (local < 0) work_.movers.push_back(part.bodies[p]);
+      int& local = island.local[part.bodies[p]];
+      if (local < 0) island.movers.push_back(part.bodies[p]);
       local = 0;
     }
     first = kAll;
   }
-  if (anyBends()) std::sort(work_.movers.begin(), work_.movers.end());
+  if (anyBends(island)) std::sort(island.movers.begin(), island.movers.end());
 }
 
 void Stepping::joinBent() {
@@ -131,15 +134,16 @@ void Stepping::joinBent() {
 }
 
 /// Adds K of what bends in an island to its problem.
-void Stepping::coupleBent() {
-  forBent([this](const BendingPart& part) {
+void Stepping::coupleBent(Island& island) {
+  forBent(island, [&](const BendingPart& part) {
     for (const int p : part.moving) {
-      const int at = localOf(part.bodies[p]);
-      work_.problem.couplings.push_back({at, at, part.own[p]});
+      const int at = localOf(island, part.bodies[p]);
+      island.problem.couplings.push_back({at, at, part.own[p]});
     }
     for (const auto& [e, inA] : part.movingEdges)
-      work_.problem.couplings.push_back({localOf(part.bodies[part.edges[e].first]),
-                                         localOf(part.bodies[part.edges[e].second]), part.off[e]});
+      island.problem.couplings.push_back({localOf(island, part.bodies[part.edges[e].first]),
+                                          localOf(island, part.bodies[part.edges[e].second]),
+                                          part.off[e]});
   });
 }
 
@@ -205,7 +209,6 @@ bool Stepping::isToHalve(double h) {
   if (!work_.crushed.empty()) {
     if (!divisible) return false;
     work_.crushed.clear();
-    std::fill(work_.local.begin(), work_.local.end(), -1);
     return true;
   }
   if (!gains(h)) return false;
@@ -214,10 +217,11 @@ bool Stepping::isToHalve(double h) {
     taken += books.taken;
     size += books.size;
   }
-  for (const int head : work_.heads) {
-    const IslandBooks& books = memory_.islands[head].books;
-    taken += books.lostImpact + books.lostFriction;
-  }
+  for (const IslandAnswer& answer : work_.answers)
+    if (answer.head >= 0) {
+      const IslandBooks& books = memory_.islands[answer.head].books;
+      taken += books.lostImpact + books.lostFriction;
+    }
   return taken < -kGiven * size && divisible;
 }
 

@@ -22,10 +22,10 @@ int Stepping::weightOf(const PairMemory& pair) {
                           pair.touches.front().contact.friction);
 }
 
-bool Stepping::isCrowd(std::span<const Link> links) const {
+bool Stepping::isCrowd(const Island& island) const {
   int weight = 0;
   bool bounces = model_.def.stepping.anyCrowd;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     if (!isPair(link) || memory_.pairs[link].touches.empty()) continue;
     bounces = bounces || memory_.pairs[link].bounces;
     weight += weightOf(memory_.pairs[link]);
@@ -48,40 +48,40 @@ bool Stepping::strikesAsCrowd() const {
   return crowd_ && (model_.def.impact == "auto" || model_.def.impact == "crowd");
 }
 
-bool Stepping::isManyContacts(std::span<const Link> links) const {
+bool Stepping::isManyContacts(const Island& island) const {
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
-  return work_.problem.cones.size() > kFew && !isBonded(links);
+  return island.problem.cones.size() > kFew && !isBonded(island);
 }
 
-double Stepping::roughTolerance(std::span<const Link> links, double scale) const {
+double Stepping::roughTolerance(const Island& island, double scale) const {
   constexpr double kMoves = 3e-3;  // of the largest speed
   const SteppingSettings& stepping = model_.def.stepping;
-  const Problem& problem = work_.problem;
-  if (!isManyContacts(links) ||
+  const Problem& problem = island.problem;
+  if (!isManyContacts(island) ||
       (stepping.crowdSolver == stepping.solver && stepping.crowdTolerance == stepping.tolerance))
     return 0.0;
   double fastest = 0.0;
   for (const Row& row : problem.rows)
     fastest = std::max(fastest,
-                       std::abs(rowSpeed(row, work_.solution.v[row.a], work_.solution.v[row.b])));
+                       std::abs(rowSpeed(row, island.solution.v[row.a], island.solution.v[row.b])));
   if (fastest <= kMoves * scale) return 0.0;
   return std::max(stepping.tolerance, stepping.crowdTolerance * std::min(1.0, fastest / scale));
 }
 
-void Stepping::takeBack(std::span<const Link> links) {
-  for (const Link link : links)
+void Stepping::takeBack(const Island& island) {
+  for (const Link link : island.links)
     if (isPair(link))
       for (Touch& touch : memory_.pairs[link].touches) touch.due = std::max(touch.due, 0.0);
 }
 
-void Stepping::setAside(std::span<const Link> links, double scale, double h) {
+void Stepping::setAside(Island& island, double scale, double h) {
   constexpr double kFar = 0.1, kAside = -1.0;  // of the scale: few that part so fast are pushed
-  if (!again_ || !isHasty()) takeBack(links);
+  if (!again_ || !isHasty()) takeBack(island);
   if (!isHasty()) return;
-  Problem& problem = work_.problem;
+  Problem& problem = island.problem;
   std::size_t cone = 0, kept = 0;
   int rows = 0;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     for (Touch& touch : memory_.pairs[link].touches) {
       if (flies(touch, h)) continue;
       Cone of = problem.cones[cone++];
@@ -103,23 +103,23 @@ void Stepping::setAside(std::span<const Link> links, double scale, double h) {
   }
   problem.rows.resize(rows);
   problem.cones.resize(kept);
-  work_.pull.clear();
+  island.pull.clear();
 }
 
-void Stepping::startFromBefore(std::span<const Link> links, double h) {
-  work_.solution.lambda.assign(work_.problem.rows.size(), 0.0);
+void Stepping::startFromBefore(Island& island, double h) {
+  island.solution.lambda.assign(island.problem.rows.size(), 0.0);
   std::size_t cone = 0;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     if (!isPair(link)) {
       ++cone;
       continue;
     }
     for (const Touch& touch : memory_.pairs[link].touches) {
       if (flies(touch, h) || isAside(touch)) continue;
-      const Cone& of = work_.problem.cones[cone++];
+      const Cone& of = island.problem.cones[cone++];
       const double longer = touch.length > 0.0 ? h / touch.length : 0.0;
       for (int r = of.row; r < of.row + coneRows(of.kind); ++r)
-        work_.solution.lambda[r] = longer * touch.impulse.dot(work_.problem.rows[r].linear);
+        island.solution.lambda[r] = longer * touch.impulse.dot(island.problem.rows[r].linear);
     }
   }
 }
@@ -127,11 +127,11 @@ void Stepping::startFromBefore(std::span<const Link> links, double h) {
 /// The energy of bodies that go through a step with v = vBefore + h M⁻¹F + s Δ, Δ = M⁻¹ Jᵀ λ,
 /// changes by  −½ |h M⁻¹F|²_M + s λ·J vBefore + ½ s² λ·J Δ,  without the work of supports: J v is
 /// relative.
-bool Stepping::keepFromGaining(double h) {
-  Solution& solution = work_.solution;
-  const Problem& problem = work_.problem;
+bool Stepping::keepFromGaining(Island& island, double h) {
+  Solution& solution = island.solution;
+  const Problem& problem = island.problem;
   double slope = 0.0, curvature = 0.0, fall = 0.0;
-  const auto before = [&](int local) -> const Vec6& { return work_.before[work_.bodies[local]]; };
+  const auto before = [&](int local) -> const Vec6& { return work_.before[island.bodies[local]]; };
   for (const Cone& cone : problem.cones) {
     for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
       const Row& row = problem.rows[r];
@@ -141,8 +141,8 @@ bool Stepping::keepFromGaining(double h) {
           solution.lambda[r] * (rowSpeed(row, solution.v[row.a], solution.v[row.b]) - star);
     }
   }
-  for (std::size_t i = 0; i < work_.bodies.size(); ++i) {
-    const RigidBody& body = state_.bodies[work_.bodies[i]];
+  for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+    const RigidBody& body = state_.bodies[island.bodies[i]];
     if (body.fixed() || solution.v[i] == problem.vStar[i]) continue;
     fall += 0.5 * h * h *
             (body.invM * body.force.squaredNorm() + body.torque.dot(body.Iinv * body.torque));
@@ -155,65 +155,64 @@ bool Stepping::keepFromGaining(double h) {
   return true;
 }
 
-void Stepping::leaveOpen(double scale, double h) {
+double Stepping::mayLeave(double scale, double h) const {
   const SteppingSettings& stepping = model_.def.stepping;
-  leftOpen_ = std::max(leftOpen_, stepping.crowdOpen * h * scale * stepping.crowdTolerance);
+  return stepping.crowdOpen * h * scale * stepping.crowdTolerance;
 }
 
-bool Stepping::isFarOff(const SolveReport& solved, double tolerance) const {
+bool Stepping::isFarOff(const Island& island, const SolveReport& solved, double tolerance) const {
   constexpr int kMeant = 100;      // sweeps: a plan of fewer takes what they leave
   constexpr double kFarOff = 5.0;  // times the tolerance
-  return model_.def.stepping.crowdIterations >= kMeant && work_.problem.cones.size() <= kSmall &&
+  return model_.def.stepping.crowdIterations >= kMeant && island.problem.cones.size() <= kSmall &&
          solved.residual > kFarOff * tolerance;
 }
 
-SolveReport Stepping::solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
-                                     IslandMemory& memory, double h) {
-  const double scale = !bent && crowd ? velocityScale(work_.problem) : 0.0;
-  const double part = scale > 0.0 ? roughTolerance(links, scale) : 0.0;
-  memory.rough = part > 0.0;
-  if (memory.rough) {
-    setAside(links, scale, h);
-    return solveRough(links, part, h);
+SolveReport Stepping::solveAsPlanned(Island& island, bool bent, bool crowd, double h) {
+  const double scale = !bent && crowd ? velocityScale(island.problem) : 0.0;
+  const double part = scale > 0.0 ? roughTolerance(island, scale) : 0.0;
+  island.memory->rough = part > 0.0;
+  if (island.memory->rough) {
+    setAside(island, scale, h);
+    return solveRough(island, part, h);
   }
-  takeBack(links);
-  if (scale > 0.0 && isDrafted() && isManyContacts(links) && work_.problem.cones.size() > kSmall)
-    return solveCalm(links, memory, h);
-  if (bent) startFromBefore(links, h);
-  SolveReport solved = solveFine(links);
-  if (reboundsInStep() && anyRebounds(links) && keepFromGaining(h))
-    solved.residual = naturalResidual(work_.problem, work_.solution);
+  takeBack(island);
+  if (scale > 0.0 && isDrafted() && isManyContacts(island) && island.problem.cones.size() > kSmall)
+    return solveCalm(island, h);
+  if (bent) startFromBefore(island, h);
+  SolveReport solved = solveFine(island);
+  if (reboundsInStep() && anyRebounds(island) && keepFromGaining(island, h))
+    solved.residual = naturalResidual(island.problem, island.solution);
   return solved;
 }
 
-bool Stepping::anyRebounds(std::span<const Link> links) const {
-  return std::any_of(links.begin(), links.end(), [&](Link link) {
+bool Stepping::anyRebounds(const Island& island) const {
+  return std::any_of(island.links.begin(), island.links.end(), [&](Link link) {
     return isPair(link) &&
            std::any_of(memory_.pairs[link].touches.begin(), memory_.pairs[link].touches.end(),
                        [](const Touch& touch) { return touch.rebounds; });
   });
 }
 
-SolveReport Stepping::solveCalm(std::span<const Link> links, IslandMemory& memory, double h) {
+SolveReport Stepping::solveCalm(Island& island, double h) {
   constexpr int kFewIterations = 20, kSteps = 8;
-  if (step_ >= memory.sweptTo) {
-    startFromBefore(links, h);
+  if (step_ >= island.memory->sweptTo) {
+    startFromBefore(island, h);
     const SolveReport solved =
-        solver_.solve(work_.problem,
+        solver_.solve(island.problem,
                       {.tolerance = model_.def.stepping.tolerance, .maxIterations = kFewIterations},
-                      work_.solution);
+                      island.solution);
     if (solved.status == SolveStatus::Solved) return solved;
-    memory.sweptTo = step_ + kSteps;
+    island.memory->sweptTo = step_ + kSteps;
   }
-  memory.rough = true;
-  return solveRough(links, model_.def.stepping.crowdTolerance, h);
+  island.memory->rough = true;
+  return solveRough(island, model_.def.stepping.crowdTolerance, h);
 }
 
 /// What is left open is a velocity: that of a point of cloth is soon small, while the push behind
 /// it still moves the heavy body that lies on it.
-double Stepping::lightness() const {
+double Stepping::lightness(const Island& island) const {
   double heaviest = 0.0, lightest = std::numeric_limits<double>::infinity();
-  for (const int i : work_.movers) {
+  for (const int i : island.movers) {
     const double mass = state_.bodies[i].M;
     if (model_.bends(i))
       lightest = std::min(lightest, mass);
@@ -223,35 +222,35 @@ double Stepping::lightness() const {
   return std::min(1.0, heaviest > 0.0 ? lightest / heaviest : 1.0);
 }
 
-SolveReport Stepping::solveFine(std::span<const Link> links) {
+SolveReport Stepping::solveFine(Island& island) {
   constexpr double kReach = 1e-12;  // what solvers reach
   const SteppingSettings& stepping = model_.def.stepping;
   const double tolerance =
-      std::min(stepping.tolerance, std::max(kReach, stepping.tolerance * lightness()));
+      std::min(stepping.tolerance, std::max(kReach, stepping.tolerance * lightness(island)));
   const SolveReport solved = solver_.solve(
-      work_.problem,
-      {.tolerance = tolerance, .maxIterations = stepping.iterations, .pull = work_.pull},
-      work_.solution);
-  findCrushed(links, solved);
-  if (solved.status != SolveStatus::Solved)
-    report_.note("some steps were left above the tolerance; max_complementarity has the worst");
+      island.problem,
+      {.tolerance = tolerance, .maxIterations = stepping.iterations, .pull = island.pull},
+      island.solution);
+  findCrushed(island, solved);
+  if (solved.status != SolveStatus::Solved) island.answer.above = true;
   return solved;
 }
 
-SolveReport Stepping::solveRough(std::span<const Link> links, double tolerance, double h) {
+SolveReport Stepping::solveRough(Island& island, double tolerance, double h) {
   const SteppingSettings& stepping = model_.def.stepping;
-  startFromBefore(links, h);
+  startFromBefore(island, h);
   SolveReport solved =
       findSolver(stepping.crowdSolver)
-          ->solve(work_.problem,
+          ->solve(island.problem,
                   {.tolerance = tolerance, .maxIterations = stepping.crowdIterations},
-                  work_.solution);
-  if (solved.status != SolveStatus::Solved && (isLed(links) || isFarOff(solved, tolerance))) {
-    work_.solution.lambda.clear();
-    return solveFine(links);
+                  island.solution);
+  if (solved.status != SolveStatus::Solved &&
+      (isLed(island) || isFarOff(island, solved, tolerance))) {
+    island.solution.lambda.clear();
+    return solveFine(island);
   }
-  if (keepFromGaining(h))
-    solved.residual = naturalResidual(work_.problem, work_.solution, solved.scale);
+  if (keepFromGaining(island, h))
+    solved.residual = naturalResidual(island.problem, island.solution, solved.scale);
   return solved;
 }
 

@@ -57,11 +57,12 @@ void Stepping::joinNear(double h) {
     joinBodies(a, b);
     work_.island[link] = fixed(a) ? b : a;
   }
-  // Count, then place: `work_.local` numbers the islands for a moment.
+  work_.number.resize(state_.bodies.size());
+  for (const int i : work_.active) work_.number[i] = -1;
   work_.begin.assign(1, 0);
   for (int& island : work_.island) {
     if (island < 0) continue;
-    int& number = work_.local[islandRoot(work_.root, island)];
+    int& number = work_.number[islandRoot(work_.root, island)];
     if (number < 0) {
       number = static_cast<int>(work_.begin.size()) - 1;
       work_.begin.push_back(0);
@@ -71,10 +72,9 @@ void Stepping::joinNear(double h) {
   }
   std::partial_sum(work_.begin.begin(), work_.begin.end(), work_.begin.begin());
   work_.order.resize(work_.begin.back());
-  work_.movers.assign(work_.begin.begin(), work_.begin.end());
+  work_.place.assign(work_.begin.begin(), work_.begin.end());
   for (Link link = 0; link < count; ++link)
-    if (work_.island[link] >= 0) work_.order[work_.movers[work_.island[link]]++] = link;
-  for (const int i : work_.active) work_.local[i] = -1;
+    if (work_.island[link] >= 0) work_.order[work_.place[work_.island[link]]++] = link;
 }
 
 }  // namespace tumble

@@ -14,6 +14,11 @@ std::pair<int, int> Stepping::ends(Link link) const {
   return {row.b, row.a};
 }
 
+bool Stepping::isBonded(const Island& island) const {
+  return std::any_of(island.links.begin(), island.links.end(),
+                     [&](Link link) { return !isPair(link); });
+}
+
 void Stepping::solveSteadily(double h) {
   allKept_ = true;
   ++step_;
@@ -56,8 +61,6 @@ void Stepping::solveIslands(double h) {
   work_.later.resize(n);
   work_.smooth.resize(n);
   memory_.islands.resize(n);
-  leftOpen_ = 0.0;
-  rough_ = false;
   memory_.left.resize(n, 0.0);
   for (const int i : work_.active) {
     work_.after[i] = work_.star[i];
@@ -68,16 +71,42 @@ void Stepping::solveIslands(double h) {
   }
   if (bends()) markBent();
   groupLinks(h);
-  work_.heads.clear();
-  for (std::size_t i = 0; i + 1 < work_.begin.size() && !misses_; ++i) solveIsland(linksOf(i), h);
+  solveEach(h);
   if (bends()) moveAlone(h);
+}
+
+/// Whichever worker solves an island finds the same; what they tell is taken in their order.
+void Stepping::solveEach(double h) {
+  const int count = static_cast<int>(work_.begin.size()) - 1;
+  work_.answers.assign(count, {});
+  work_.islands.resize(1);
+  for (int i = 0; i < count; ++i) {
+    Island& island = work_.islands.front();
+    startIsland(island, linksOf(i));
+    solveIsland(island, h);
+    work_.answers[i] = std::move(island.answer);
+  }
+  leftOpen_ = 0.0;
+  rough_ = false;
+  for (const IslandAnswer& answer : work_.answers) {
+    if (answer.head < 0) continue;
+    allKept_ = allKept_ && answer.kept;
+    rough_ = rough_ || answer.rough;
+    leftOpen_ = std::max(leftOpen_, answer.leftOpen);
+    misses_ = misses_ || answer.misses;
+    memory_.missed = std::max(memory_.missed, answer.parts);
+    if (work_.crushed.empty()) work_.crushed = answer.crushed;
+    if (answer.above)
+      report_.note("some steps were left above the tolerance; max_complementarity has the worst");
+  }
 }
 
 void Stepping::bookIslands(double h) {
   Certificate& certificate = report_.certificate;
   // By their heads: near pairs, and with them the numbers of links, may be others by now.
-  for (const int head : work_.heads) {
-    const IslandMemory& memory = memory_.islands[head];
+  for (const IslandAnswer& answer : work_.answers) {
+    if (answer.head < 0) continue;
+    const IslandMemory& memory = memory_.islands[answer.head];
     ++(memory.kept    ? certificate.islands_kept
        : memory.rough ? certificate.islands_rough
                       : certificate.islands_solved);
@@ -110,28 +139,37 @@ void Stepping::bookIslands(double h) {
   }
 }
 
+void Stepping::startIsland(Island& island, std::span<const Link> links) {
+  for (const int i : island.bodies) island.local[i] = -1;
+  island.local.resize(state_.bodies.size() + 1, -1);
+  island.bodies.clear();
+  island.movers.clear();
+  island.links = links;
+  island.smooth = false;
+  island.answer = {};
+}
+
 /// The bodies of an island that move, in the order of its links.
-void Stepping::collectBodies(std::span<const Link> links) {
+void Stepping::collectBodies(Island& island) {
   const int world = static_cast<int>(state_.bodies.size());
-  work_.movers.clear();
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     const auto [b, a] = ends(link);
     for (const int i : {a, b}) {
-      if (i == world || model_.fixed(i) || work_.local[i] >= 0) continue;
-      work_.local[i] = 0;
-      work_.movers.push_back(i);
+      if (i == world || model_.fixed(i) || island.local[i] >= 0) continue;
+      island.local[i] = 0;
+      island.movers.push_back(i);
     }
   }
-  if (bends()) collectBent();
-  for (const int i : work_.movers) work_.local[i] = -1;
+  if (bends()) collectBent(island);
+  for (const int i : island.movers) island.local[i] = -1;
 }
 
 /// Bodies that joints alone hold take half of what forces give before they move, half after: their
 /// error is of second order. Springs must not be met later.
-void Stepping::swing(std::span<const Link> links, double h) {
-  for (const Link link : links)
+void Stepping::swing(Island& island, double h) {
+  for (const Link link : island.links)
     if (isPair(link) || work_.bonds.kinds[link - state_.near.size()] != ConeKind::Equality) return;
-  for (const int i : work_.movers) {
+  for (const int i : island.movers) {
     const RigidBody& body = state_.bodies[i];
     if (isDriven(i)) continue;
     work_.later[i] = 0.5 * h;
@@ -142,134 +180,136 @@ void Stepping::swing(std::span<const Link> links, double h) {
 
 /// Bodies that touch each other alone, under gravity alone, fall on the parabola of what is free:
 /// it changes no velocity of one against another.
-void Stepping::fallAsOne(std::span<const Link> links, double h) {
+void Stepping::fallAsOne(Island& island, double h) {
   const auto stands = [&](int i) {
     return i == static_cast<int>(state_.bodies.size()) || model_.fixed(i);
   };
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     const auto [b, a] = ends(link);
     if (stands(a) || stands(b)) return;
   }
-  for (const int i : work_.movers) {
+  for (const int i : island.movers) {
     const RigidBody& body = state_.bodies[i];
     if (isDriven(i) || !body.torque.isZero(0.0) || body.force != body.M * model_.def.gravity)
       return;
   }
-  for (const int i : work_.movers) work_.later[i] = 0.5 * h;
+  for (const int i : island.movers) work_.later[i] = 0.5 * h;
 }
 
-[[gnu::flatten]] void Stepping::solveIsland(std::span<const Link> links, double h) {
-  collectBodies(links);
-  if (work_.movers.empty()) return;
-  work_.heads.push_back(work_.movers.front());
-  const bool bent = anyBends(), bonded = !bent && isBonded(links), pushed = !bent && !bonded;
-  if (bonded) swing(links, h);
-  if (pushed) fallAsOne(links, h);
-  IslandMemory& memory = memory_.islands[work_.movers.front()];
-  smooth_ = pushed && foreseesSmooth(links, h);
-  const bool stretches = !bent && rests(memory, links, h);
-  memory.kept = stretches || (!bent && (keeps(memory, links) || pushesAlike(memory, links, h)));
-  if (stretches) stretch(memory, links, h);
-  if (!memory.kept && !(bent && keepsBent(memory, links, h))) {
-    allKept_ = false;
-    const bool sweeps = bent && canSweep(links), crowd = crowd_ && isCrowd(links);
-    if (bent && !sweeps) factorSwept();
+[[gnu::flatten]] void Stepping::solveIsland(Island& island, double h) {
+  collectBodies(island);
+  if (island.movers.empty()) return;
+  IslandAnswer& answer = island.answer;
+  answer.head = island.movers.front();
+  const bool bent = anyBends(island), bonded = !bent && isBonded(island), pushed = !bent && !bonded;
+  if (bonded) swing(island, h);
+  if (pushed) fallAsOne(island, h);
+  IslandMemory& memory = memory_.islands[answer.head];
+  island.memory = &memory;
+  island.smooth = pushed && foreseesSmooth(island, h);
+  const bool stretches = !bent && rests(island, h);
+  memory.kept = stretches || (!bent && (keeps(island) || pushesAlike(island, h)));
+  if (stretches) stretch(island, h);
+  if (!memory.kept && !(bent && keepsBent(island, h))) {
+    answer.kept = false;
+    const bool sweeps = bent && canSweep(island), crowd = crowd_ && isCrowd(island);
+    if (bent && !sweeps) factorSwept(island);
     if (sweeps) memory.rough = false;
-    build(links, h);
-    if (bent) coupleBent();
-    SolveReport solved =
-        sweeps ? sweepBent(links, h) : solveAsPlanned(links, bent, crowd, memory, h);
+    build(island, h);
+    if (bent) coupleBent(island);
+    SolveReport solved = sweeps ? sweepBent(island, h) : solveAsPlanned(island, bent, crowd, h);
     if (sweeps && solved.status != SolveStatus::Solved) {
-      leaveSweeps();
-      if (work_.crushed.empty()) solved = solveAsPlanned(links, bent, crowd, memory, h);
+      leaveSweeps(island);
+      if (answer.crushed.empty()) solved = solveAsPlanned(island, bent, crowd, h);
     }
-    if (!work_.crushed.empty()) return;
-    if (bonded && !closeGaps(links, crowd, memory, h, solved)) return;
-    share(links, memory, h);
-    if (smooth_ && !isSmooth(links, h)) {
-      smooth_ = false;
-      build(links, h);
-      solved = solveAsPlanned(links, bent, crowd, memory, h);
-      share(links, memory, h);
+    if (!answer.crushed.empty()) return;
+    if (bonded && !closeGaps(island, crowd, h, solved)) return;
+    share(island, h);
+    if (island.smooth && !isSmooth(island, h)) {
+      island.smooth = false;
+      build(island, h);
+      solved = solveAsPlanned(island, bent, crowd, h);
+      share(island, h);
     }
     memory.residual = solved.residual;
-    memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(work_.problem);
-    rough_ = rough_ || memory.rough;
-    if (memory.rough) leaveOpen(memory.scale, h);
-    if (bent) forBent([](BendingPart& part) { part.fresh = true; });
-    if (pushed) stand(memory, crowd, h);
+    memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(island.problem);
+    answer.rough = memory.rough;
+    if (memory.rough) answer.leftOpen = mayLeave(memory.scale, h);
+    if (bent) forBent(island, [](BendingPart& part) { part.fresh = true; });
+    if (pushed) stand(island, crowd, h);
   }
-  if (bent) forBent([](BendingPart& part) { part.touched = true; });
+  if (bent) forBent(island, [](BendingPart& part) { part.touched = true; });
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
-  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    memory_.left[work_.movers[i]] = memory.residual * memory.scale;
+  for (std::size_t i = 0; i < island.movers.size(); ++i) {
+    memory_.left[island.movers[i]] = memory.residual * memory.scale;
     const Vec6 &v = memory.movers[i].v, &star = memory.movers[i].vStar;
     const bool touched =
         (v - star).lpNorm<Eigen::Infinity>() > kNothing * star.lpNorm<Eigen::Infinity>();
-    work_.after[work_.movers[i]] = touched ? v : star;
-    work_.touched[work_.movers[i]] =
-        touched || model_.bends(work_.movers[i]) || isHalved(work_.movers[i]);
+    work_.after[island.movers[i]] = touched ? v : star;
+    work_.touched[island.movers[i]] =
+        touched || model_.bends(island.movers[i]) || isHalved(island.movers[i]);
   }
   if (!pushed) return;
-  if (isSmooth(links, h))
-    for (const int i : work_.movers) work_.smooth[i] = 1;
+  if (isSmooth(island, h))
+    for (const int i : island.movers) work_.smooth[i] = 1;
   else
-    bookLanding(links, memory.books, h);
+    bookLanding(island, h);
 }
 
 /// Number of a body in the problem of its island.
-int Stepping::localOf(int body) {
-  if (work_.local[body] < 0) {
-    work_.local[body] = static_cast<int>(work_.problem.invM.size());
+int Stepping::localOf(Island& island, int body) {
+  if (island.local[body] < 0) {
+    island.local[body] = static_cast<int>(island.problem.invM.size());
     const bool world = body == static_cast<int>(state_.bodies.size());
     const int drag = world || isHalved(body) ? -1 : memory_.drives->dragOf[body];
     const double share = drag < 0 ? 1.0 : work_.drags[drag].way.mean;
-    work_.problem.invM.push_back(world ? 0.0 : share * state_.bodies[body].invM);
+    island.problem.invM.push_back(world ? 0.0 : share * state_.bodies[body].invM);
     if (world)
-      work_.problem.Iinv.push_back(Mat3::Zero());
+      island.problem.Iinv.push_back(Mat3::Zero());
     else
-      work_.problem.Iinv.push_back(drag < 0 ? state_.bodies[body].Iinv : work_.drags[drag].Iinv);
-    work_.problem.vStar.push_back(work_.star[body]);
-    work_.solution.v.push_back(work_.before[body]);
-    work_.bodies.push_back(body);
+      island.problem.Iinv.push_back(drag < 0 ? state_.bodies[body].Iinv : work_.drags[drag].Iinv);
+    island.problem.vStar.push_back(work_.star[body]);
+    island.solution.v.push_back(work_.before[body]);
+    island.bodies.push_back(body);
   }
-  return work_.local[body];
+  return island.local[body];
 }
 
-void Stepping::build(std::span<const Link> links, double h) {
-  work_.problem.invM.clear();
-  work_.problem.Iinv.clear();
-  work_.problem.vStar.clear();
-  work_.problem.rows.clear();
-  work_.problem.cones.clear();
-  work_.problem.couplings.clear();
-  work_.solution.lambda.clear();
-  work_.solution.v.clear();
-  work_.solution.pull.clear();
-  work_.pull.clear();
-  work_.bodies.clear();
-  if (bends() && anyBends())
-    for (const int i : work_.movers) localOf(i);
-  for (const Link link : links) {
+void Stepping::build(Island& island, double h) {
+  island.problem.invM.clear();
+  island.problem.Iinv.clear();
+  island.problem.vStar.clear();
+  island.problem.rows.clear();
+  island.problem.cones.clear();
+  island.problem.couplings.clear();
+  island.solution.lambda.clear();
+  island.solution.v.clear();
+  island.solution.pull.clear();
+  island.pull.clear();
+  for (const int i : island.bodies) island.local[i] = -1;
+  island.bodies.clear();
+  if (bends() && anyBends(island))
+    for (const int i : island.movers) localOf(island, i);
+  for (const Link link : island.links) {
     if (isPair(link)) {
       std::vector<Touch>& touches = memory_.pairs[link].touches;
       const bool allClosed = areClosed(touches);
       for (Touch& touch : touches)
-        if (!flies(touch, h)) addTouch(touch, allClosed, h);
+        if (!flies(touch, h)) addTouch(island, touch, allClosed, h);
       continue;
     }
-    work_.problem.cones.push_back({.kind = work_.bonds.kinds[link - state_.near.size()],
-                                   .row = static_cast<int>(work_.problem.rows.size())});
-    addRow(bondOf(link));
-    work_.pull.push_back(unknown()[0]);
+    island.problem.cones.push_back({.kind = work_.bonds.kinds[link - state_.near.size()],
+                                    .row = static_cast<int>(island.problem.rows.size())});
+    addRow(island, bondOf(link));
+    island.pull.push_back(unknown()[0]);
   }
 }
 
 /// Adds a row between bodies of the world as one between bodies of the island.
-Row& Stepping::addRow(const Row& row) {
-  Row& added = work_.problem.rows.emplace_back(row);
-  added.a = localOf(row.a);
-  added.b = localOf(row.b);
+Row& Stepping::addRow(Island& island, const Row& row) {
+  Row& added = island.problem.rows.emplace_back(row);
+  added.a = localOf(island, row.a);
+  added.b = localOf(island, row.b);
   return added;
 }
 
@@ -287,17 +327,17 @@ bool Stepping::areClosed(std::span<const Touch> touches) const {
 }
 
 /// Adds a point of a pair, of which all points touch or not.
-void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
+void Stepping::addTouch(Island& island, Touch& touch, bool allClosed, double h) {
   const Contact& contact = touch.contact;
   const RigidBody &bodyA = state_.bodies[contact.a], &bodyB = state_.bodies[contact.b];
-  const Middle at = smooth_ ? middleOf(contact, h) : Middle{contact.point, bodyA.x, bodyB.x};
+  const Middle at = island.smooth ? middleOf(contact, h) : Middle{contact.point, bodyA.x, bodyB.x};
   const ContactPoint& c = at.point;
   const auto addAlong = [&](const Vec3& d) -> Row& {
-    work_.pull.push_back(touch.pull.dot(d));
-    return addRow(pointRow(contact.a, contact.b, at.a, at.b, c.p, d, 0.0));
+    island.pull.push_back(touch.pull.dot(d));
+    return addRow(island, pointRow(contact.a, contact.b, at.a, at.b, c.p, d, 0.0));
   };
-  Cone& cone = work_.problem.cones.emplace_back(
-      Cone{.kind = ConeKind::Push, .row = static_cast<int>(work_.problem.rows.size())});
+  Cone& cone = island.problem.cones.emplace_back(
+      Cone{.kind = ConeKind::Push, .row = static_cast<int>(island.problem.rows.size())});
   Row& normal = addAlong(c.n);
 
   const double vrel = rowSpeed(normal, work_.before[contact.a], work_.before[contact.b]);
@@ -313,7 +353,7 @@ void Stepping::addTouch(Touch& touch, bool allClosed, double h) {
   const Vec3 slip = slipVelocity(bodyA, bodyB, contact.point);
   tangents(c.n, slip, t1, t2);
   // Friction is against the slip at the end of the step or, where it slips on, in its middle.
-  const bool slipsOn = smooth_ && slip.norm() > tolerance_.stick;
+  const bool slipsOn = island.smooth && slip.norm() > tolerance_.stick;
   for (const Vec3& t : {t1, t2}) {
     Row& row = addAlong(t);
     row.bias =

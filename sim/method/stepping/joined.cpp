@@ -43,11 +43,11 @@ void Stepping::bookJoints(double h) {
 }
 
 /// Where a body of the island at hand stands after the step, at the velocities that were found.
-void Stepping::moveAhead(int i, double h) {
-  RigidBody& body = work_.ahead[i];
+void Stepping::moveAhead(Island& island, int i, double h) {
+  RigidBody& body = island.ahead[i];
   body = state_.bodies[i];
   const bool fixed = body.fixed();
-  const Vec6& v = fixed ? work_.before[i] : work_.solution.v[work_.local[i]];
+  const Vec6& v = fixed ? work_.before[i] : island.solution.v[island.local[i]];
   body.x += h * v.head<3>();
   if (fixed)
     body.q = rotated(body.q, h * v.tail<3>());
@@ -57,30 +57,28 @@ void Stepping::moveAhead(int i, double h) {
   updateDerived(body);
 }
 
-bool Stepping::closeGaps(std::span<const Link> links, bool crowd, IslandMemory& memory, double h,
-                         SolveReport& solved) {
+bool Stepping::closeGaps(Island& island, bool crowd, double h, SolveReport& solved) {
   constexpr int kRounds = 8;
   constexpr double kFar = 1e-5;     // of an arm: what rows may miss in a part; it grows with h³
   constexpr double kLeast = 1e-3;   // of a step: shorter parts miss what they miss
   constexpr double kClosed = 1e-2;  // of the gap that is allowed to stay
-  Missed missed = foretellGaps(links, h);
+  Missed missed = foretellGaps(island, h);
   const double parts = std::cbrt(missed.part / kFar);
-  memory_.missed = std::max(memory_.missed, parts / h);
+  island.answer.parts = parts / h;
   if (parts > 2.0 && h > kLeast * model_.def.stepping.step) {
-    misses_ = true;
-    for (const int i : work_.bodies) work_.local[i] = -1;
+    island.answer.misses = true;
     return false;
   }
   for (int round = 0; round < kRounds && missed.way > kClosed * tolerance_.drift; ++round) {
-    work_.solutionBefore = work_.solution;
-    work_.solution.lambda.clear();
-    for (std::size_t i = 0; i < work_.bodies.size(); ++i)
-      work_.solution.v[i] = work_.before[work_.bodies[i]];
-    const SolveReport again = solveAsPlanned(links, false, crowd, memory, h);
-    if (!work_.crushed.empty()) return false;
-    const Missed now = foretellGaps(links, h);
+    island.before = island.solution;
+    island.solution.lambda.clear();
+    for (std::size_t i = 0; i < island.bodies.size(); ++i)
+      island.solution.v[i] = work_.before[island.bodies[i]];
+    const SolveReport again = solveAsPlanned(island, false, crowd, h);
+    if (!island.answer.crushed.empty()) return false;
+    const Missed now = foretellGaps(island, h);
     if (!(now.way < missed.way)) {
-      work_.solution = work_.solutionBefore;
+      island.solution = island.before;
       break;
     }
     solved = again;
@@ -90,33 +88,33 @@ bool Stepping::closeGaps(std::span<const Link> links, bool crowd, IslandMemory& 
 }
 
 /// Rows that turn alone move no centre of mass: the projection may have their gaps.
-Stepping::Missed Stepping::foretellGaps(std::span<const Link> links, double h) {
+Stepping::Missed Stepping::foretellGaps(Island& island, double h) {
   Missed worst;
   int owner = -1;
   double squares = 0.0;  // [m²] of the rows of one joint: as long whichever axes they have
-  work_.ahead.resize(state_.bodies.size());
+  island.ahead.resize(state_.bodies.size());
   std::size_t cone = 0;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     if (isPair(link)) {
       for (const Touch& touch : memory_.pairs[link].touches)
         cone += !flies(touch, h) && !isAside(touch);
       continue;
     }
     const int bond = link - static_cast<int>(state_.near.size());
-    Row& row = work_.problem.rows[work_.problem.cones[cone++].row];
+    Row& row = island.problem.rows[island.problem.cones[cone++].row];
     if (work_.bonds.owners[bond] < 0 || row.linear.isZero(0.0)) continue;
     const Joint& joint = model_.joints[work_.bonds.owners[bond]];
     if (work_.bonds.owners[bond] != owner) {
       owner = work_.bonds.owners[bond];
       squares = 0.0;
       for (const int i : {joint.a, joint.b})
-        if (i < static_cast<int>(state_.bodies.size())) moveAhead(i, h);
-      jointRows(work_.ahead, joint, work_.jointRows);
+        if (i < static_cast<int>(state_.bodies.size())) moveAhead(island, i, h);
+      jointRows(island.ahead, joint, island.jointRows);
     }
-    const JointRow& found = work_.jointRows[work_.bonds.places[bond]];
+    const JointRow& found = island.jointRows[work_.bonds.places[bond]];
     const double missed =
         found.gap -
-        h * (rowSpeed(row, work_.solution.v[row.a], work_.solution.v[row.b]) + row.bias);
+        h * (rowSpeed(row, island.solution.v[row.a], island.solution.v[row.b]) + row.bias);
     row.bias += missed / h;
     squares += missed * missed;
     worst.way = std::max(worst.way, std::sqrt(squares));

@@ -8,28 +8,30 @@
 namespace tumble {
 
 /// Whether an island has the bodies that it had when it was solved, and as many links.
-bool Stepping::ofSame(const IslandMemory& memory, std::span<const Link> links) const {
-  return memory.seen.size() == links.size() &&
-         std::equal(memory.movers.begin(), memory.movers.end(), work_.movers.begin(),
-                    work_.movers.end(),
+bool Stepping::ofSame(const Island& island) const {
+  return island.memory->seen.size() == island.links.size() &&
+         std::equal(island.memory->movers.begin(), island.memory->movers.end(),
+                    island.movers.begin(), island.movers.end(),
                     [](const IslandMemory::Mover& mover, int body) { return mover.body == body; });
 }
 
 /// Whether an island asks what it asked when it was solved, wherever it has gone: the same levers
 /// and inertias, and velocities that differ by far less than the tolerance on the residual.
-bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) const {
-  if (!ofSame(memory, links)) return false;
-  for (std::size_t k = 0; k < links.size(); ++k)
-    if (!isPair(links[k]) || memory.seen[k].look != memory_.pairs[links[k]].look) return false;
+bool Stepping::keeps(const Island& island) const {
+  if (!ofSame(island)) return false;
+  for (std::size_t k = 0; k < island.links.size(); ++k)
+    if (!isPair(island.links[k]) ||
+        island.memory->seen[k].look != memory_.pairs[island.links[k]].look)
+      return false;
   constexpr double kKept = 0.01;  // of the tolerance: what is kept errs the same way in every step
-  const double part = kKept * model_.def.stepping.tolerance, allowed = part * memory.scale;
-  for (const IslandMemory::Mover& mover : memory.movers) {
+  const double part = kKept * model_.def.stepping.tolerance, allowed = part * island.memory->scale;
+  for (const IslandMemory::Mover& mover : island.memory->movers) {
     const Mat3 turned = state_.bodies[mover.body].Iinv - mover.Iinv;
     if (!((work_.star[mover.body] - mover.vStar).lpNorm<Eigen::Infinity>() <= allowed) ||
         !(turned.lpNorm<Eigen::Infinity>() <= part * mover.Iinv.lpNorm<Eigen::Infinity>()))
       return false;
   }
-  for (const Link link : links)
+  for (const Link link : island.links)
     for (const Touch& touch : memory_.pairs[link].touches)
       if (touch.arrivalSpeed > 0.0) return false;
   return true;
@@ -38,29 +40,31 @@ bool Stepping::keeps(const IslandMemory& memory, std::span<const Link> links) co
 /// Whether an island may ask for the forces of the step before: its contacts are those of then. One
 /// contact alone is solved as quickly as asked, and without what rounding would add up; what hardly
 /// moves is solved, to be told to stand.
-bool Stepping::goesOn(const IslandMemory& memory, std::span<const Link> links, double h) const {
-  if (memory.cones < 2 || memory.rough || !ofSame(memory, links)) return false;
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    if (!isPair(links[k]) || memory.seen[k].form != memory_.pairs[links[k]].form) return false;
-    for (const Touch& touch : memory_.pairs[links[k]].touches)
+bool Stepping::goesOn(const Island& island, double h) const {
+  if (island.memory->cones < 2 || island.memory->rough || !ofSame(island)) return false;
+  for (std::size_t k = 0; k < island.links.size(); ++k) {
+    if (!isPair(island.links[k]) ||
+        island.memory->seen[k].form != memory_.pairs[island.links[k]].form)
+      return false;
+    for (const Touch& touch : memory_.pairs[island.links[k]].touches)
       if (touch.length != h || touch.arrivalSpeed > 0.0 || flies(touch, h)) return false;
   }
-  return anyMoves();
+  return anyMoves(island);
 }
 
-bool Stepping::anyMoves() const {
-  return std::any_of(work_.movers.begin(), work_.movers.end(), [&](int i) {
+bool Stepping::anyMoves(const Island& island) const {
+  return std::any_of(island.movers.begin(), island.movers.end(), [&](int i) {
     const Vec6& v = work_.before[i];
     return v.head<3>().norm() + model_.radius[i] * v.tail<3>().norm() > tolerance_.rest;
   });
 }
 
 /// Whether the impulses of the step before, where points are now, change velocities as they did.
-bool Stepping::balances(const IslandMemory& memory, std::span<const Link> links) {
+bool Stepping::balances(const Island& island) {
   constexpr double kBalance = 1e-12, kOpen = 0.01;  // of the change; of the tolerance
   const double open = std::max(kBalance, kOpen * model_.def.stepping.tolerance);
-  for (const int i : work_.movers) work_.after[i].setZero();
-  for (const Link link : links) {
+  for (const int i : island.movers) work_.after[i].setZero();
+  for (const Link link : island.links) {
     for (const Touch& touch : memory_.pairs[link].touches) {
       const Contact& c = touch.contact;
       const auto push = [&](int i, const Vec3& impulse) {
@@ -72,7 +76,7 @@ bool Stepping::balances(const IslandMemory& memory, std::span<const Link> links)
       push(c.b, -touch.impulse);
     }
   }
-  return std::all_of(memory.movers.begin(), memory.movers.end(),
+  return std::all_of(island.memory->movers.begin(), island.memory->movers.end(),
                      [&](const IslandMemory::Mover& mover) {
                        const RigidBody& body = state_.bodies[mover.body];
                        const Vec6& sum = work_.after[mover.body];
@@ -107,13 +111,13 @@ double Stepping::missedBy(const Touch& touch, bool allClosed, double h) const {
 
 /// Gives an island the forces of the step before, where they do as well: as to what slides on along
 /// its line, however fast it is by now.
-bool Stepping::pushesAlike(IslandMemory& memory, std::span<const Link> links, double h) {
+bool Stepping::pushesAlike(Island& island, double h) {
   constexpr double kAlike = 0.1;  // of the tolerance
-  if (!goesOn(memory, links, h) || !balances(memory, links)) return false;
-  for (const IslandMemory::Mover& mover : memory.movers)
+  if (!goesOn(island, h) || !balances(island)) return false;
+  for (const IslandMemory::Mover& mover : island.memory->movers)
     work_.after[mover.body] = work_.star[mover.body] + mover.push;
   double scale = 0.0, missed = 0.0;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     const std::vector<Touch>& touches = memory_.pairs[link].touches;
     const bool allClosed = areClosed(touches);
     for (const Touch& touch : touches) {
@@ -123,22 +127,22 @@ bool Stepping::pushesAlike(IslandMemory& memory, std::span<const Link> links, do
   }
   if (!(missed <= kAlike * model_.def.stepping.tolerance * scale)) return false;
 
-  allKept_ = false;  // a contact may have come to slip
-  memory.scale = scale;
-  memory.residual = missed / scale;
-  for (IslandMemory::Mover& mover : memory.movers) {
+  island.answer.kept = false;  // a contact may have come to slip
+  island.memory->scale = scale;
+  island.memory->residual = missed / scale;
+  for (IslandMemory::Mover& mover : island.memory->movers) {
     mover.vStar = work_.star[mover.body];
     mover.v = work_.after[mover.body];
   }
-  memory.books = {};
-  for (const Link link : links) {
+  island.memory->books = {};
+  for (const Link link : island.links) {
     for (Touch& touch : memory_.pairs[link].touches) {
       touch.approach = -touch.contact.point.n.dot(rateAt(touch.contact, work_.before));
       const auto mean = [&](int i) {
         return Vec3(0.5 * (speedAt(touch.contact, i, work_.before) +
                            speedAt(touch.contact, i, work_.after)));
       };
-      bookTouch(touch, mean(touch.contact.a), mean(touch.contact.b), memory.books);
+      bookTouch(touch, mean(touch.contact.a), mean(touch.contact.b), island.memory->books);
     }
   }
   return true;
@@ -146,15 +150,18 @@ bool Stepping::pushesAlike(IslandMemory& memory, std::span<const Link> links, do
 
 /// Whether an island that was at rest is asked for a step of another length: its forces stay,
 /// unless they are those of a short step, in whose impulses more of them is rounding.
-bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, double h) const {
-  if (memory.length == h || h > 2.0 * memory.solved || !ofSame(memory, links)) return false;
-  for (std::size_t k = 0; k < links.size(); ++k)
-    if (!isPair(links[k]) || memory.seen[k].form != memory_.pairs[links[k]].form) return false;
-  const double s = h / memory.length, still = tolerance_.rest;
-  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    const Vec6 &star = work_.star[work_.movers[i]], &before = work_.before[work_.movers[i]];
-    const Vec6 asked = before + s * (memory.movers[i].vStar - memory.movers[i].v);
-    for (const Vec6& v : {before, memory.movers[i].v, Vec6(star - asked)})
+bool Stepping::rests(const Island& island, double h) const {
+  if (island.memory->length == h || h > 2.0 * island.memory->solved || !ofSame(island))
+    return false;
+  for (std::size_t k = 0; k < island.links.size(); ++k)
+    if (!isPair(island.links[k]) ||
+        island.memory->seen[k].form != memory_.pairs[island.links[k]].form)
+      return false;
+  const double s = h / island.memory->length, still = tolerance_.rest;
+  for (std::size_t i = 0; i < island.movers.size(); ++i) {
+    const Vec6 &star = work_.star[island.movers[i]], &before = work_.before[island.movers[i]];
+    const Vec6 asked = before + s * (island.memory->movers[i].vStar - island.memory->movers[i].v);
+    for (const Vec6& v : {before, island.memory->movers[i].v, Vec6(star - asked)})
       if (!(v.lpNorm<Eigen::Infinity>() <= still)) return false;
   }
   return true;
@@ -163,45 +170,46 @@ bool Stepping::rests(const IslandMemory& memory, std::span<const Link> links, do
 /// An island none of whose bodies moves by more than the solver left, before a step or after it,
 /// stands, where that would bring one of them to another pose: it was no motion. In a crowd it
 /// stands as soon as all of them are at rest.
-void Stepping::stand(IslandMemory& memory, bool crowd, double h) const {
+void Stepping::stand(Island& island, bool crowd, double h) const {
   constexpr double kLeft = 10.0;  // of the residual
-  const double left = kLeft * memory.residual * memory.scale;
+  const double left = kLeft * island.memory->residual * island.memory->scale;
   const double still = crowd ? tolerance_.rest : std::min(left, tolerance_.rest);
   const auto stands = [&](int body, const Vec6& twist) {
     return twist.head<3>().norm() + model_.radius[body] * twist.tail<3>().norm() <= still;
   };
   bool leaves = crowd;
-  for (const IslandMemory::Mover& mover : memory.movers) {
+  for (const IslandMemory::Mover& mover : island.memory->movers) {
     if (!stands(mover.body, work_.before[mover.body]) || !stands(mover.body, mover.v)) return;
     const RigidBody& body = state_.bodies[mover.body];
     leaves = leaves || body.x + h * mover.v.head<3>() != body.x ||
              rotated(body.q, h * mover.v.tail<3>()).coeffs() != body.q.coeffs();
   }
   if (!leaves) return;
-  memory.books.external.setZero();
-  for (IslandMemory::Mover& mover : memory.movers) {
+  island.memory->books.external.setZero();
+  for (IslandMemory::Mover& mover : island.memory->movers) {
     mover.v.setZero();
-    memory.books.external -= state_.bodies[mover.body].M * mover.vStar.head<3>();
+    island.memory->books.external -= state_.bodies[mover.body].M * mover.vStar.head<3>();
   }
 }
 
 /// Gives the answer of an island at rest to a step of another length.
-void Stepping::stretch(IslandMemory& memory, std::span<const Link> links, double h) {
-  const double s = h / memory.length;
-  memory.length = h;
-  memory.books = {};
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    memory.seen[k].look = memory_.pairs[links[k]].look;
-    for (Touch& touch : memory_.pairs[links[k]].touches) {
+void Stepping::stretch(Island& island, double h) {
+  const double s = h / island.memory->length;
+  island.memory->length = h;
+  island.memory->books = {};
+  for (std::size_t k = 0; k < island.links.size(); ++k) {
+    island.memory->seen[k].look = memory_.pairs[island.links[k]].look;
+    for (Touch& touch : memory_.pairs[island.links[k]].touches) {
       touch.impulse *= s;
       touch.length = h;
     }
   }
-  for (std::size_t i = 0; i < work_.movers.size(); ++i) {
-    memory.movers[i].vStar = work_.star[work_.movers[i]];
-    memory.movers[i].v = work_.before[work_.movers[i]];
-    memory.books.external +=
-        state_.bodies[work_.movers[i]].M * (memory.movers[i].v - memory.movers[i].vStar).head<3>();
+  for (std::size_t i = 0; i < island.movers.size(); ++i) {
+    island.memory->movers[i].vStar = work_.star[island.movers[i]];
+    island.memory->movers[i].v = work_.before[island.movers[i]];
+    island.memory->books.external +=
+        state_.bodies[island.movers[i]].M *
+        (island.memory->movers[i].v - island.memory->movers[i].vStar).head<3>();
   }
 }
 

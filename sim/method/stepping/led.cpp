@@ -69,28 +69,28 @@ Vec3 Stepping::carried(const Contact& contact, double h) const {
   return turn == omega ? lead : lead + c.n.dot(carriedBy(turn, v, h, atStart()) - lead) * c.n;
 }
 
-bool Stepping::isLed(std::span<const Link> links) const {
+bool Stepping::isLed(const Island& island) const {
   const auto driven = [&](int i) {
     return i < model_.count() && drives(model_, state_.bodies[i], i);
   };
-  return std::any_of(links.begin(), links.end(), [&](Link link) {
+  return std::any_of(island.links.begin(), island.links.end(), [&](Link link) {
     return driven(ends(link).first) || driven(ends(link).second);
   });
 }
 
 /// Asks only where the solver has failed and a fixed body that moves is in the island.
-void Stepping::findCrushed(std::span<const Link> links, const SolveReport& solved) {
+void Stepping::findCrushed(Island& island, const SolveReport& solved) {
   constexpr double kFailed = 1e-3;
   if (solved.status == SolveStatus::Solved || !(solved.residual > kFailed)) return;
-  if (!isLed(links)) return;
-  const std::vector<double> push = endlessPush(work_.problem);
+  if (!isLed(island)) return;
+  const std::vector<double> push = endlessPush(island.problem);
   if (push.empty()) return;
   std::vector<std::pair<int, int>> pairs;
-  for (const Cone& cone : work_.problem.cones) {
-    const Row& row = work_.problem.rows[cone.row];
-    pairs.emplace_back(work_.bodies[row.a], work_.bodies[row.b]);
+  for (const Cone& cone : island.problem.cones) {
+    const Row& row = island.problem.rows[cone.row];
+    pairs.emplace_back(island.bodies[row.a], island.bodies[row.b]);
   }
-  work_.crushed = crushWords(model_, state_.t, pairs, push);
+  island.answer.crushed = crushWords(model_, state_.t, pairs, push);
 }
 
 }  // namespace tumble

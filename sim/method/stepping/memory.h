@@ -16,6 +16,7 @@
 #include "sim/method/report.h"
 #include "sim/method/stepping/bending.h"
 #include "sim/method/stepping/drives.h"
+#include "sim/method/stepping/island.h"
 #include "sim/problem/problem.h"
 #include "sim/shape/outline.h"
 
@@ -75,37 +76,6 @@ inline LastingPair lastingPair(const Contact& c) {
   return {.a = c.a, .b = c.b, .sliding = c.sliding, .p = c.point.p, .n = c.point.n};
 }
 
-/// Sums over the contacts of an island in one step, for the books.
-struct IslandBooks {
-  double lostImpact = 0.0, lostFriction = 0.0, work = 0.0;  ///< [J]
-  Vec3 external = Vec3::Zero();                             ///< [N·s] from fixed bodies
-};
-
-/// An island when it was last solved: the question and the answer.
-struct IslandMemory {
-  struct Mover {
-    int body = 0;
-    Mat3 Iinv;
-    Vec6 vStar, v;  ///< without contacts and with them
-    Vec6 push;      ///< what contacts gave when the island was solved
-  };
-  struct Seen {
-    long look = 0, form = 0;  ///< as of PairMemory; 0 of a joint
-  };
-  std::vector<Mover> movers;  ///< in order of their first contact
-  std::vector<Seen> seen;     ///< its pairs
-  double length = 0.0;        ///< [s] of the last step
-  double solved = 0.0;        ///< [s] of the step that it was solved in
-  double scale = 1.0;         ///< [m/s] velocityScale of the problem
-  double residual = 0.0;
-  std::size_t cones = 0;  ///< how many of its points were held apart
-  long step = 0;          ///< Stepping::solveSteadily that solved it
-  long sweptTo = 0;       ///< until that solveSteadily it is swept, in a draft
-  bool rough = false;     ///< solved as far as is planned for crowds
-  bool kept = false;      ///< the last step asked nothing new
-  IslandBooks books;
-};
-
 /// What acted on a body in the last part of a step.
 struct Push {
   double t0 = 0.0, t1 = 0.0;  ///< [s]
@@ -160,16 +130,13 @@ struct SteppingWork {
   Bonds bonds;                            ///< rows of joints
   std::vector<int> root, order, begin;    ///< of islands: forest of bodies; links by island
   std::vector<int> island;                ///< per link: its island; < 0: it joins nothing now
-  std::vector<int> heads;                 ///< of islands that were solved: their first bodies
+  std::vector<Island> islands;            ///< at hand: one for each worker
+  std::vector<IslandAnswer> answers;      ///< of the islands of this step
   std::vector<char> open;                 ///< per root: an overlap in its island
-  std::vector<double> pull;               ///< of one island: as SolveSettings::pull
-  std::vector<int> local, bodies;         ///< of one island: numbers in its problem, and back
-  std::vector<int> movers;
-  Problem problem;
-  Solution solution, solutionBefore;  ///< of one island, and of the round before
-  std::vector<RigidBody> ahead;       ///< per body in a joint of an island: after the step
-  std::vector<JointRow> jointRows;    ///< of one joint
-  std::vector<JointForce> joints;     ///< that bring velocities to what joints allow
+  std::vector<int> number, place;         ///< per root: of its island; per island: of its next link
+  Problem problem;                        ///< of all bodies at once
+  Solution solution;
+  std::vector<JointForce> joints;  ///< that bring velocities to what joints allow
   SwingWork swing;
   /// Per body: twists at both ends of the step, and what they would be without contacts.
   std::vector<Vec6> before, star, after;
@@ -184,7 +151,6 @@ struct SteppingWork {
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
   std::vector<char> smooth;   ///< per body: it moves with the mean of its velocities
   std::vector<LastingPair> lasting;
-  std::vector<Vec3> side;  ///< [N s] per body of a problem of what bends
 };
 
 /// For how many steps a part of what bends goes by factors, for sweeps did not come to an end.

@@ -5,59 +5,58 @@
 namespace tumble {
 
 /// Gives the solution to the contacts and bodies of an island, and remembers it.
-void Stepping::share(std::span<const Link> links, IslandMemory& memory, double h) {
-  memory.length = memory.solved = h;
-  memory.cones = work_.problem.cones.size();
-  memory.step = step_;
-  for (const int i : work_.movers) work_.after[i] = work_.solution.v[work_.local[i]];
-  remember(memory, links);
+void Stepping::share(Island& island, double h) {
+  island.memory->length = island.memory->solved = h;
+  island.memory->cones = island.problem.cones.size();
+  island.memory->step = step_;
+  for (const int i : island.movers) work_.after[i] = island.solution.v[island.local[i]];
+  remember(island);
   std::size_t cone = 0;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     if (!isPair(link)) {
       work_.bonds.lambda[link - state_.near.size()] =
-          work_.solution.lambda[work_.problem.cones[cone++].row];
+          island.solution.lambda[island.problem.cones[cone++].row];
       continue;
     }
     for (Touch& touch : memory_.pairs[link].touches)
       if (!flies(touch, h) && !isAside(touch))
-        shareTouch(touch, work_.problem.cones[cone++], memory.books, h);
+        shareTouch(island, touch, island.problem.cones[cone++], h);
   }
-  for (const int i : work_.bodies) work_.local[i] = -1;
 }
 
 /// What an island saw when it found the velocities `after`.
-void Stepping::remember(IslandMemory& memory, std::span<const Link> links) {
-  memory.books = {};
-  memory.seen.clear();
-  for (const Link link : links) {
-    IslandMemory::Seen& seen = memory.seen.emplace_back();
+void Stepping::remember(Island& island) {
+  island.memory->books = {};
+  island.memory->seen.clear();
+  for (const Link link : island.links) {
+    IslandMemory::Seen& seen = island.memory->seen.emplace_back();
     if (isPair(link)) seen = {.look = memory_.pairs[link].look, .form = memory_.pairs[link].form};
   }
-  memory.movers.clear();
-  for (const int i : work_.movers)
-    memory.movers.push_back({.body = i,
-                             .Iinv = state_.bodies[i].Iinv,
-                             .vStar = work_.star[i],
-                             .v = work_.after[i],
-                             .push = work_.after[i] - work_.star[i]});
+  island.memory->movers.clear();
+  for (const int i : island.movers)
+    island.memory->movers.push_back({.body = i,
+                                     .Iinv = state_.bodies[i].Iinv,
+                                     .vStar = work_.star[i],
+                                     .v = work_.after[i],
+                                     .push = work_.after[i] - work_.star[i]});
 }
 
-void Stepping::shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h) {
+void Stepping::shareTouch(Island& island, Touch& touch, const Cone& cone, double h) {
   Vec3 impulse = Vec3::Zero(), pull = Vec3::Zero(), ofA = Vec3::Zero(), ofB = Vec3::Zero();
   const Vec6 twistA = 0.5 * (work_.before[touch.contact.a] + work_.after[touch.contact.a]),
              twistB = 0.5 * (work_.before[touch.contact.b] + work_.after[touch.contact.b]);
   for (int r = cone.row; r < cone.row + coneRows(cone.kind); ++r) {
-    const Row& row = work_.problem.rows[r];
-    impulse += work_.solution.lambda[r] * row.linear;
-    if (!work_.solution.pull.empty()) pull += work_.solution.pull[r] * row.linear;
+    const Row& row = island.problem.rows[r];
+    impulse += island.solution.lambda[r] * row.linear;
+    if (!island.solution.pull.empty()) pull += island.solution.pull[r] * row.linear;
     ofA += (row.linear.dot(twistA.head<3>()) + row.angularA.dot(twistA.tail<3>())) * row.linear;
     ofB += (row.linear.dot(twistB.head<3>()) - row.angularB.dot(twistB.tail<3>())) * row.linear;
   }
   touch.impulse = impulse;
-  touch.pull = work_.solution.pull.empty() ? unknown() : pull;
+  touch.pull = island.solution.pull.empty() ? unknown() : pull;
   touch.length = h;
   touch.contact.force = impulse / h;
-  bookTouch(touch, ofA, ofB, books);
+  bookTouch(touch, ofA, ofB, island.memory->books);
 }
 
 /// What the impulse of a touch does: its work is that by the mean of the velocities [m/s] of the

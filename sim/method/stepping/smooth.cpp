@@ -34,9 +34,9 @@ bool Stepping::goesRound(const Touch& touch, double h) const {
 
 /// Whether an island moves, and its contacts last and keep their modes if the same acts on its
 /// bodies as in the step before. Crowds jostle.
-bool Stepping::foreseesSmooth(std::span<const Link> links, double h) {
-  if ((crowd_ && isCrowd(links)) || !anyMoves()) return false;
-  for (const int i : work_.movers) {
+bool Stepping::foreseesSmooth(Island& island, double h) {
+  if ((crowd_ && isCrowd(island)) || !anyMoves(island)) return false;
+  for (const int i : island.movers) {
     const Push& last = memory_.pushes[i];
     if (!(last.t1 > last.t0)) return false;
     const RigidBody& body = state_.bodies[i];
@@ -44,7 +44,7 @@ bool Stepping::foreseesSmooth(std::span<const Link> links, double h) {
     work_.after[i].head<3>() = body.v + part * body.invM * (last.P1 - last.P0);
     work_.after[i].tail<3>() = body.omega + part * body.Iinv * (last.L1 - last.L0);
   }
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     for (const Touch& touch : memory_.pairs[link].touches) {
       if (!closed(touch)) continue;  // one that closes ends what is smooth
       const Contact& c = touch.contact;
@@ -60,24 +60,24 @@ bool Stepping::foreseesSmooth(std::span<const Link> links, double h) {
 /// Whether an island was smooth in the step, by the velocities that were found. Contacts between
 /// bodies that both move must have been foreseen: from the start of the step its impulses turn one
 /// as much as they turn the other back only if bodies move with the velocities of its end.
-bool Stepping::isSmooth(std::span<const Link> links, double h) const {
+bool Stepping::isSmooth(const Island& island, double h) const {
   const auto moves = [&](int i) { return work_.after[i] != work_.before[i]; };
   const auto isDrivenBody = [&](int i) { return isDriven(i); };
-  if (std::none_of(work_.movers.begin(), work_.movers.end(), moves) ||
-      std::any_of(work_.movers.begin(), work_.movers.end(), isDrivenBody))
+  if (std::none_of(island.movers.begin(), island.movers.end(), moves) ||
+      std::any_of(island.movers.begin(), island.movers.end(), isDrivenBody))
     return false;
-  for (const Link link : links) {
+  for (const Link link : island.links) {
     for (const Touch& touch : memory_.pairs[link].touches) {
       const Contact& c = touch.contact;
       const Vec3 first = rateAt(c, work_.before), last = rateAt(c, work_.after);
       const bool pushes = !touch.impulse.isZero(0.0);
-      if (pushes && !smooth_ && !model_.fixed(c.a) && !model_.fixed(c.b)) return false;
+      if (pushes && !island.smooth && !model_.fixed(c.a) && !model_.fixed(c.b)) return false;
       const double gap = closed(touch) ? 0.0 : c.point.separation,
                    parts = 0.5 * c.point.n.dot(first + last);
       if (pushes ? !lasts(touch, first) || !lasts(touch, last)
                  : gap + h * parts < -h * tolerance_.rest)
         return false;
-      if (smooth_ ? !keepsMode(touch, first, last) : !carried(c, h).isZero(0.0)) return false;
+      if (island.smooth ? !keepsMode(touch, first, last) : !carried(c, h).isZero(0.0)) return false;
     }
   }
   return true;
@@ -85,16 +85,17 @@ bool Stepping::isSmooth(std::span<const Link> links, double h) const {
 
 /// What lands within a step moves with the velocity of its end, which is not what forces gave it on
 /// its way: the difference of their work is lost in the impact.
-void Stepping::bookLanding(std::span<const Link> links, IslandBooks& books, double h) const {
+void Stepping::bookLanding(Island& island, double h) const {
   const auto lands = [&](const Touch& touch) {
     return (arrives(touch) || touch.arrivalSpeed > 0.0) && !touch.impulse.isZero(0.0);
   };
-  if (std::none_of(links.begin(), links.end(), [&](Link link) {
+  if (std::none_of(island.links.begin(), island.links.end(), [&](Link link) {
         const std::vector<Touch>& touches = memory_.pairs[link].touches;
         return std::any_of(touches.begin(), touches.end(), lands);
       }))
     return;
-  for (const int i : work_.movers) {
+  IslandBooks& books = island.memory->books;
+  for (const int i : island.movers) {
     if (!work_.touched[i] || work_.later[i] > 0.0 || isDriven(i)) continue;
     const RigidBody& body = state_.bodies[i];
     const Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);

@@ -73,7 +73,6 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
   memory_.pushes.resize(state.bodies.size());
   work_.touched.resize(state.bodies.size());
   work_.held.resize(state.bodies.size() + 1, 0);
-  work_.local.resize(state.bodies.size() + 1, -1);
   activateAll();
   if (!memory_.bendings) memory_.bendings = std::make_shared<Bendings>(bendingsOf(model));
 }

@@ -9,7 +9,6 @@
 // by their forces alone, so that the move keeps angular momentum.
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,10 +34,6 @@ class Stepping {
   void step();
 
  private:
-  /// What joins two bodies: a near pair that touches, by its number, or, numbered after them, a row
-  /// of a joint.
-  using Link = int;
-
   void stepTo(double t1, double h);
   /// Takes the bodies whose clock runs to t1, in as many parts as their hits ask for.
   void go(double t1, double h);
@@ -182,7 +177,7 @@ class Stepping {
   /// reflections are for.
   bool isCrowd() const;
   /// The same of an island.
-  bool isCrowd(std::span<const Link> links) const;
+  bool isCrowd(const Island& island) const;
   /// What the points of a pair, of which there are some, weigh in it.
   static int weightOf(const PairMemory& pair);
   /// Whether their hits divide no step.
@@ -196,12 +191,12 @@ class Stepping {
   bool isDrafted() const { return crowd_ && isHasty() && !model_.def.stepping.divides; }
   /// Whether the contact problem of a step takes in what hits.
   bool reboundsInStep() const { return isDrafted() && strikesAsCrowd(); }
-  /// Whether the problem at hand is that of many contacts, and of nothing else.
-  bool isManyContacts(std::span<const Link> links) const;
-  /// What may be left of the problem at hand, if it is that of many contacts that move: of what
+  /// Whether its problem is that of many contacts, and of nothing else.
+  bool isManyContacts(const Island& island) const;
+  /// What may be left of its problem, if it is that of many contacts that move: of what
   /// moves, the part that is planned for crowds. 0 for any other problem.
   /// @param scale [m/s] its velocityScale
-  double roughTolerance(std::span<const Link> links, double scale) const;
+  double roughTolerance(const Island& island, double scale) const;
   /// Whether all that is asked of any crowd is to leave a little open.
   bool isHasty() const {
     return model_.def.stepping.anyCrowd && model_.def.stepping.crowdOpen > 0.0;
@@ -209,32 +204,31 @@ class Stepping {
   /// In haste, takes out of a rough problem the points that part too fast for its forces to bring
   /// them together, and gives them no force; rows move up.
   /// @param scale [m/s] as for roughTolerance
-  void setAside(std::span<const Link> links, double scale, double h);
+  void setAside(Island& island, double scale, double h);
   bool isAside(const Touch& touch) const { return touch.due < 0.0; }
-  void takeBack(std::span<const Link> links);
+  void takeBack(const Island& island);
   /// Solves the island's problem to the last digits, or as far as is planned for crowds.
   /// @param bent, crowd  something in it bends; it is a crowd
-  SolveReport solveAsPlanned(std::span<const Link> links, bool bent, bool crowd,
-                             IslandMemory& memory, double h);
-  SolveReport solveFine(std::span<const Link> links);
+  SolveReport solveAsPlanned(Island& island, bool bent, bool crowd, double h);
+  SolveReport solveFine(Island& island);
   /// Whether its problem gives back what restitution asks for.
-  bool anyRebounds(std::span<const Link> links) const;
+  bool anyRebounds(const Island& island) const;
   /// Of a crowd that moves hardly any more, in a draft: to the last digits if that takes few
   /// iterations; else swept, for some steps.
-  SolveReport solveCalm(std::span<const Link> links, IslandMemory& memory, double h);
+  SolveReport solveCalm(Island& island, double h);
   /// Mass of the lightest point of what bends in an island, by that of its heaviest solid; at
   /// most 1.
-  double lightness() const;
+  double lightness(const Island& island) const;
   /// Whether sweeps left a small island far from what was planned for it.
-  bool isFarOff(const SolveReport& solved, double tolerance) const;
-  SolveReport solveRough(std::span<const Link> links, double tolerance, double h);
+  bool isFarOff(const Island& island, const SolveReport& solved, double tolerance) const;
+  SolveReport solveRough(Island& island, double tolerance, double h);
   /// The λ that the contacts had in the step before.
-  void startFromBefore(std::span<const Link> links, double h);
-  /// Overlap up to the part that is planned of what the solver may leave in a step stays.
-  void leaveOpen(double scale, double h);
+  void startFromBefore(Island& island, double h);
+  /// Overlap [m] that stays: the part that is planned of what the solver may leave in a step.
+  double mayLeave(double scale, double h) const;
   /// The part of λ that takes most energy, where the whole of it would add some.
   /// @return whether that was so
-  bool keepFromGaining(double h);
+  bool keepFromGaining(Island& island, double h);
   /// The rebound [m/s] up to which a touch is a contact that lasts: what a solver leaves is none.
   double leastRebound(const Touch& touch, double least) const;
 
@@ -251,6 +245,7 @@ class Stepping {
   void solveSteadily(double h);
   void solveInTurns(double h);
   void solveIslands(double h);
+  void solveEach(double h);
   /// What the islands of the step did, once they are solved for good.
   void bookIslands(double h);
   std::span<const Link> linksOf(std::size_t island) const {
@@ -260,39 +255,39 @@ class Stepping {
   /// The velocities at the end of the step, were there nothing to touch or hold.
   void foreseeTwists(double h);
   std::pair<int, int> ends(Link link) const;
-  bool isBonded(std::span<const Link> links) const {
-    return std::any_of(links.begin(), links.end(), [&](Link link) { return !isPair(link); });
-  }
+  bool isBonded(const Island& island) const;
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
   Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }
-  void solveIsland(std::span<const Link> links, double h);
-  void collectBodies(std::span<const Link> links);
-  void swing(std::span<const Link> links, double h);
+  /// Takes the storage of an island for another one.
+  void startIsland(Island& island, std::span<const Link> links);
+  void solveIsland(Island& island, double h);
+  void collectBodies(Island& island);
+  void swing(Island& island, double h);
   /// Of an island that nothing holds, under gravity alone: it falls on a parabola.
-  void fallAsOne(std::span<const Link> links, double h);
-  bool ofSame(const IslandMemory& memory, std::span<const Link> links) const;
-  bool keeps(const IslandMemory& memory, std::span<const Link> links) const;
-  bool goesOn(const IslandMemory& memory, std::span<const Link> links, double h) const;
-  /// Whether a body of the island at hand is not at rest as the step begins.
-  bool anyMoves() const;
-  bool rests(const IslandMemory& memory, std::span<const Link> links, double h) const;
-  bool pushesAlike(IslandMemory& memory, std::span<const Link> links, double h);
-  bool balances(const IslandMemory& memory, std::span<const Link> links);
+  void fallAsOne(Island& island, double h);
+  bool ofSame(const Island& island) const;
+  bool keeps(const Island& island) const;
+  bool goesOn(const Island& island, double h) const;
+  /// Whether a body of it is not at rest as the step begins.
+  bool anyMoves(const Island& island) const;
+  bool rests(const Island& island, double h) const;
+  bool pushesAlike(Island& island, double h);
+  bool balances(const Island& island);
   double missedBy(const Touch& touch, bool allClosed, double h) const;
-  void stand(IslandMemory& memory, bool crowd, double h) const;
-  void stretch(IslandMemory& memory, std::span<const Link> links, double h);
-  void build(std::span<const Link> links, double h);
-  void addTouch(Touch& touch, bool allClosed, double h);
+  void stand(Island& island, bool crowd, double h) const;
+  void stretch(Island& island, double h);
+  void build(Island& island, double h);
+  void addTouch(Island& island, Touch& touch, bool allClosed, double h);
   bool areClosed(std::span<const Touch> touches) const;
   double gapRate(const Touch& touch, bool allClosed, double h) const;
   /// What a step adds to the relative velocity of two bodies that turn together: each goes along
   /// its chord, not along its tangent.
   Vec3 carried(const Contact& contact, double h) const;
   bool atStart() const { return partStart_ == 0.0; }
-  Row& addRow(const Row& row);
-  void share(std::span<const Link> links, IslandMemory& memory, double h);
-  void remember(IslandMemory& memory, std::span<const Link> links);
-  void shareTouch(Touch& touch, const Cone& cone, IslandBooks& books, double h);
+  Row& addRow(Island& island, const Row& row);
+  void share(Island& island, double h);
+  void remember(Island& island);
+  void shareTouch(Island& island, Touch& touch, const Cone& cone, double h);
   void bookTouch(Touch& touch, const Vec3& ofA, const Vec3& ofB, IslandBooks& books) const;
   Vec3 speedAt(const Contact& contact, int body, std::span<const Vec6> twists) const;
   /// Of body a against b.
@@ -300,19 +295,19 @@ class Stepping {
     return speedAt(contact, contact.a, twists) - speedAt(contact, contact.b, twists);
   }
   bool slides(const Touch& touch) const;
-  int localOf(int body);
+  int localOf(Island& island, int body);
   /// Whether a fixed body that moves takes part.
-  bool isLed(std::span<const Link> links) const;
-  /// Words on what is crushed in an island, if no velocities obey its contacts, into work_.crushed.
-  void findCrushed(std::span<const Link> links, const SolveReport& solved);
+  bool isLed(const Island& island) const;
+  /// Words on what is crushed in an island, if no velocities obey its contacts.
+  void findCrushed(Island& island, const SolveReport& solved);
 
   // smooth.cpp: what slides or rolls on.
-  bool foreseesSmooth(std::span<const Link> links, double h);
-  bool isSmooth(std::span<const Link> links, double h) const;
+  bool foreseesSmooth(Island& island, double h);
+  bool isSmooth(const Island& island, double h) const;
   bool lasts(const Touch& touch, const Vec3& rate) const;
   bool goesRound(const Touch& touch, double h) const;
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
-  void bookLanding(std::span<const Link> links, IslandBooks& books, double h) const;
+  void bookLanding(Island& island, double h) const;
   /// A contact point, and the places of its bodies, in the middle of the step.
   struct Middle {
     ContactPoint point;
@@ -326,17 +321,16 @@ class Stepping {
   double halfGivenToBent() const;
   /// What the rows of joints as they stand take from the world and from fixed bodies.
   void bookOuter();
-  void moveAhead(int body, double h);
+  void moveAhead(Island& island, int body, double h);
   /// How far the gaps of joints after the step differ from what their rows foretold.
   struct Missed {
     double way = 0.0, part = 0.0;  ///< the most: [m], and of the joint's arm
   };
   /// Tells where the answer of an island leads, and the rows of joints what they missed there.
-  Missed foretellGaps(std::span<const Link> links, double h);
+  Missed foretellGaps(Island& island, double h);
   /// Solves the island once more until the forces of joints alone close their gaps.
-  /// @return false if it has no answer, or rows miss too much: misses_
-  bool closeGaps(std::span<const Link> links, bool crowd, IslandMemory& memory, double h,
-                 SolveReport& solved);
+  /// @return false if it has no answer, or rows miss too much
+  bool closeGaps(Island& island, bool crowd, double h, SolveReport& solved);
   /// Takes from the velocities what the joints do not allow where they now are.
   void meetJoints(double h);
   /// How many parts the next step needs for what swings fast in joints: under what they carried in
@@ -397,7 +391,7 @@ class Stepping {
   /// @return false, with words in work_.crushed, if nothing can be made of it.
   bool bend(double h);
   void begin(BendingPart& part, double h);
-  void factorBent(BendingPart& part);
+  void factorBent(BendingPart& part, std::string& crushed) const;
   /// @param all  not those that gain alone
   bool bendFurther(double h, bool all);
   bool turnOn(BendingPart& part, double h);
@@ -415,16 +409,16 @@ class Stepping {
   BentBooks booksOf(const BendingPart& part, double h) const;
   bool gains(double h);
   bool isToHalve(double h);
-  /// Gives `act` every part that has a point in the island at hand, once.
+  /// Gives `act` every part that has a point in an island, once.
   template <class Act>
-  void forBent(const Act& act) {
-    for (const int mover : work_.movers) {
+  void forBent(const Island& island, const Act& act) {
+    for (const int mover : island.movers) {
       if (!model_.bends(mover)) continue;
       BendingPart& part = memory_.bendings->partWith(mover);
       if (part.bodies[part.moving[0]] == mover) act(part);
     }
   }
-  bool keepsBent(const IslandMemory& memory, std::span<const Link> links, double h);
+  bool keepsBent(const Island& island, double h);
 
   // found_inside.cpp: points of what bends, by plans that do not foresee contacts.
   bool findsInside(std::size_t pair) const {
@@ -439,22 +433,22 @@ class Stepping {
   void bookInside();
 
   // swept.cpp: what bends, by sweeps in place of factors.
-  bool canSweep(std::span<const Link> links);
-  SolveReport sweepBent(std::span<const Link> links, double h);
-  SolveReport sweepBodies(double h);
+  bool canSweep(const Island& island);
+  SolveReport sweepBent(Island& island, double h);
+  SolveReport sweepBodies(Island& island, double h);
   void moveAlone(double h);
-  void factorSwept();
-  void leaveSweeps();
+  void factorSwept(Island& island);
+  void leaveSweeps(Island& island);
   /// The velocities at the end of the step without contacts.
   void foreseeBent();
   /// Points of what bends go where the step takes them, not along a flight.
   void markBent();
   /// Whether a body of the island is a point of what bends.
-  bool anyBends() const;
-  void collectBent();
+  bool anyBends(const Island& island) const;
+  void collectBent(Island& island);
   /// Joins the points of each part that bends.
   void joinBent();
-  void coupleBent();
+  void coupleBent(Island& island);
   void bookBent();
 
   // project.cpp
@@ -497,7 +491,6 @@ class Stepping {
   int cluster_ = 0;                   ///< whose clock runs
   bool crowd_ = false;                ///< the bodies whose clock runs are one
   bool rough_ = false;                ///< an island is solved as far as is planned for crowds
-  bool smooth_ = false;               ///< no contact of the island at hand changes its mode
   bool again_ = false;                ///< islands are solved once more, with what their bodies met
   std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
