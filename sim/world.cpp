@@ -40,6 +40,10 @@ World::World(const WorldDef& def, const Sample& from) : parts_(std::make_unique<
 }
 
 // What the certificate compares with later.
+void World::lend(Workers workers) {
+  parts_->model.workers = std::move(workers);
+}
+
 void World::openBooks() {
   const Model& model = parts_->model;
   const WorldDef& def = model.def;

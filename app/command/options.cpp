@@ -8,6 +8,7 @@
 
 #include "app/claim/verdict.h"
 #include "app/command/command.h"
+#include "app/record/threads.h"
 #include "app/scene/demos.h"
 
 namespace tumble {
@@ -19,6 +20,9 @@ void addOverrides(CommandLine& line, std::vector<std::string>& overrides) {
 void addSceneOptions(CommandLine& line, SceneOptions& options) {
   line.option("SCENE", options.scene, "a demo's name or a TOML file", {.required = true});
   addOverrides(line, options.overrides);
+  line.option("--threads", options.threads,
+              "threads that solve islands of contacts; no bit depends on them [1]",
+              {.type = "N", .range = {{1, 256}}});
 }
 
 void addRate(CommandLine& line, double& rate) {
@@ -33,6 +37,7 @@ Scene load(const SceneOptions& options) {
       throw UsageError(
           fmt::format("--set {}: expected KEY=VALUE, for example world.gravity=[0,-1.62,0]", text));
   }
+  useThreads(options.threads);
   Scene scene = readScene(scenePath(options.scene), options.overrides);
   requireKnownChecks(scene);
   return scene;

@@ -10,10 +10,11 @@
 
 namespace tumble {
 
-/// SCENE and --set.
+/// SCENE, --set and --threads.
 struct SceneOptions {
   std::string scene;
   std::vector<std::string> overrides;
+  int threads = 1;
 };
 void addSceneOptions(CommandLine& line, SceneOptions& options);
 
@@ -23,7 +24,7 @@ void addOverrides(CommandLine& line, std::vector<std::string>& overrides);
 /// --rate: samples or images a second; 0 stays the scene's own.
 void addRate(CommandLine& line, double& rate);
 
-/// Reads the scene that the options name.
+/// Reads the scene that the options name; worlds use their threads from now on.
 /// @throws UsageError, SceneError
 Scene load(const SceneOptions& options);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "app/record/threads.h"
+
 namespace tumble {
 
 namespace {
@@ -35,7 +37,9 @@ class Signs {
 
 World makeWorld(const Scene& scene) {
   try {
-    return World(scene.world);
+    World world(scene.world);
+    world.lend(makeWorkers(threadsInUse()));
+    return world;
   } catch (const Refusal& refusal) {
     throw SceneError({locate(scene, refusal)});
   }

@@ -12,6 +12,7 @@
 #include "sim/body/inertia_method.h"
 #include "sim/body/pivot.h"
 #include "sim/joint/joint.h"
+#include "sim/method/workers.h"
 #include "sim/shape/shape.h"
 
 namespace tumble {
@@ -157,6 +158,7 @@ struct Model {
   /// [m] of the world, for tolerances: the largest bounding radius or, where that is more, a
   /// hundredth of the largest distance from the origin at the start.
   double size = 1.0;
+  Workers workers;  ///< lent by who runs the world
 
   int count() const { return static_cast<int>(shapes.size()); }
   bool fixed(int body) const { return def.bodies[body].fixed; }

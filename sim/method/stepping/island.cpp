@@ -77,15 +77,21 @@ void Stepping::solveIslands(double h) {
 
 /// Whichever worker solves an island finds the same; what they tell is taken in their order.
 void Stepping::solveEach(double h) {
+  constexpr std::size_t kWorthwhile = 32;  // links: fewer are solved before a thread wakes up
   const int count = static_cast<int>(work_.begin.size()) - 1;
+  const int workers = count < 2 || work_.order.size() < kWorthwhile ? 1 : model_.workers.count;
   work_.answers.assign(count, {});
-  work_.islands.resize(1);
-  for (int i = 0; i < count; ++i) {
-    Island& island = work_.islands.front();
+  work_.islands.resize(std::max<std::size_t>(work_.islands.size(), workers));
+  const auto solve = [&](int i, int worker) {
+    Island& island = work_.islands[worker];
     startIsland(island, linksOf(i));
     solveIsland(island, h);
     work_.answers[i] = std::move(island.answer);
-  }
+  };
+  if (workers > 1)
+    model_.workers.forEach(count, solve);
+  else
+    for (int i = 0; i < count; ++i) solve(i, 0);
   leftOpen_ = 0.0;
   rough_ = false;
   for (const IslandAnswer& answer : work_.answers) {

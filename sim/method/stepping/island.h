@@ -70,9 +70,9 @@ struct Island {
   Problem problem;
   std::vector<int> local, bodies;  ///< per body of the world: its number in the problem, or < 0;
                                    ///< and back
-  std::vector<double> pull;   ///< as SolveSettings::pull
-  std::vector<Vec3> side;     ///< [N s] per body of a problem of what bends
-  Solution solution, before;  ///< and that of the round before
+  std::vector<double> pull;        ///< as SolveSettings::pull
+  std::vector<Vec3> side;          ///< [N s] per body of a problem of what bends
+  Solution solution, before;       ///< and that of the round before
 
   std::vector<RigidBody> ahead;     ///< per body in a joint: after the step
   std::vector<JointRow> jointRows;  ///< of one joint there

@@ -73,6 +73,7 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
   memory_.pushes.resize(state.bodies.size());
   work_.touched.resize(state.bodies.size());
   work_.held.resize(state.bodies.size() + 1, 0);
+  work_.islands.resize(std::max<std::size_t>(1, work_.islands.size()));
   activateAll();
   if (!memory_.bendings) memory_.bendings = std::make_shared<Bendings>(bendingsOf(model));
 }

@@ -245,6 +245,7 @@ class Stepping {
   void solveSteadily(double h);
   void solveInTurns(double h);
   void solveIslands(double h);
+  /// All islands, by as many workers as there are.
   void solveEach(double h);
   /// What the islands of the step did, once they are solved for good.
   void bookIslands(double h);
