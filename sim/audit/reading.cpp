@@ -21,7 +21,7 @@ void Audit::follow(const State& state) {
     follow(*state.before);
     handedOver_ = true;
   }
-  if (state.flights.empty())
+  if (state.exact.flights.empty())
     followSteps(state);
   else
     followFlights(state);
@@ -67,8 +67,8 @@ void Audit::followSteps(const State& state) {
 void Audit::bodiesInFlight(const State& state, double t, bool before,
                            std::vector<RigidBody>& out) const {
   out = bodies_;
-  for (std::size_t i = 0; i < state.flights.size(); ++i) {
-    const std::vector<Flight>& flights = state.flights[i];
+  for (std::size_t i = 0; i < state.exact.flights.size(); ++i) {
+    const std::vector<Flight>& flights = state.exact.flights[i];
     const auto begun = [&](const Flight& flight) {
       return before ? flight.start() < t : flight.start() <= t;
     };
@@ -76,23 +76,23 @@ void Audit::bodiesInFlight(const State& state, double t, bool before,
     if (next != flights.begin()) --next;
     next->at(t, out[i]);
   }
-  for (std::size_t k = 0; k < state.tops.size(); ++k)
-    state.tops[k].at(t, out[model_.pivots[k].body]);
+  for (std::size_t k = 0; k < state.exact.tops.size(); ++k)
+    state.exact.tops[k].at(t, out[model_.pivots[k].body]);
 }
 
 void Audit::followFlights(const State& state) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const std::size_t n = state.flights.size();
+  const std::size_t n = state.exact.flights.size();
   struck_ = false;
   flightsSeen_.resize(n, 1);  // the first begin with the run
   std::vector<double> changes;
   for (std::size_t i = 0; i < n; ++i) {
-    const long fresh = state.flightCount[i] - flightsSeen_[i];
-    const std::vector<Flight>& flights = state.flights[i];
+    const long fresh = state.exact.flightCount[i] - flightsSeen_[i];
+    const std::vector<Flight>& flights = state.exact.flights[i];
     const std::size_t first = flights.size() - std::min<std::size_t>(flights.size(), fresh);
     for (std::size_t k = first; k < flights.size() && !coarse_; ++k)
       changes.push_back(flights[k].start());
-    flightsSeen_[i] = state.flightCount[i];
+    flightsSeen_[i] = state.exact.flightCount[i];
   }
   std::sort(changes.begin(), changes.end());
   changes.erase(std::unique(changes.begin(), changes.end()), changes.end());

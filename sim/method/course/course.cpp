@@ -12,8 +12,8 @@ constexpr const char* kStandIn = "rk4";
 
 void advanceCourse(const Model& model, State& state, double t_end, Report& report) {
   Course course(model, state, report);
-  if (!state.settled) course.settle();
-  state.settled = true;
+  if (!state.course.settled) course.settle();
+  state.course.settled = true;
   while (state.t < t_end && !report.stopped) {
     course.move();
     course.settle();

@@ -152,10 +152,11 @@ double Course::backUp(double span, double tooFar) {
   const double instant = instantNear(state_.t);
   const auto allowed = [&](double h) { return allowance(h); };
   const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
-  ++state_.recentBackUps;
-  state_.stalled = h > instant ? 0 : state_.stalled + 1;
+  ++state_.course.recentBackUps;
+  state_.course.stalled = h > instant ? 0 : state_.course.stalled + 1;
   const int store = steppers_.hurry ? kBackUps / kHasty : kBackUps;
-  if (++state_.backUpsSpent <= store && state_.stalled < kPatience) return std::max(h, instant);
+  if (++state_.course.backUpsSpent <= store && state_.course.stalled < kPatience)
+    return std::max(h, instant);
 
   // The store is used up: from here to the end of the step events are seen late rather than never.
   report_.note("more events than a step can hold were seen late; max_penetration has the cost");
@@ -197,11 +198,11 @@ void Course::commit(double t1) {
   counted_ = system_.evaluations();
   if (t1 == gridTime(model_, state_.gridIndex, model_.def.course.step)) {
     ++state_.gridIndex;
-    state_.recentImpacts.clear();
-    state_.recentBackUps = 0;
+    state_.course.recentImpacts.clear();
+    state_.course.recentBackUps = 0;
     const int part = steppers_.hurry ? kHasty : 1;
-    state_.backUpsSpent =
-        std::max(0, std::min(state_.backUpsSpent, kBackUps / part) - kRefill / part);
+    state_.course.backUpsSpent =
+        std::max(0, std::min(state_.course.backUpsSpent, kBackUps / part) - kRefill / part);
   }
 }
 

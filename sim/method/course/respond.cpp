@@ -48,8 +48,8 @@ double Course::restitutionNow(const Contact& c) const {
   if (press > 0.0 && rebound * rebound < 2.0 * press * kHeight &&
       2.0 * rebound < press * (1.0 - c.restitution) * kTime)
     return 0.0;
-  const auto recent = state_.recentImpacts.find({c.a, c.b});
-  const int hits = recent == state_.recentImpacts.end() ? 0 : recent->second;
+  const auto recent = state_.course.recentImpacts.find({c.a, c.b});
+  const int hits = recent == state_.course.recentImpacts.end() ? 0 : recent->second;
   const double crawl = accelerationScale() * model_.def.course.step;
   if (hits > kHitsInStep && rebound < crawl) return 0.0;
   return c.restitution;
@@ -92,7 +92,7 @@ void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> i
     if (wasLasting(event.a, event.b) && leansOn(event, state_.bodies, tolerance_.keep)) continue;
     report_.events.push_back(event);
     const std::pair<int, int> pair(event.a, event.b);
-    if (pair != hit) ++state_.recentImpacts[pair];
+    if (pair != hit) ++state_.course.recentImpacts[pair];
     hit = pair;
   }
 }
@@ -136,7 +136,7 @@ void Course::chooseLasting() {
     c.creeping = c.sliding && slip.norm() < kCreep * c.friction * scale * model_.def.course.step;
     // After many ends of slips in one step a creeping contact is taken as sticking: its slip then
     // fades with the pull of a lasting contact, inside Coulomb's cone.
-    if (c.creeping && state_.recentBackUps >= kSticksInStep) c.sliding = c.creeping = false;
+    if (c.creeping && state_.course.recentBackUps >= kSticksInStep) c.sliding = c.creeping = false;
     c.mayStick = c.sliding;
     // A wedge that friction locks in its joint cannot be drawn out, however slowly.
     if (!c.sliding && c.friction > 0.0 && slip.norm() <= stick &&

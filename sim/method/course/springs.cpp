@@ -52,7 +52,7 @@ double Course::firstTouch(double h) {
     if (gaps_[k] == 0.0 || (gaps_[k] > 0.0) == (end > 0.0)) continue;
     first = findRoot(gap, 0.0, first, gaps_[k], end, instant).hi;
   }
-  if (first < h && ++state_.backUpsSpent > kBackUps) {
+  if (first < h && ++state_.course.backUpsSpent > kBackUps) {
     report_.note("more springs set in than a step can hold; some inside a step");
     first = h;
   }

@@ -5,9 +5,9 @@
 namespace tumble {
 
 void Exact::bringTo(double t, int body) {
-  state_.flights[body].back().at(t, state_.bodies[body]);
-  for (std::size_t k = 0; k < state_.tops.size(); ++k)
-    if (model_.pivots[k].body == body) state_.tops[k].at(t, state_.bodies[body]);
+  state_.exact.flights[body].back().at(t, state_.bodies[body]);
+  for (std::size_t k = 0; k < state_.exact.tops.size(); ++k)
+    if (model_.pivots[k].body == body) state_.exact.tops[k].at(t, state_.bodies[body]);
 }
 
 void Exact::stop(std::string reason) {
@@ -19,13 +19,13 @@ void Exact::stop(std::string reason) {
 /// What lasting contacts did since they were last booked: constant forces along paths that are
 /// known at both ends and at constant acceleration between.
 void Exact::bookHolds(double t) {
-  const double h = t - state_.bookedHold;
+  const double h = t - state_.exact.bookedHold;
   if (h > 0.0 && !state_.lasting.empty()) {
     const auto way = [&](int i) -> Vec3 {
       RigidBody body = state_.bodies[i];
-      state_.flights[i].back().at(state_.bookedHold, body);
+      state_.exact.flights[i].back().at(state_.exact.bookedHold, body);
       const Vec3 v = body.v;
-      state_.flights[i].back().at(t, body);
+      state_.exact.flights[i].back().at(t, body);
       return 0.5 * h * (v + body.v);
     };
     Certificate& books = report_.certificate;
@@ -41,7 +41,7 @@ void Exact::bookHolds(double t) {
       }
     }
   }
-  state_.bookedHold = t;
+  state_.exact.bookedHold = t;
 }
 
 void Exact::keepBooks(double t) {
@@ -57,22 +57,22 @@ void Exact::keepBooks(double t) {
     return;
   }
   bookHolds(t);
-  const double h = t - state_.booked;
+  const double h = t - state_.exact.booked;
   for (int i = 0; i < model_.count(); ++i) {
     const RigidBody& body = state_.bodies[i];
     if (body.fixed()) continue;
     if (model_.def.bodies[i].pivot_B) {  // the pivot gives what momentum it gains, and no work
-      state_.externalImpulse += body.P - state_.bookedP[i];
+      state_.externalImpulse += body.P - state_.exact.bookedP[i];
     } else {
       // Gravity has a potential; of what acts besides, work is force times way.
-      state_.externalImpulse += h * state_.outer[i];
-      report_.certificate.work_of_forces +=
-          (state_.outer[i] - body.M * model_.def.gravity).dot(body.x - state_.bookedX[i]);
+      state_.externalImpulse += h * state_.exact.outer[i];
+      report_.certificate.work_of_forces += (state_.exact.outer[i] - body.M * model_.def.gravity)
+                                                .dot(body.x - state_.exact.bookedX[i]);
     }
-    state_.bookedX[i] = body.x;
-    state_.bookedP[i] = body.P;
+    state_.exact.bookedX[i] = body.x;
+    state_.exact.bookedP[i] = body.P;
   }
-  state_.booked = state_.t = t;
+  state_.exact.booked = state_.t = t;
   account(model_, state_, report_);
 }
 

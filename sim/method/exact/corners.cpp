@@ -38,8 +38,10 @@ BoxEdge edgeOf(const std::vector<Convex>& parts, const RigidBody& body, std::uin
 }
 
 void tieCrossing(const State& state, Contact& c) {
-  const Vec3 ea = edgeOf(state.parts[c.a], state.bodies[c.a], featureOfA(c.point.feature)).along;
-  const Vec3 eb = edgeOf(state.parts[c.b], state.bodies[c.b], featureOfB(c.point.feature)).along;
+  const Vec3 ea =
+      edgeOf(state.exact.parts[c.a], state.bodies[c.a], featureOfA(c.point.feature)).along;
+  const Vec3 eb =
+      edgeOf(state.exact.parts[c.b], state.bodies[c.b], featureOfB(c.point.feature)).along;
   if (ea.cross(eb).norm() < kCrossing) return;
   c.point.ea = ea;
   c.point.eb = eb;
@@ -50,8 +52,8 @@ void tieCrossing(const State& state, Contact& c) {
 bool tieEdges(const State& state, Contact& c) {
   if (c.point.tie != NormalTie::FaceOfA && c.point.tie != NormalTie::FaceOfB) return true;
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
-  const BoxEdge ofA = edgeOf(state.parts[c.a], a, featureOfA(c.point.feature));
-  const BoxEdge ofB = edgeOf(state.parts[c.b], b, featureOfB(c.point.feature));
+  const BoxEdge ofA = edgeOf(state.exact.parts[c.a], a, featureOfA(c.point.feature));
+  const BoxEdge ofB = edgeOf(state.exact.parts[c.b], b, featureOfB(c.point.feature));
   const double lean =
       std::max(std::abs(ofA.along.dot(c.point.n)), std::abs(ofB.along.dot(c.point.n)));
   if (ofA.along.cross(ofB.along).norm() < kCrossing || lean <= kLevel) return true;

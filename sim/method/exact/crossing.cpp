@@ -41,7 +41,7 @@ RigidBody across(const Model& model, const State& state, const RigidBody& start,
     if (top.reach(h)) top.at(h, body);
     return body;
   }
-  Flight(start, start.invM * state.outer[static_cast<std::size_t>(i)], 0.0).at(h, body);
+  Flight(start, start.invM * state.exact.outer[static_cast<std::size_t>(i)], 0.0).at(h, body);
   return body;
 }
 
@@ -50,7 +50,7 @@ Crossing::Crossing(const Model& model, const State& state)
 
 /// [m/s²] of a body without contacts.
 double Crossing::pull(int i) const {
-  return start_[i].invM * state_.outer[i].norm();
+  return start_[i].invM * state_.exact.outer[i].norm();
 }
 
 void Crossing::findPairs(double most) {
@@ -113,7 +113,7 @@ void Crossing::solve() {
   Problem problem;
   beginVelocityProblem(start_, problem);
   for (std::size_t i = 0; i < start_.size(); ++i)
-    problem.vStar[i].head<3>() += h * start_[i].invM * state_.outer[i];
+    problem.vStar[i].head<3>() += h * start_[i].invM * state_.exact.outer[i];
   std::vector<std::size_t> owner;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (!active_[k]) continue;
@@ -161,7 +161,7 @@ void Crossing::push(const Problem& problem, const Solution& solution,
     give(row.b, -row.linear, row.angularB);
   }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
-    if (kicked_[i]) moved_[i].P += h * state_.outer[i];
+    if (kicked_[i]) moved_[i].P += h * state_.exact.outer[i];
     updateVelocities(moved_[i]);
   }
   lostNormal_ = lostSlip_ = givenWork_ = 0.0;
@@ -243,13 +243,13 @@ double Crossing::firstTouch() const {
         updateDerived(body);
         return Flight(body, Vec3::Zero(), 0.0);
       }
-      return Flight(body, body.invM * state_.outer[i], 0.0);
+      return Flight(body, body.invM * state_.exact.outer[i], 0.0);
     };
     const Flight flightA = flightOf(pair.a), flightB = flightOf(pair.b);
     constexpr double kShare = 1e-2;  // of the touch
-    first =
-        tumble::firstTouch({flightA, state_.parts[pair.a], scratch[pair.a]},
-                           {flightB, state_.parts[pair.b], scratch[pair.b]}, kShare * touch, first);
+    first = tumble::firstTouch({flightA, state_.exact.parts[pair.a], scratch[pair.a]},
+                               {flightB, state_.exact.parts[pair.b], scratch[pair.b]},
+                               kShare * touch, first);
   }
   return first;
 }

@@ -75,9 +75,9 @@ void Crossing::keepBooks() {
       impulse += to.P - from.P;
       continue;
     }
-    impulse += h * state_.outer[i];
+    impulse += h * state_.exact.outer[i];
     const Vec3 way = kicked_[i] ? Vec3(h * from.invM * to.P) : Vec3(to.x - from.x);
-    work += (state_.outer[i] - from.M * model_.def.gravity).dot(way);
+    work += (state_.exact.outer[i] - from.M * model_.def.gravity).dot(way);
     if (!kicked_[i]) continue;
     const Vec3 dP = to.P - from.P, dL = to.L - from.L;
     lostImpact += 0.5 * (from.invM * dP.squaredNorm() + dL.dot(from.Iinv * dL));

@@ -72,7 +72,7 @@ namespace {
 void giveUp(const Model& model, const State& state, Report& report) {
   if (state.effort.spent()) {
     report.reason = spentBy(model, state);
-  } else if (model.def.method == "auto" && state.pace.level > 0 &&
+  } else if (model.def.method == "auto" && state.exact.pace.level > 0 &&
              countMoving(state.bodies) > 1) {  // alone, one goes on well
     report.reason = "the exact method met more events than it could follow closely";
   } else {
@@ -106,19 +106,19 @@ void checkExact(const Model& model, std::span<const RigidBody>) {
 void advanceExact(const Model& model, State& state, double t_end, Report& report) {
   Exact exact(model, state, report);
   std::optional<Sustained> sustained;
-  if (state.outer.empty()) exact.takeOff();
-  for (HeavyTop& top : state.tops) top.forget(state.lookedAt);
-  for (std::vector<Flight>& flights : state.flights) {
+  if (state.exact.outer.empty()) exact.takeOff();
+  for (HeavyTop& top : state.exact.tops) top.forget(state.exact.lookedAt);
+  for (std::vector<Flight>& flights : state.exact.flights) {
     auto past = flights.begin();
-    while (past + 1 < flights.end() && (past + 1)->start() <= state.lookedAt) ++past;
+    while (past + 1 < flights.end() && (past + 1)->start() <= state.exact.lookedAt) ++past;
     flights.erase(flights.begin(), past);
   }
-  while (state.holds.size() > 1 && state.holds[1].t <= state.lookedAt)
-    state.holds.erase(state.holds.begin());
+  while (state.exact.holds.size() > 1 && state.exact.holds[1].t <= state.exact.lookedAt)
+    state.exact.holds.erase(state.exact.holds.begin());
   while (state.t < t_end && !report.stopped) {
-    if (state.settled) exact.takeOff();
-    state.settled = false;
-    if (!state.sustained) {
+    if (state.exact.settled) exact.takeOff();
+    state.exact.settled = false;
+    if (!state.exact.sustained) {
       exact.next(t_end);
       if (!report.stopped && state.effort.spent()) giveUp(model, state, report);
     } else {
@@ -128,7 +128,7 @@ void advanceExact(const Model& model, State& state, double t_end, Report& report
       if (!report.stopped) giveUp(model, state, report);
     }
   }
-  state.lookedAt = t_end;
+  state.exact.lookedAt = t_end;
 }
 
 void lookExact(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
@@ -136,22 +136,22 @@ void lookExact(const Model& model, const State& state, double t, std::vector<Rig
   // At the end of such a stretch the bodies are where it left them: flights begin later.
   const bool sustained = std::any_of(state.trail.begin(), state.trail.end(),
                                      [&](const Segment& s) { return s.t0 <= t && t < s.t1; });
-  if (sustained || ((state.sustained || state.settled) && t >= state.t))
+  if (sustained || ((state.exact.sustained || state.exact.settled) && t >= state.t))
     return lookSustained(model, state, t, bodies, contacts);
   contacts.clear();
   if (bodies.size() != state.bodies.size()) bodies = state.bodies;
-  for (std::size_t i = 0; i < state.flights.size(); ++i) {
-    const std::vector<Flight>& flights = state.flights[i];
+  for (std::size_t i = 0; i < state.exact.flights.size(); ++i) {
+    const std::vector<Flight>& flights = state.exact.flights[i];
     std::size_t k = flights.size() - 1;
     while (k > 0 && flights[k].start() > t) --k;
     flights[k].at(t, bodies[i]);
   }
-  for (std::size_t k = 0; k < state.tops.size(); ++k)
-    state.tops[k].at(t, bodies[model.pivots[k].body]);
-  std::size_t k = state.holds.size();
-  while (k > 0 && state.holds[k - 1].t > t) --k;
+  for (std::size_t k = 0; k < state.exact.tops.size(); ++k)
+    state.exact.tops[k].at(t, bodies[model.pivots[k].body]);
+  std::size_t k = state.exact.holds.size();
+  while (k > 0 && state.exact.holds[k - 1].t > t) --k;
   if (k == 0) return;
-  contacts = state.holds[k - 1].contacts;
+  contacts = state.exact.holds[k - 1].contacts;
   for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
 }
 
@@ -167,36 +167,36 @@ Exact::Exact(const Model& model, State& state, Report& report)
 void Exact::takeOff() {
   const std::size_t n = state_.bodies.size();
   const double t = state_.t;
-  const bool first = state_.outer.empty();
+  const bool first = state_.exact.outer.empty();
   if (first) {
     // What acts on a body stays the same all the way.
     sumForces(model_.def.gravity, model_.def.forces, state_.bodies);
-    for (const RigidBody& body : state_.bodies) state_.outer.push_back(body.force);
-    for (const Shape& shape : model_.shapes) state_.parts.push_back(partsOf(shape));
-    state_.flights.resize(n);
-    state_.flightCount.assign(n, 0);
-    state_.bookedX.resize(n);
-    state_.bookedP.resize(n);
+    for (const RigidBody& body : state_.bodies) state_.exact.outer.push_back(body.force);
+    for (const Shape& shape : model_.shapes) state_.exact.parts.push_back(partsOf(shape));
+    state_.exact.flights.resize(n);
+    state_.exact.flightCount.assign(n, 0);
+    state_.exact.bookedX.resize(n);
+    state_.exact.bookedP.resize(n);
     report_.certificate.evaluations = 1;
   }
-  state_.window.length = model_.def.duration - t;
+  state_.exact.window.length = model_.def.duration - t;
   for (std::size_t i = 0; i < n; ++i) {
     const RigidBody& body = state_.bodies[i];
-    renew(t, static_cast<int>(i), body.invM * state_.outer[i]);
-    state_.bookedX[i] = body.x;
-    state_.bookedP[i] = body.P;
+    renew(t, static_cast<int>(i), body.invM * state_.exact.outer[i]);
+    state_.exact.bookedX[i] = body.x;
+    state_.exact.bookedP[i] = body.P;
   }
-  state_.booked = state_.bookedHold = t;
-  state_.tops.clear();
+  state_.exact.booked = state_.exact.bookedHold = t;
+  state_.exact.tops.clear();
   for (const Pivot& pivot : model_.pivots)
-    state_.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, t);
+    state_.exact.tops.emplace_back(state_.bodies[pivot.body], pivot, model_.def.gravity, t);
   openWindow();
   if (!report_.stopped) settle();
   if (report_.stopped) return;
-  if (state_.sustained) return keepBooks(t);  // those that fly have been looked at elsewhere
-  openWindow();                               // contacts that lasted need not last any more
-  if (!state_.holds.empty() && state_.holds.back().t < t)
-    state_.holds.push_back({t, state_.lasting});
+  if (state_.exact.sustained) return keepBooks(t);  // those that fly have been looked at elsewhere
+  openWindow();                                     // contacts that lasted need not last any more
+  if (!state_.exact.holds.empty() && state_.exact.holds.back().t < t)
+    state_.exact.holds.push_back({t, state_.lasting});
   keepBooks(t);
 }
 
@@ -228,18 +228,18 @@ void Exact::settle() {
 }
 
 void Exact::next(double t_end) {
-  if (state_.t >= state_.window.t1) openWindow();
+  if (state_.t >= state_.exact.window.t1) openWindow();
   if (report_.stopped) return;
   dropStale();
-  const double until = std::min(t_end, state_.window.t1);
-  if (!state_.queue.empty() && state_.queue.front().t <= until) {
-    const State::Touch touch = state_.queue.front();
+  const double until = std::min(t_end, state_.exact.window.t1);
+  if (!state_.exact.queue.empty() && state_.exact.queue.front().t <= until) {
+    const ExactMemory::Touch touch = state_.exact.queue.front();
     closeRests(touch.t);
     strike(touch.t, touch.a, touch.b);
     return;
   }
   closeRests(until);
-  if (until == state_.window.t1 || until == model_.def.duration) keepBooks(until);
+  if (until == state_.exact.window.t1 || until == model_.def.duration) keepBooks(until);
   state_.t = until;
 }
 

@@ -39,7 +39,7 @@ double Sustained::lookAhead() const {
   for (const int i : model_.solid) {
     const RigidBody& body = trial_[i];
     if (body.fixed()) continue;
-    const bool round = std::all_of(state_.parts[i].begin(), state_.parts[i].end(),
+    const bool round = std::all_of(state_.exact.parts[i].begin(), state_.exact.parts[i].end(),
                                    [](const Convex& part) { return part.outline.corner == 0.0; });
     const double turn = round ? kTurnRound : kTurn;
     const double speed = body.omega.norm(), rate = (body.Iinv * body.torque).norm();
@@ -62,7 +62,7 @@ double Sustained::speedBound(int ia, int ib, double h) const {
   const RigidBody &a = trial_[ia], &b = trial_[ib];
   const auto turning = [&](int i) {
     double corner = 0.0;
-    for (const Convex& part : state_.parts[i]) corner = std::max(corner, part.outline.corner);
+    for (const Convex& part : state_.exact.parts[i]) corner = std::max(corner, part.outline.corner);
     return trial_[i].omega.norm() * corner;
   };
   const HalfSpace* plane = std::get_if<HalfSpace>(&model_.shapes[ib]);

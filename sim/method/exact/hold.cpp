@@ -52,8 +52,8 @@ std::vector<Contact> Exact::restingOf(const Cluster& cluster) const {
 }
 
 double Exact::weightOn(const Contact& c) const {
-  return state_.bodies[c.a].invM * state_.outer[c.a].norm() +
-         state_.bodies[c.b].invM * state_.outer[c.b].norm();
+  return state_.bodies[c.a].invM * state_.exact.outer[c.a].norm() +
+         state_.bodies[c.b].invM * state_.exact.outer[c.b].norm();
 }
 
 // The last hit of a row of bounces may lift other points of the pair, as little as the bounces that
@@ -106,7 +106,7 @@ double Exact::solveForces(std::vector<Contact>& resting) {
   }
   Held held(state_.bodies, resting);
   for (std::size_t k = 0; k < held.bodies.size(); ++k) {
-    held.bodies[k].force = state_.outer[held.global[k]];
+    held.bodies[k].force = state_.exact.outer[held.global[k]];
     held.bodies[k].torque.setZero();
   }
   const SolveReport solved = RestForces(true).apply(held.bodies, held.contacts);
@@ -132,7 +132,7 @@ bool Exact::steady(const Contact& c) const {
   };
   const auto torqueFree = [&](const RigidBody& body, int i) {
     const double scale = boundingRadius(model_.shapes[i]) * body.force.norm() +
-                         boundingRadius(model_.shapes[i]) * state_.outer[i].norm();
+                         boundingRadius(model_.shapes[i]) * state_.exact.outer[i].norm();
     return body.fixed() || body.torque.norm() <= kRounding * scale;
   };
   if (!torqueFree(a, c.a) || !torqueFree(b, c.b)) return false;
@@ -183,7 +183,7 @@ void Exact::stillContacts(const std::vector<Contact>& resting) {
 double Exact::findForces(double t, const Cluster& cluster, std::vector<Contact>& resting) {
   const auto solve = [&] {
     for (const int i : cluster.bodies) {
-      state_.bodies[i].force = state_.outer[i];
+      state_.bodies[i].force = state_.exact.outer[i];
       state_.bodies[i].torque.setZero();
     }
     resting = restingOf(cluster);
@@ -216,7 +216,7 @@ void Exact::hold(double t, Cluster& cluster) {
   std::vector<Contact> resting;
   const double residual = findForces(t, cluster, resting);
   if (residual > kLawless) {
-    state_.lawless = true;
+    state_.exact.lawless = true;
     return sustain(t, cluster);
   }
   double& worst = report_.certificate.max_complementarity;
@@ -233,7 +233,7 @@ void Exact::hold(double t, Cluster& cluster) {
     if (!lasts(c.a, c.b)) lookFor({c.b, c.a}, t);
   lookForStops(t);
   // Many new flights make the rest of the window worthless: begin another.
-  State::Window& w = state_.window;
+  ExactMemory::Window& w = state_.exact.window;
   const long most = 64 + 4 * static_cast<long>(w.finite.size());
   if (w.renewals > most && w.swept.size() > 64 && t > w.t0) {
     w.length = t - w.t0;
@@ -248,32 +248,32 @@ void Exact::flyOn(double t, const Cluster& cluster) {
     const RigidBody& body = state_.bodies[i];
     if (body.fixed()) continue;
     Vec3 acceleration = body.invM * body.force;
-    const bool pushed = body.force != state_.outer[i];
-    if (pushed && acceleration.norm() <= kRounding * body.invM * state_.outer[i].norm())
+    const bool pushed = body.force != state_.exact.outer[i];
+    if (pushed && acceleration.norm() <= kRounding * body.invM * state_.exact.outer[i].norm())
       acceleration.setZero();
     RigidBody unchanged = body;
-    state_.flights[i].back().at(t, unchanged);
+    state_.exact.flights[i].back().at(t, unchanged);
     if (unchanged.P == body.P && unchanged.L == body.L &&
-        state_.flights[i].back().path().g == acceleration)
+        state_.exact.flights[i].back().path().g == acceleration)
       continue;
     renew(t, i, acceleration);
     renewed.push_back(i);
   }
   for (const int i : renewed) lookAround(i, t);
-  state_.window.renewals += static_cast<long>(renewed.size());
+  state_.exact.window.renewals += static_cast<long>(renewed.size());
 }
 
 /// What rolls, tips or slides over an edge has no closed form here.
 void Exact::sustain(double t, const Cluster& cluster) {
   for (const int i : cluster.bodies)
-    if (!model_.fixed(i)) renew(t, i, state_.bodies[i].invM * state_.outer[i]);
+    if (!model_.fixed(i)) renew(t, i, state_.bodies[i].invM * state_.exact.outer[i]);
   keepBooks(t);
-  if (!state_.sustained) {
-    state_.patience = std::clamp(2 * state_.patience, kFirst, kMost);
-    state_.stretchesLeft = state_.patience;
+  if (!state_.exact.sustained) {
+    state_.exact.patience = std::clamp(2 * state_.exact.patience, kFirst, kMost);
+    state_.exact.stretchesLeft = state_.exact.patience;
   }
-  state_.sustained = true;
-  state_.modesKnown = false;
+  state_.exact.sustained = true;
+  state_.exact.modesKnown = false;
 }
 
 /// Friction that brakes along a line ends a slip at a known instant.
@@ -284,19 +284,20 @@ void Exact::lookForStops(double t) {
     bringTo(t, c.b);
     const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
     const Vec3 slip = slipVelocity(a, b, c.point);
-    const Vec3 rate = state_.flights[c.a].back().path().g - state_.flights[c.b].back().path().g;
+    const Vec3 rate =
+        state_.exact.flights[c.a].back().path().g - state_.exact.flights[c.b].back().path().g;
     const double brake = -rate.dot(slip) / slip.norm();
     const double end = t + slip.norm() / brake;
-    if (brake > 0.0 && slip.norm() > tolerance_.stick && end < state_.window.t1)
+    if (brake > 0.0 && slip.norm() > tolerance_.stick && end < state_.exact.window.t1)
       push(end, c.a, c.b);
   }
 }
 
 void Exact::renew(double t, int i, const Vec3& acceleration) {
-  std::vector<Flight>& flights = state_.flights[i];
+  std::vector<Flight>& flights = state_.exact.flights[i];
   if (!flights.empty() && flights.back().start() == t) flights.pop_back();
   flights.emplace_back(state_.bodies[i], acceleration, t);
-  ++state_.flightCount[i];
+  ++state_.exact.flightCount[i];
   ++report_.certificate.steps;
 }
 
@@ -318,29 +319,31 @@ std::vector<Contact> Exact::changeHolds(double t, const Cluster& cluster,
   std::stable_sort(
       state_.lasting.begin(), state_.lasting.end(),
       [](const Contact& p, const Contact& q) { return std::pair(p.b, p.a) < std::pair(q.b, q.a); });
-  if (!state_.holds.empty() && state_.holds.back().t == t) state_.holds.pop_back();
-  state_.holds.push_back({t, state_.lasting});
+  if (!state_.exact.holds.empty() && state_.exact.holds.back().t == t)
+    state_.exact.holds.pop_back();
+  state_.exact.holds.push_back({t, state_.lasting});
 
   // A rest at the end of a row of bounces is told when the last of them would be over.
   Report changes;
   recordChanges(before, now, t, changes);
   for (Event event : changes.events) {
     const auto same = [&](const Event& e) { return e.a == event.a && e.b == event.b; };
-    if (event.kind == EventKind::Separate && std::erase_if(state_.closing, same) > 0) continue;
+    if (event.kind == EventKind::Separate && std::erase_if(state_.exact.closing, same) > 0)
+      continue;
     for (const auto& [pair, end] : ends_)
       if (event.kind == EventKind::Rest && pair == Pair(event.b, event.a))
         event.t = std::max(event.t, end);
-    (event.t > t ? state_.closing : report_.events).push_back(event);
+    (event.t > t ? state_.exact.closing : report_.events).push_back(event);
   }
   return before;
 }
 
 void Exact::closeRests(double t) {
-  std::stable_sort(state_.closing.begin(), state_.closing.end(),
+  std::stable_sort(state_.exact.closing.begin(), state_.exact.closing.end(),
                    [](const Event& p, const Event& q) { return p.t < q.t; });
-  while (!state_.closing.empty() && state_.closing.front().t <= t) {
-    const Event event = state_.closing.front();
-    state_.closing.erase(state_.closing.begin());
+  while (!state_.exact.closing.empty() && state_.exact.closing.front().t <= t) {
+    const Event event = state_.exact.closing.front();
+    state_.exact.closing.erase(state_.exact.closing.begin());
     const auto place = std::upper_bound(report_.events.begin(), report_.events.end(), event,
                                         [](const Event& p, const Event& q) { return p.t < q.t; });
     report_.events.insert(place, event);

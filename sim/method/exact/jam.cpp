@@ -147,7 +147,7 @@ bool Exact::jams(const Contact& c, const std::vector<Contact>& resting) const {
   if (!c.sliding || std::count_if(resting.begin(), resting.end(), ofPair) > 1) return false;
   RigidBody bodies[] = {state_.bodies[c.a], state_.bodies[c.b]};
   for (const int k : {0, 1}) {
-    bodies[k].force = state_.outer[k == 0 ? c.a : c.b];
+    bodies[k].force = state_.exact.outer[k == 0 ? c.a : c.b];
     bodies[k].torque.setZero();
   }
   return normalAcceleration(bodies[0], bodies[1], c.point) < 0.0 &&
@@ -160,17 +160,17 @@ bool Exact::jams(const Contact& c, const std::vector<Contact>& resting) const {
 // Brogliato 1999. Where they are more than one, the longest step decides.
 bool Exact::endJam(double t, const Cluster& cluster, const std::vector<Contact>& resting,
                    double residual) {
-  const bool asked = state_.jammed || !(residual < kUnsolved) ||
+  const bool asked = state_.exact.jammed || !(residual < kUnsolved) ||
                      std::any_of(resting.begin(), resting.end(),
                                  [&](const Contact& c) { return jams(c, resting); });
-  state_.jammed = false;
+  state_.exact.jammed = false;
   if (!asked) return false;
   std::vector<RigidBody> bodies;
   std::vector<int> local(state_.bodies.size(), -1);
   for (const int i : cluster.bodies) {
     local[i] = static_cast<int>(bodies.size());
     bodies.push_back(state_.bodies[i]);
-    bodies.back().force = state_.outer[i];
+    bodies.back().force = state_.exact.outer[i];
     bodies.back().torque.setZero();
   }
   std::vector<Contact> contacts = resting;

@@ -48,7 +48,7 @@ SolveReport Sustained::solveCones(std::vector<RigidBody>& bodies,
 void Sustained::chooseModes() {
   acceleration_ = model_.def.gravity.norm();
   for (std::size_t i = 0; i < state_.bodies.size(); ++i)
-    acceleration_ = std::max(acceleration_, state_.bodies[i].invM * state_.outer[i].norm());
+    acceleration_ = std::max(acceleration_, state_.bodies[i].invM * state_.exact.outer[i].norm());
   if (acceleration_ == 0.0) acceleration_ = 1.0;
   std::vector<Contact>& lasting = state_.lasting;
   for (Contact& c : lasting) {
@@ -63,7 +63,7 @@ void Sustained::chooseModes() {
     c.onset = 0.0;
     if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
   }
-  if (!state_.modesKnown) {
+  if (!state_.exact.modesKnown) {
     const std::vector<Contact> before = lasting;
     tieCrossings(state_, lasting);
     // What touches to rounding is not moved: that would be work.
@@ -80,7 +80,7 @@ void Sustained::chooseModes() {
     }
     unload();
     recordChanges(before, lasting, state_.t, report_);
-    state_.modesKnown = true;
+    state_.exact.modesKnown = true;
   }
   slip_.clear();
   for (const Contact& c : lasting)

@@ -25,11 +25,11 @@ constexpr int kStalled = 1000;
 }  // namespace
 
 void Exact::strike(double t, int a, int b) {
-  state_.stalled = t > state_.t ? 0 : state_.stalled + 1;
+  state_.exact.stalled = t > state_.t ? 0 : state_.exact.stalled + 1;
   state_.t = t;
-  state_.pace.see(t, 1);
-  if (state_.pace.lost()) return stop(crowdedAt(t));
-  const long flightA = state_.flightCount[a], flightB = state_.flightCount[b];
+  state_.exact.pace.see(t, 1);
+  if (state_.exact.pace.lost()) return stop(crowdedAt(t));
+  const long flightA = state_.exact.flightCount[a], flightB = state_.exact.flightCount[b];
   const auto held = [&](int i) { return model_.def.bodies[i].pivot_B.has_value(); };
   if (!canCollide(model_.shapes[a], model_.shapes[b]))
     return stop("\"" + nameOf(a) + "\" comes near \"" + nameOf(b) + "\" at t = " + digits(t) +
@@ -38,7 +38,7 @@ void Exact::strike(double t, int a, int b) {
   if (held(a) || held(b))
     return stop("\"" + nameOf(a) + "\" touches \"" + nameOf(b) + "\" at t = " + digits(t) +
                 " s; a body with a pivot has no contacts");
-  if (state_.stalled > kStalled) {  // hits without end, as between bodies that close in
+  if (state_.exact.stalled > kStalled) {  // hits without end, as between bodies that close in
     return sustain(t, {});
   }
 
@@ -51,9 +51,10 @@ void Exact::strike(double t, int a, int b) {
   if (!report_.stopped) hold(t, cluster);
   sortEvents(report_, firstEvent);
   // Whom nothing changed may still meet later.
-  if (flightA == state_.flightCount[a] && flightB == state_.flightCount[b] && !report_.stopped)
-    state_.flightCount[model_.fixed(a) ? b : a]++, lookAround(model_.fixed(a) ? b : a, t);
-  if (state_.sustained) keepBooks(t);
+  if (flightA == state_.exact.flightCount[a] && flightB == state_.exact.flightCount[b] &&
+      !report_.stopped)
+    state_.exact.flightCount[model_.fixed(a) ? b : a]++, lookAround(model_.fixed(a) ? b : a, t);
+  if (state_.exact.sustained) keepBooks(t);
 }
 
 Cluster Exact::gather(double t, std::span<const int> seeds) {
@@ -70,7 +71,7 @@ Cluster Exact::gather(double t, std::span<const int> seeds) {
   for (const int seed : seeds) visit(seed);
   for (std::size_t k = 0; k < open.size(); ++k) {
     const int i = open[k];
-    const State::Window& w = state_.window;
+    const ExactMemory::Window& w = state_.exact.window;
     const auto meet = [&](int j) {
       const Pair pair = std::minmax(i, j);
       if (std::find(met.begin(), met.end(), pair) != met.end()) return;
@@ -103,13 +104,13 @@ bool Exact::collides(const Cluster& cluster) const {
 }
 
 double Exact::lowest() const {
-  return kLowest * state_.pace.coarseness() * std::max(1.0, model_.size);
+  return kLowest * state_.exact.pace.coarseness() * std::max(1.0, model_.size);
 }
 
 // Forces that a body would carry without the contacts of this pair.
 void Exact::loadWithout(const Contact& pair, int i) {
   RigidBody& body = state_.bodies[i];
-  body.force = state_.outer[i];
+  body.force = state_.exact.outer[i];
   body.torque.setZero();
   for (const Contact& c : state_.lasting) {
     if ((c.a == pair.a && c.b == pair.b) || (c.a != i && c.b != i)) continue;

@@ -71,7 +71,8 @@ Sustained::Sustained(const Model& model, State& state, Report& report)
 
 void Sustained::next() {
   system_.effort = state_.effort;
-  if (state_.pace.level > 0 || state_.lawless) return cross(state_.pace.stretch());
+  if (state_.exact.pace.level > 0 || state_.exact.lawless)
+    return cross(state_.exact.pace.stretch());
   chooseModes();
   system_.begin(state_.lasting);
   system_.pack(state_.bodies, y0_);
@@ -91,20 +92,20 @@ void Sustained::next() {
     event = false;
   }
   if (givesEnergy()) {
-    state_.lawless = true;
-    return cross(state_.pace.stretch());
+    state_.exact.lawless = true;
+    return cross(state_.exact.pace.stretch());
   }
   commit(h);
   state_.effort = system_.effort;
   keepPace(event || h < kShort);
-  if (event || --state_.stretchesLeft <= 0 || state_.lasting.empty()) leave();
+  if (event || --state_.exact.stretchesLeft <= 0 || state_.lasting.empty()) leave();
 }
 
 void Sustained::keepPace(bool event) {
   const long toil = (system_.evaluations() - before_ - kEasy) / kToil;
   before_ = system_.evaluations();
-  state_.pace.see(state_.t, (event ? kWeight : 0) + std::clamp(toil, 0L, kHardest));
-  if (!state_.pace.lost() || report_.stopped) return;
+  state_.exact.pace.see(state_.t, (event ? kWeight : 0) + std::clamp(toil, 0L, kHardest));
+  if (!state_.exact.pace.lost() || report_.stopped) return;
   report_.stopped = true;
   report_.reason = crowdedAt(state_.t);
 }
@@ -121,7 +122,7 @@ bool Sustained::findEvent(double& h) {
     }
     if (!path_.grow(system_, integrator_, most_)) {  // forces change faster and faster
       h = 0.9 * before.s;
-      state_.jammed = h < kInstant;
+      state_.exact.jammed = h < kInstant;
       return true;
     }
     Look after = look(path_.reached());
@@ -175,7 +176,7 @@ bool Sustained::givesEnergy() const {
 }
 
 void Sustained::cross(double most) {
-  report_.note(state_.lawless ? kLawlessNote : kCrowdedNote);
+  report_.note(state_.exact.lawless ? kLawlessNote : kCrowdedNote);
   const double left = model_.def.duration - state_.t;
   Crossing step(model_, state_);
   step.take(std::min(most, left));
@@ -210,8 +211,8 @@ void Sustained::cross(double most) {
   account(model_, state_, report_);
   state_.effort = system_.effort;
   before_ = system_.evaluations();
-  keepPace(step.touches || state_.lawless);
-  state_.lawless = false;
+  keepPace(step.touches || state_.exact.lawless);
+  state_.exact.lawless = false;
   if (step.left > kCrushed * std::max(1.0, model_.size)) {
     report_.stopped = true;
     const auto driven = [&](const RigidBody& body) {
@@ -229,8 +230,8 @@ void Sustained::cross(double most) {
 }
 
 void Sustained::leave() {
-  state_.sustained = false;
-  state_.settled = true;
+  state_.exact.sustained = false;
+  state_.exact.settled = true;
 }
 
 double Sustained::allowance(double h) {
@@ -350,7 +351,8 @@ void lookSustained(const Model& model, const State& state, double t, std::vector
     if (s.t0 <= t) segment = &s;
   const bool now = !segment || t >= state.t;
   bodies = now ? state.bodies : segment->start;
-  if (now && !state.modesKnown) {  // the forces of this instant are known, not yet what slides
+  if (now &&
+      !state.exact.modesKnown) {  // the forces of this instant are known, not yet what slides
     contacts = state.lasting;
     for (Contact& c : contacts) follow(bodies[c.a], bodies[c.b], c);
     return;

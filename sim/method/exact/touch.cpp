@@ -11,7 +11,7 @@ namespace tumble {
 namespace {
 
 /// The later of two touches; of touches at one instant, the one of later bodies.
-bool later(const State::Touch& p, const State::Touch& q) {
+bool later(const ExactMemory::Touch& p, const ExactMemory::Touch& q) {
   return std::tie(p.t, p.a, p.b) > std::tie(q.t, q.a, q.b);
 }
 
@@ -22,16 +22,16 @@ void Exact::lookFor(Pair pair, double t) {
   const int b = first, a = second;
   if (bothFixed(a, b)) return;
   const auto flyer = [&](int i, const Convex& part) {
-    Flyer flyer{&state_.flights[i].back(), &part, &state_.bodies[i]};
-    for (std::size_t k = 0; k < state_.tops.size(); ++k)
-      if (model_.pivots[k].body == i) flyer.top = &state_.tops[k];
+    Flyer flyer{&state_.exact.flights[i].back(), &part, &state_.bodies[i]};
+    for (std::size_t k = 0; k < state_.exact.tops.size(); ++k)
+      if (model_.pivots[k].body == i) flyer.top = &state_.exact.tops[k];
     return flyer;
   };
   const bool held = lasts(a, b);
-  double t1 = state_.window.t1;
+  double t1 = state_.exact.window.t1;
   bool found = false;
-  for (const Convex& partA : state_.parts[a]) {
-    for (const Convex& partB : state_.parts[b]) {
+  for (const Convex& partA : state_.exact.parts[a]) {
+    for (const Convex& partB : state_.exact.parts[b]) {
       if (held) {  // parts that rest on each other stay so until something happens
         bringTo(t, a);
         bringTo(t, b);
@@ -50,13 +50,13 @@ void Exact::lookFor(Pair pair, double t) {
 }
 
 void Exact::push(double t, int a, int b) {
-  state_.queue.push_back({t, a, b, state_.flightCount[a], state_.flightCount[b]});
-  std::push_heap(state_.queue.begin(), state_.queue.end(), later);
+  state_.exact.queue.push_back({t, a, b, state_.exact.flightCount[a], state_.exact.flightCount[b]});
+  std::push_heap(state_.exact.queue.begin(), state_.exact.queue.end(), later);
 }
 
 void Exact::lookAround(int body, double t) {
-  State::Window& w = state_.window;
-  if (state_.parts[body].empty()) return;
+  ExactMemory::Window& w = state_.exact.window;
+  if (state_.exact.parts[body].empty()) return;
   w.swept[body] = sweptBox(body, t);
   for (const int plane : w.planes) lookFor({plane, body}, t);
   for (const int other : w.finite)
@@ -64,9 +64,9 @@ void Exact::lookAround(int body, double t) {
 }
 
 void Exact::dropStale() {
-  std::vector<State::Touch>& queue = state_.queue;
-  while (!queue.empty() && (queue.front().flightA != state_.flightCount[queue.front().a] ||
-                            queue.front().flightB != state_.flightCount[queue.front().b])) {
+  std::vector<ExactMemory::Touch>& queue = state_.exact.queue;
+  while (!queue.empty() && (queue.front().flightA != state_.exact.flightCount[queue.front().a] ||
+                            queue.front().flightB != state_.exact.flightCount[queue.front().b])) {
     std::pop_heap(queue.begin(), queue.end(), later);
     queue.pop_back();
   }

@@ -33,8 +33,8 @@ void stretch(double x, double v, double a, double h, double& lo, double& hi) {
 }  // namespace
 
 Aabb Exact::sweptBox(int i, double t) const {
-  const State::Window& w = state_.window;
-  const Flight& flight = state_.flights[i].back();
+  const ExactMemory::Window& w = state_.exact.window;
+  const Flight& flight = state_.exact.flights[i].back();
   const std::optional<Vec3>& pivot_B = model_.def.bodies[i].pivot_B;
   const double since = t - flight.start(), late = t - w.t0, h = w.t1 - t;
   Vec3 x = flight.path().position(since), v = flight.path().velocity(since), a = flight.path().g;
@@ -63,13 +63,13 @@ Aabb Exact::sweptBox(int i, double t) const {
 
 void Exact::chooseFrame() {
   // Bodies that all fly free are seen from a frame that falls and drifts with them.
-  State::Window& w = state_.window;
+  ExactMemory::Window& w = state_.exact.window;
   w.drift.setZero();
   w.fall.setZero();
   int count = 0;
   for (const int i : w.finite) {
     if (model_.fixed(i)) return w.drift.setZero(), void();
-    const Flight& flight = state_.flights[i].back();
+    const Flight& flight = state_.exact.flights[i].back();
     w.drift += flight.path().velocity(w.t0 - flight.start());
     ++count;
   }
@@ -79,7 +79,7 @@ void Exact::chooseFrame() {
 }
 
 std::vector<Exact::Pair> Exact::choosePairs() {
-  State::Window& w = state_.window;
+  ExactMemory::Window& w = state_.exact.window;
   const double left = model_.def.duration - w.t0;
   const long n = static_cast<long>(w.finite.size());
   std::vector<Aabb> boxes;
@@ -99,7 +99,7 @@ std::vector<Exact::Pair> Exact::choosePairs() {
     most.comparisons = std::max(kComparisonsPerBody * n, kTimesNow * now.comparisons);
   }
   // Twice the last window, and halved until its pairs are few.
-  const double furthest = std::min(left, state_.tops.empty() ? left : kArcs);
+  const double furthest = std::min(left, state_.exact.tops.empty() ? left : kArcs);
   for (double length = std::min(furthest, 2.0 * w.length);; length *= 0.5) {
     w.length = length;
     const double t1 = length < left ? w.t0 + length : model_.def.duration;
@@ -115,7 +115,7 @@ std::vector<Exact::Pair> Exact::choosePairs() {
 }
 
 void Exact::openWindow() {
-  State::Window& w = state_.window;
+  ExactMemory::Window& w = state_.exact.window;
   w.t0 = state_.t;
   w.renewals = 0;
   w.finite.clear();
@@ -127,7 +127,7 @@ void Exact::openWindow() {
   const std::vector<Pair> pairs = choosePairs();
   spinTops();
   if (report_.stopped) return;
-  state_.queue.clear();
+  state_.exact.queue.clear();
   for (const int plane : w.planes)
     for (const int body : w.finite) lookFor({plane, body}, w.t0);
   for (const Pair& pair : pairs) lookFor(pair, w.t0);
@@ -135,10 +135,10 @@ void Exact::openWindow() {
 }
 
 void Exact::spinTops() {
-  for (std::size_t k = 0; k < state_.tops.size() && !report_.stopped; ++k)
-    if (!state_.tops[k].reach(state_.window.t1))
+  for (std::size_t k = 0; k < state_.exact.tops.size() && !report_.stopped; ++k)
+    if (!state_.exact.tops[k].reach(state_.exact.window.t1))
       stop("\"" + nameOf(model_.pivots[k].body) +
-           "\" leaves the range of numbers before t = " + digits(state_.window.t1) + " s");
+           "\" leaves the range of numbers before t = " + digits(state_.exact.window.t1) + " s");
 }
 
 }  // namespace tumble
