@@ -44,6 +44,14 @@ void World::lend(Workers workers) {
   parts_->model.workers = std::move(workers);
 }
 
+void World::countTime(std::function<double()> clock) {
+  parts_->now->state.times.clock = std::move(clock);
+}
+
+const StageTimes& World::times() const {
+  return parts_->now->state.times;
+}
+
 void World::openBooks() {
   const Model& model = parts_->model;
   const WorldDef& def = model.def;
@@ -74,9 +82,12 @@ void World::advance(double t) {
   const Model& model = parts_->model;
   auto& [state, report, audit, lastAdvance] = *parts_->now;
   const double end = std::min(t, model.def.duration);
+  if (state.times.clock) state.times.skip();
+  const StageScope rest(state.times, Stage::Rest);
   trimTrail(state, lastAdvance);
   parts_->method->advance(model, state, end, report);
   lastAdvance = end;
+  const StageScope auditing(state.times, Stage::Audit);
   audit->follow(state);
   audit->report(state, report);
 }

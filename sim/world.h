@@ -9,6 +9,7 @@
 
 #include "sim/method/model.h"
 #include "sim/method/report.h"
+#include "sim/method/stages.h"
 #include "sim/method/workers.h"
 #include "sim/state_check.h"
 
@@ -84,8 +85,12 @@ class World {
   World& operator=(World&&) noexcept;
 
   /// Lets islands of many contacts be solved side by side from now on. The motion stays the same to
-  /// the bit. Moving a world or saving it takes them along.
+  /// the bit.
   void lend(Workers workers);
+
+  /// Lets a clock [s] count from now on what `stepping` and the audit spend their time on.
+  void countTime(std::function<double()> clock);
+  const StageTimes& times() const;
 
   /// Lets time run until the state at t [s] is known, or the report says stopped. The method keeps
   /// its own steps: where it is asked to pause never changes the motion. Times must not decrease;

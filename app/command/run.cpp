@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <numeric>
+
 #include "app/command/command.h"
 #include "app/command/interrupt.h"
 #include "app/command/progress.h"
@@ -26,11 +28,11 @@ Recording recordWithProgress(const Scene& scene, double rate) {
   return record(scene, rate > 0.0 ? rate : scene.image.rate, watch(progress));
 }
 
-Recording runWithProgress(const Scene& scene, double rate,
-                          const std::function<void(Sample&&)>& see) {
+Recording runWithProgress(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
+                          bool timed) {
   const Interrupt interrupt;
   Progress progress("simulating");
-  return run(scene, rate > 0.0 ? rate : scene.image.rate, see, watch(progress));
+  return run(scene, rate > 0.0 ? rate : scene.image.rate, see, watch(progress), timed);
 }
 
 void noteUnused(const Scene& scene, std::string_view runs) {
@@ -58,6 +60,16 @@ void printCertificate(const Recording& recording) {
   if (c.energy_added_repair != 0.0)
     fmt::print("energy added by repairs {:.6g} J\n", c.energy_added_repair);
   for (const std::string& note : recording.report.notes) fmt::print("note: {}\n", note);
+}
+
+void printTimes(const Recording& recording) {
+  const auto& seconds = recording.times.seconds;
+  const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  if (!(sum > 0.0)) return;
+  fmt::print("{:<8} {:>9} {:>6}\n", "stage", "s", "share");
+  for (std::size_t k = 0; k < kStageNames.size(); ++k)
+    fmt::print("{:<8} {:>9.3g} {:>5.1f}%  {}\n", kStageNames[k].name, seconds[k],
+               100.0 * seconds[k] / sum, kStageNames[k].summary);
 }
 
 int exitOf(const Recording& recording) {

@@ -17,7 +17,7 @@ namespace {
 
 // Runs the scene, and writes its files and, if they are named, its hashes.
 Recording runInto(const std::string& folder, bool nodes, const std::string& hashFile,
-                  const Scene& scene, double rate) {
+                  const Scene& scene, double rate, bool timed) {
   // The files are begun with the first sample: a scene that the world refuses makes none.
   std::optional<OutputFiles> files;
   RunHashes hashes = hashesFor(scene, rate > 0.0 ? rate : scene.image.rate);
@@ -26,7 +26,7 @@ Recording runInto(const std::string& folder, bool nodes, const std::string& hash
     files->add(sample);
     if (!hashFile.empty()) hashes.samples.push_back(hashOf(sample));
   };
-  Recording recording = runWithProgress(scene, rate, write);
+  Recording recording = runWithProgress(scene, rate, write, timed);
   if (!files) files.emplace(folder, scene, nodes);
   if (recording.end) files->add(*recording.end);
   files->finish(recording);
@@ -47,7 +47,7 @@ int simulate(int argc, char** argv) {
   SceneOptions options;
   std::string folder, hashFile;
   double rate = 0.0;
-  bool nodes = false;
+  bool nodes = false, timed = false;
   CommandLine line(
       "simulate", "Runs a scene and writes its numbers.",
       {"path-of-brick                       # trajectory.csv, events.csv, "
@@ -60,13 +60,15 @@ int simulate(int argc, char** argv) {
   addRate(line, rate);
   line.flag("--nodes", nodes, "nodes.csv too: places and velocities of the points of what bends");
   line.option("--hash", hashFile, "a file for the hash of each sample's bits", {.type = "FILE"});
+  line.flag("--times", timed, "prints what `stepping` and the audit spend their time on");
   if (!line.read(argc, argv)) return kOk;
 
   const Scene scene = load(options);
   if (folder.empty()) folder = "out/" + scene.name;
-  const Recording recording = runInto(folder, nodes, hashFile, scene, rate);
+  const Recording recording = runInto(folder, nodes, hashFile, scene, rate, timed);
   noteUnused(scene, recording.runs);
   printCertificate(recording);
+  printTimes(recording);
   say("wrote " + folder + "/trajectory.csv, events.csv, contacts.csv, summary.json, scene.json" +
       (scene.world.joints.empty() ? "" : ", joints.csv") + (nodes ? ", nodes.csv" : ""));
   return exitOf(recording);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 
@@ -59,9 +60,14 @@ int sampleCount(const Scene& scene, double rate) {
 }
 
 Recording run(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
-              const std::function<void(double)>& progress) {
+              const std::function<void(double)>& progress, bool timed) {
   std::clock_t start = std::clock();
   World world = makeWorld(scene);
+  if (timed)
+    world.countTime([] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+          .count();
+    });
   Recording recording;
   recording.rate = rate;
   recording.features = world.features();
@@ -88,6 +94,7 @@ Recording run(const Scene& scene, double rate, const std::function<void(Sample&&
     recording.end = world.sample(scene.world.duration);
     signs.align(*recording.end);
   }
+  recording.times = world.times();
   recording.method = world.method();
   recording.runs = world.runs();
   recording.cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

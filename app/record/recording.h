@@ -21,6 +21,7 @@ struct Recording {
   std::string runs;    ///< World::runs at the end
   double rate = 60.0;  ///< [1/s]
   double cpuSeconds = 0.0;
+  StageTimes times;  ///< if they are counted
 };
 
 /// The scene's world at the start.
@@ -33,10 +34,11 @@ World makeWorld(const Scene& scene);
 int sampleCount(const Scene& scene, double rate);
 
 /// Runs the scene's world from start to duration and shows each sample as soon as it is known; the
-/// recording that is returned keeps the end alone. `progress` is told the share done in [0, 1].
+/// recording that is returned keeps the end alone, and where the time went, if that is wanted.
+/// `progress` is told the share done in [0, 1].
 /// @throws SceneError if the world refuses the scene.
 Recording run(const Scene& scene, double rate, const std::function<void(Sample&&)>& see,
-              const std::function<void(double)>& progress = {});
+              const std::function<void(double)>& progress = {}, bool timed = false);
 
 /// Runs the scene's world from start to duration. `progress` is told the share done in [0, 1].
 /// A run that stopped early has fewer samples and says so in its report.

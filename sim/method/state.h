@@ -16,6 +16,7 @@
 #include "sim/method/effort.h"
 #include "sim/method/exact/memory.h"
 #include "sim/method/report.h"
+#include "sim/method/stages.h"
 #include "sim/method/stepping/memory.h"
 
 namespace tumble {
@@ -73,7 +74,8 @@ struct State {
   ExactMemory exact;        ///< only `exact`,
   SteppingMemory stepping;  ///< only `stepping`
 
-  Effort effort;  ///< of the exact method
+  StageTimes times;  ///< of `stepping` and the audit
+  Effort effort;     ///< of the exact method
   /// What `auto` remembers: how the exact method left things, where it gave up.
   std::shared_ptr<const State> before;
 };
