@@ -237,7 +237,7 @@ void NewtonSystem<N>::expect(const Problem& problem, std::span<const double> pul
   if (pull.size() != problem.rows.size()) return;
   for (std::size_t c = 0; c < points.size(); ++c) {
     Point& point = points[c];
-    point.pull = -rho * point.u;  // of a new contact
+    point.pull = -kStiff * weight * point.u;  // of a new contact
     if (std::isnan(pull[problem.cones[c].row])) continue;
     expects_ = true;
     for (int k = 0; k < point.rows; ++k)

@@ -227,6 +227,7 @@ void NewtonSystem<N>::prepare(const Problem& problem) {
   if (weight == 0.0) weight = 1.0;
   for (const Link& link : couplings_)
     if (link.i == link.j) weight = std::max(weight, 0.25 * link.block.diagonal().maxCoeff());
+  rho = weight;
 }
 
 /// λ becomes the forces; slip terms go a part of the way to those of now, if at all.

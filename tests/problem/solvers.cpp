@@ -1,9 +1,12 @@
 // The table of solvers on problems with answers in closed form.
 #include <algorithm>
+#include <limits>
+#include <thread>
 
 #include "sim/problem/cone.h"
 #include "tests/catch.h"
 #include "tests/problem/problems.h"
+#include "tests/problem/random_contacts.h"
 
 using namespace tumble;
 using namespace tumble::test;
@@ -209,4 +212,34 @@ TEST_CASE("sweeping leaves a start that is good enough as it is") {
   const Solution before = solution;
   CHECK(findSolver("pgs")->solve(problem, {}, solution).iterations == 0);
   CHECK(before.lambda == solution.lambda);
+}
+
+// Solvers keep their storage from call to call, and nothing else. One contact is new, the others
+// are as they were.
+TEST_CASE("an answer does not depend on what was solved before it") {
+  const auto solve = [](const Solver& solver, const Problem& problem,
+                        std::span<const double> pull) {
+    Solution solution;
+    solver.solve(problem, {.tolerance = 1e-10, .maxIterations = 500, .pull = pull}, solution);
+    return solution;
+  };
+  for (const Solver& solver : solvers()) {
+    CAPTURE(solver.name);
+    int others = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      const Problem problem = randomContacts(seed, Rubbing::Coulomb);
+      std::vector<double> pull = solve(solver, problem, {}).pull;
+      pull.resize(problem.rows.size(), std::numeric_limits<double>::quiet_NaN());
+      pull[0] = std::numeric_limits<double>::quiet_NaN();
+      Solution alone;
+      std::thread([&] { alone = solve(solver, problem, pull); }).join();  // by storage of its own
+      solve(solver, randomContacts(seed + 1, Rubbing::Coulomb), {});
+      const Solution after = solve(solver, problem, pull);
+      const auto same = [](double p, double q) { return p == q || (p != p && q != q); };
+      if (!std::equal(alone.lambda.begin(), alone.lambda.end(), after.lambda.begin(),
+                      after.lambda.end(), same))
+        ++others;
+    }
+    CHECK(others == 0);
+  }
 }
