@@ -94,16 +94,7 @@ bool Stepping::anyBends(const Island& island) const {
 /// Whether an island is the one that was solved in this step already: no part of it has other
 /// forces, and nothing else is met.
 bool Stepping::keepsBent(const Island& island, double h) {
-  if (island.memory->step != step_ || !ofSame(island)) return false;
-  std::size_t cones = 0;
-  for (std::size_t k = 0; k < island.links.size(); ++k) {
-    if (!isPair(island.links[k]) ||
-        island.memory->seen[k].look != memory_.pairs[island.links[k]].look)
-      return false;
-    for (const Touch& touch : memory_.pairs[island.links[k]].touches)
-      cones += flies(touch, h) ? 0 : 1;
-  }
-  bool same = cones == island.memory->cones;
+  bool same = island.memory->step == step_ && looksTheSame(island, h);
   forBent(island, [&](const BendingPart& part) { same = same && !part.anew; });
   return same;
 }

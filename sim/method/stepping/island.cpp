@@ -215,7 +215,7 @@ void Stepping::fallAsOne(Island& island, double h) {
   island.memory = &memory;
   island.smooth = pushed && foreseesSmooth(island, h);
   const bool stretches = !bent && rests(island, h);
-  memory.kept = stretches || (!bent && (keeps(island) || pushesAlike(island, h)));
+  memory.kept = stretches || (!bent && (keeps(island, h) || pushesAlike(island, h)));
   if (stretches) stretch(island, h);
   if (!memory.kept && !(bent && keepsBent(island, h))) {
     answer.kept = false;

@@ -15,14 +15,25 @@ bool Stepping::ofSame(const Island& island) const {
                     [](const IslandMemory::Mover& mover, int body) { return mover.body == body; });
 }
 
+/// Whether the links of an island are pairs with the levers that it was solved with, and as many of
+/// their points are in its problem.
+bool Stepping::looksTheSame(const Island& island, double h) const {
+  const IslandMemory& memory = *island.memory;
+  if (!ofSame(island)) return false;
+  std::size_t cones = 0;
+  for (std::size_t k = 0; k < island.links.size(); ++k) {
+    if (!isPair(island.links[k])) return false;
+    const PairMemory& pair = memory_.pairs[island.links[k]];
+    if (memory.seen[k].look != pair.look) return false;
+    for (const Touch& touch : pair.touches) cones += flies(touch, h) || isAside(touch) ? 0 : 1;
+  }
+  return cones == memory.cones;
+}
+
 /// Whether an island asks what it asked when it was solved, wherever it has gone: the same levers
 /// and inertias, and velocities that differ by far less than the tolerance on the residual.
-bool Stepping::keeps(const Island& island) const {
-  if (!ofSame(island)) return false;
-  for (std::size_t k = 0; k < island.links.size(); ++k)
-    if (!isPair(island.links[k]) ||
-        island.memory->seen[k].look != memory_.pairs[island.links[k]].look)
-      return false;
+bool Stepping::keeps(const Island& island, double h) const {
+  if (!looksTheSame(island, h)) return false;
   constexpr double kKept = 0.01;  // of the tolerance: what is kept errs the same way in every step
   const double part = kKept * model_.def.stepping.tolerance, allowed = part * island.memory->scale;
   for (const IslandMemory::Mover& mover : island.memory->movers) {

@@ -267,7 +267,8 @@ class Stepping {
   /// Of an island that nothing holds, under gravity alone: it falls on a parabola.
   void fallAsOne(Island& island, double h);
   bool ofSame(const Island& island) const;
-  bool keeps(const Island& island) const;
+  bool looksTheSame(const Island& island, double h) const;
+  bool keeps(const Island& island, double h) const;
   bool goesOn(const Island& island, double h) const;
   /// Whether a body of it is not at rest as the step begins.
   bool anyMoves(const Island& island) const;
