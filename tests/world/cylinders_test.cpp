@@ -205,3 +205,48 @@ TEST_CASE("cylinders rest on planes, boxes and cylinders") {
     }
   }
 }
+
+// Oracle: two methods agree, and the axial spin, which no force without friction can change. A flat
+// cylinder that has fallen on its rim rolls round it by four turns in a step, and is thrown up
+// again. Measured at 1/240 s: 0.557 m high where exact says 0.595, 0.92 of the energy and 1.02 of
+// the spin; in whole steps it lay down at once, with a tenth of the energy and 1.47 of the spin.
+TEST_CASE("stepping: a cylinder that falls on its rim rolls round it and is thrown up again") {
+  BodyDef body = cylinder(
+      "falls", 0.22798810144310636, 0.16695901463215557,
+      {-0.11074451515366249, 1.7, 0.26560262106196614},
+      Quat(-0.5719168170159691, -0.6354930762388283, -0.5094284880369074, 0.09768479944834724));
+  body.friction = 0.0;
+  body.density.reset();
+  body.mass = 1.8097867837733643;
+  body.velocity = {-0.6657461214564272, -0.13853590045955513, 0.19674356667648923};
+  body.angularVelocity = {0.45984270417056683, 1.9637788952206925, -2.2979512333679297};
+  WorldDef def = worldOf("stepping", 0.8, {ground(), body}), exact = def;
+  exact.method = "exact";
+  World world(def), other(exact);
+  const BodySample end = run(world).bodies[1], expected = run(other).bodies[1];
+  const auto axial = [](const BodySample& sample) {
+    return sample.omega.dot(sample.q * Vec3::UnitY());
+  };
+  const Certificate &books = world.report().certificate, &x = other.report().certificate;
+  CAPTURE(end.x.y(), expected.x.y(), books.energy_end, x.energy_end, axial(end), axial(expected),
+          books.energy_balance_error, books.steps);
+  CHECK(std::abs(end.x.y() - expected.x.y()) < 0.05);
+  CHECK(books.energy_end == Approx(x.energy_end).epsilon(0.1));
+  CHECK(axial(end) == Approx(axial(expected)).epsilon(0.03));
+  CHECK(books.energy_balance_error < 1e-4);
+  CHECK(world.report().notes.size() == 1);
+}
+
+// Oracle: energy. A coin that has been spun wobbles on its rim for seconds; what that loses is in
+// the books, whatever the parts of a step are. Measured 6e-4; without them, 0.19.
+TEST_CASE("stepping: a coin wobbles on its rim, and its books close") {
+  BodyDef coin = cylinder("coin", 0.05, 0.006, {0.0, 0.03, 0.0},
+                          fromAxisAngle(Vec3::UnitX(), 25.0 * kPi / 180.0));
+  coin.friction = 0.3;
+  coin.angularVelocity = {0.0, 20.0, 0.0};
+  World world(worldOf("stepping", 2.0, {ground(0.0, 0.3), coin}));
+  run(world);
+  const Certificate& books = world.report().certificate;
+  CAPTURE(books.energy_balance_error, books.energy_start, books.energy_end);
+  CHECK(books.energy_balance_error < 5e-3);
+}

@@ -67,9 +67,10 @@ bool Stepping::findClusters(double h) {
   constexpr int kNone = -1, kCalm = -2;
   untilHit(0.0, h, tolerance_.keep);
   const auto hits = [&](const PairMemory& pair) {
-    return (pair.bounces || pair.tumbles) &&
-           std::any_of(pair.touches.begin(), pair.touches.end(),
-                       [&](const Touch& touch) { return touch.rebounds && touch.due < h; });
+    const auto due = [&](const Touch& touch) { return touch.rebounds && touch.due < h; };
+    return (pair.tumbles && pair.lasts < h) ||
+           ((pair.bounces || pair.tumbles) &&
+            std::any_of(pair.touches.begin(), pair.touches.end(), due));
   };
   if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), hits)) return false;
   joinNear(h);

@@ -61,6 +61,7 @@ struct PairMemory {
   double deepest = 0.0;  ///< [m] largest overlap
   bool bounces = false;  ///< it has restitution
   bool tumbles = false;  ///< it turned too far for parabolas
+  double lasts = 0.0;    ///< [s] how long its point on a rim is where it is, if it tumbles
   bool seamed = false;   ///< a third body keeps apart what was found
   bool crowded = false;  ///< one of more near pairs than are watched so closely
   std::vector<Touch> touches;

@@ -100,6 +100,8 @@ double Stepping::untilHit(double soon, double h, double least) {
     if (!hits(k)) continue;
     PairMemory& pair = memory_.pairs[k];
     pair.tumbles = tumbles(k, h);
+    pair.lasts = pair.tumbles ? partOnRim(k) : h;
+    first = std::min(first, pair.lasts);
     if (pair.bounces) {
       foresee(k, least);
     } else {

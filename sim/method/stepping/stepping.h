@@ -144,6 +144,10 @@ class Stepping {
   void findCrowded(double h);
   /// Whether a pair turns so far in h seconds that its points go by no parabolas.
   bool tumbles(std::size_t pair, double h) const;
+  /// How fast [rad/s] a pair's contact runs round a rim, as seen in space.
+  double runsRound(std::size_t pair) const;
+  /// How long [s], at most a step, a part may be for what runs round a rim of a pair that touches.
+  double partOnRim(std::size_t pair);
   /// Whether a body flies in closed form.
   bool fliesFree(int body) const;
   /// Finds when the two first touch within h seconds; all points of theirs that are open wait.
