@@ -83,11 +83,11 @@ void World::advance(double t) {
   auto& [state, report, audit, lastAdvance] = *parts_->now;
   const double end = std::min(t, model.def.duration);
   if (state.times.clock) state.times.skip();
-  const StageScope rest(state.times, Stage::Rest);
+  const StageScope rest(state.times, StepStage::Rest);
   trimTrail(state, lastAdvance);
   parts_->method->advance(model, state, end, report);
   lastAdvance = end;
-  const StageScope auditing(state.times, Stage::Audit);
+  const StageScope auditing(state.times, StepStage::Audit);
   audit->follow(state);
   audit->report(state, report);
 }

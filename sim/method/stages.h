@@ -9,7 +9,7 @@
 namespace tumble {
 
 /// What a step spends its time on.
-enum class Stage { Rest, Pairs, Points, Forces, Lifting, Audit };
+enum class StepStage { Rest, Pairs, Points, Forces, Lifting, Audit };
 
 struct StageName {
   std::string_view name, summary;
@@ -30,7 +30,7 @@ class StageTimes {
   std::array<double, kStageNames.size()> seconds{};  ///< as kStageNames
 
   /// From now on time counts for a stage. @return the one before
-  Stage enter(Stage stage) {
+  StepStage enter(StepStage stage) {
     const double now = clock();
     seconds[static_cast<std::size_t>(stage_)] += now - since_;
     since_ = now;
@@ -40,14 +40,14 @@ class StageTimes {
   void skip() { since_ = clock(); }
 
  private:
-  Stage stage_ = Stage::Rest;
+  StepStage stage_ = StepStage::Rest;
   double since_ = 0.0;
 };
 
 /// Time counts for a stage as long as this lives, but for that of stages within.
 class StageScope {
  public:
-  StageScope(StageTimes& times, Stage stage) : times_(times.clock ? &times : nullptr) {
+  StageScope(StageTimes& times, StepStage stage) : times_(times.clock ? &times : nullptr) {
     if (times_) before_ = times_->enter(stage);
   }
   ~StageScope() {
@@ -58,7 +58,7 @@ class StageScope {
 
  private:
   StageTimes* times_;
-  Stage before_ = Stage::Rest;
+  StepStage before_ = StepStage::Rest;
 };
 
 }  // namespace tumble

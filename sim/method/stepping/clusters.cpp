@@ -63,7 +63,7 @@ bool Stepping::mayMeet(std::size_t pair, double h, double strays) const {
 }
 
 bool Stepping::findClusters(double h) {
-  const StageScope stage(state_.times, Stage::Pairs);
+  const StageScope stage(state_.times, StepStage::Pairs);
   constexpr int kNone = -1, kCalm = -2;
   untilHit(0.0, h, tolerance_.keep);
   const auto hits = [&](const PairMemory& pair) {

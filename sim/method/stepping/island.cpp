@@ -77,7 +77,7 @@ void Stepping::solveIslands(double h) {
 
 /// Whichever worker solves an island finds the same; what they tell is taken in their order.
 void Stepping::solveEach(double h) {
-  const StageScope stage(state_.times, Stage::Forces);
+  const StageScope stage(state_.times, StepStage::Forces);
   constexpr std::size_t kWorthwhile = 32;  // links: fewer are solved before a thread wakes up
   const int count = static_cast<int>(work_.begin.size()) - 1;
   const int workers = count < 2 || work_.order.size() < kWorthwhile ? 1 : model_.workers.count;

@@ -10,7 +10,7 @@
 namespace tumble {
 
 bool Stepping::project() {
-  const StageScope stage(state_.times, Stage::Lifting);
+  const StageScope stage(state_.times, StepStage::Lifting);
   constexpr int kRounds = 10, kSwept = 3;  // by the solver of crowds, if all is lifted
   constexpr int kDrafted = 2;
   double deepest = deepestOverlap();
@@ -36,7 +36,7 @@ bool Stepping::project() {
 }
 
 double Stepping::deepestOverlap() {
-  const StageScope stage(state_.times, Stage::Points);
+  const StageScope stage(state_.times, StepStage::Points);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     look(k, std::max(memory_.pairs[k].margin, tolerance_.touch));
   return deepestKnown();

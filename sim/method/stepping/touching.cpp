@@ -36,13 +36,13 @@ void Stepping::findTouching(double h) {
 }
 
 void Stepping::lookAtAll(double h) {
-  const StageScope stage(state_.times, Stage::Points);
+  const StageScope stage(state_.times, StepStage::Points);
   for (std::size_t k = 0; k < state_.near.size(); ++k) look(k, marginOf(k, h));
   leaveSeams();
 }
 
 bool Stepping::findNear(double h) {
-  const StageScope stage(state_.times, Stage::Pairs);
+  const StageScope stage(state_.times, StepStage::Pairs);
   if (parted_) {  // what stays in its box meets nobody new
     for (const int k : work_.solids) {
       const int i = model_.solid[k];
@@ -204,7 +204,7 @@ bool Stepping::lookFurther(std::size_t k, double h) {
 }
 
 bool Stepping::seeFurther(double h) {
-  const StageScope stage(state_.times, Stage::Points);
+  const StageScope stage(state_.times, StepStage::Points);
   if (growBoxes(h, false) && takePairs() && stopAtUnknownPair(model_, state_.near, report_))
     return false;
   const std::size_t count = state_.near.size();
