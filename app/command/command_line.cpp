@@ -102,8 +102,10 @@ std::string worded(const CLI::App& app, const std::string& what) {
   const std::string name = what.substr(head.size(), equals - head.size());
   const CLI::Option* option = app.get_option_no_throw(name);
   if (!option) return what;
-  return fmt::format("{}: expected {}, found '{}'", name, option->get_type_name(),
-                     what.substr(equals + 3));
+  // With a range it reads "N:from 1 to 256".
+  std::string type = option->get_type_name();
+  if (type.starts_with("N:")) type = "a whole number " + type.substr(2);
+  return fmt::format("{}: expected {}, found '{}'", name, type, what.substr(equals + 3));
 }
 
 }  // namespace

@@ -139,6 +139,8 @@ TEST_CASE("a command line that makes no sense ends with 2 and one line") {
       Slip{"render scene.toml --rate inf", "--rate"},
       Slip{"render scene.toml --still nan", "--still"},
       Slip{"render scene.toml --still --sheet", "--still: expected SECONDS, found '--sheet'"},
+      Slip{"simulate scene.toml --threads 0", "a number from 1 to 256, found 0"},
+      Slip{"simulate scene.toml --threads 2.5", "a whole number from 1 to 256, found '2.5'"},
       Slip{"report scene.toml --budget nan", "--budget"},
       Slip{"report scene.toml --budget inf", "--budget"},
       Slip{"golden no-such-demo", "no-such-demo"});
