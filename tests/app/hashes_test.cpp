@@ -1,6 +1,6 @@
 // The bits of a run in a few numbers, and the file of them.
-#include "app/record/hashes.h"
 #include "app/file/file.h"
+#include "tests/app/run_hashes.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -24,14 +24,6 @@ shape = { sphere = 0.1 }
 mass = 1.0
 position = [1.0, 0.3, 0.0]
 )";
-
-RunHashes hashesOf(const Scene& scene, double rate = 10.0) {
-  RunHashes hashes = hashesFor(scene, rate);
-  const Recording recording =
-      run(scene, rate, [&](Sample&& sample) { hashes.samples.push_back(hashOf(sample)); });
-  addEvents(hashes, recording.report);
-  return hashes;
-}
 
 // What reading the text says, after the name of the file.
 std::string refusal(const std::string& text, const Scene& scene) {
@@ -86,16 +78,16 @@ TEST_CASE("a state's hash is that of its little-endian numbers, for -0 as for 0 
 
 TEST_CASE("two runs part where their bits first do: time, and the body if it is one alone") {
   Scene scene = parseScene(kThree, "three");
-  const RunHashes expected = hashesOf(scene);
-  CHECK_FALSE(firstDifference(expected, hashesOf(scene), scene));
+  const RunHashes expected = test::hashesOf(scene);
+  CHECK_FALSE(firstDifference(expected, test::hashesOf(scene), scene));
 
   // Only "high" is pushed by the last bit of its velocity; it lands on the floor at 0.2 s.
   Scene other = scene;
   other.world.bodies[2].velocity.z() = 1e-16;
-  CHECK(firstDifference(expected, hashesOf(other), scene) ==
+  CHECK(firstDifference(expected, test::hashesOf(other), scene) ==
         "t = 0 s: 'high' is in another state, and it alone");
   other.world.bodies[1].velocity.x() = 1e-16;
-  CHECK(firstDifference(expected, hashesOf(other), scene) ==
+  CHECK(firstDifference(expected, test::hashesOf(other), scene) ==
         "t = 0 s: several bodies are in other states");
 
   RunHashes later = expected;
@@ -111,7 +103,7 @@ TEST_CASE("two runs part where their bits first do: time, and the body if it is 
 
 TEST_CASE("a file of hashes comes back as it was written, at a rate that no decimal hits") {
   Scene scene = parseScene(kThree, "a name with spaces");
-  const RunHashes hashes = hashesOf(scene, 7.0 / 3.0);
+  const RunHashes hashes = test::hashesOf(scene, 7.0 / 3.0);
   const RunHashes back = readHashes(hashText(hashes), "h", scene);
   CHECK_FALSE(firstDifference(hashes, back, scene));
   CHECK(hashText(back) == hashText(hashes));
@@ -119,7 +111,7 @@ TEST_CASE("a file of hashes comes back as it was written, at a rate that no deci
 
 TEST_CASE("a file of hashes that is none is refused with line, column and what was expected") {
   const Scene scene = parseScene(kThree, "three");
-  const std::string good = hashText(hashesOf(scene));
+  const std::string good = hashText(test::hashesOf(scene));
   REQUIRE(refusal(good, scene).empty());
   const std::string head = good.substr(0, good.find('\n') + 1);
   const std::size_t sample = good.find("\n0.1 ") + 1;

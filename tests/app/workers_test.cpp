@@ -2,10 +2,9 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "app/record/hashes.h"
-#include "app/record/recording.h"
 #include "app/record/threads.h"
 #include "app/scene/demos.h"
+#include "tests/app/run_hashes.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -19,11 +18,7 @@ struct ThreadsInUse {
 
 RunHashes hashesBy(int threads, const Scene& scene) {
   const ThreadsInUse use(threads);
-  RunHashes hashes = hashesFor(scene, scene.image.rate);
-  const Recording recording = run(
-      scene, scene.image.rate, [&](Sample&& sample) { hashes.samples.push_back(hashOf(sample)); });
-  addEvents(hashes, recording.report);
-  return hashes;
+  return test::hashesOf(scene, scene.image.rate);
 }
 
 }  // namespace

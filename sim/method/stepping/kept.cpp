@@ -15,6 +15,16 @@ bool Stepping::ofSame(const Island& island) const {
                     [](const IslandMemory::Mover& mover, int body) { return mover.body == body; });
 }
 
+/// Whether the links of an island are pairs with the features that it was solved with.
+bool Stepping::hasSameForm(const Island& island) const {
+  if (!ofSame(island)) return false;
+  for (std::size_t k = 0; k < island.links.size(); ++k)
+    if (!isPair(island.links[k]) ||
+        island.memory->seen[k].form != memory_.pairs[island.links[k]].form)
+      return false;
+  return true;
+}
+
 /// Whether the links of an island are pairs with the levers that it was solved with, and as many of
 /// their points are in its problem.
 bool Stepping::looksTheSame(const Island& island, double h) const {
@@ -52,14 +62,10 @@ bool Stepping::keeps(const Island& island, double h) const {
 /// contact alone is solved as quickly as asked, and without what rounding would add up; what hardly
 /// moves is solved, to be told to stand.
 bool Stepping::goesOn(const Island& island, double h) const {
-  if (island.memory->cones < 2 || island.memory->rough || !ofSame(island)) return false;
-  for (std::size_t k = 0; k < island.links.size(); ++k) {
-    if (!isPair(island.links[k]) ||
-        island.memory->seen[k].form != memory_.pairs[island.links[k]].form)
-      return false;
-    for (const Touch& touch : memory_.pairs[island.links[k]].touches)
+  if (island.memory->cones < 2 || island.memory->rough || !hasSameForm(island)) return false;
+  for (const Link link : island.links)
+    for (const Touch& touch : memory_.pairs[link].touches)
       if (touch.length != h || touch.arrivalSpeed > 0.0 || flies(touch, h)) return false;
-  }
   return anyMoves(island);
 }
 
@@ -162,12 +168,8 @@ bool Stepping::pushesAlike(Island& island, double h) {
 /// Whether an island that was at rest is asked for a step of another length: its forces stay,
 /// unless they are those of a short step, in whose impulses more of them is rounding.
 bool Stepping::rests(const Island& island, double h) const {
-  if (island.memory->length == h || h > 2.0 * island.memory->solved || !ofSame(island))
+  if (island.memory->length == h || h > 2.0 * island.memory->solved || !hasSameForm(island))
     return false;
-  for (std::size_t k = 0; k < island.links.size(); ++k)
-    if (!isPair(island.links[k]) ||
-        island.memory->seen[k].form != memory_.pairs[island.links[k]].form)
-      return false;
   const double s = h / island.memory->length, still = tolerance_.rest;
   for (std::size_t i = 0; i < island.movers.size(); ++i) {
     const Vec6 &star = work_.star[island.movers[i]], &before = work_.before[island.movers[i]];

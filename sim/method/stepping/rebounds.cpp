@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/body/force.h"
 #include "sim/contact/impulse.h"
@@ -88,18 +89,12 @@ void Stepping::hold(const Contact& c) {
 
 double Stepping::untilHit(double soon, double h, double least) {
   double first = h;
-  const std::size_t count = memory_.pairs.size();
-  const auto hits = [&](std::size_t k) {
-    return memory_.pairs[k].bounces || memory_.pairs[k].tumbles || tumbles(k, h);
-  };
-  std::size_t k = 0;
-  while (k < count && !hits(k)) ++k;
-  if (k == count) return first;
-  findHeld();
-  for (; k < count; ++k) {
-    if (!hits(k)) continue;
+  bool heldKnown = false;
+  for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
     PairMemory& pair = memory_.pairs[k];
-    pair.tumbles = tumbles(k, h);
+    const bool tumbled = std::exchange(pair.tumbles, tumbles(k, h));
+    if (!pair.bounces && !tumbled && !pair.tumbles) continue;
+    if (!std::exchange(heldKnown, true)) findHeld();
     pair.lasts = pair.tumbles ? partOnRim(k) : h;
     first = std::min(first, pair.lasts);
     if (pair.bounces) {

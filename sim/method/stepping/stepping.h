@@ -271,6 +271,7 @@ class Stepping {
   /// Of an island that nothing holds, under gravity alone: it falls on a parabola.
   void fallAsOne(Island& island, double h);
   bool ofSame(const Island& island) const;
+  bool hasSameForm(const Island& island) const;
   bool looksTheSame(const Island& island, double h) const;
   bool keeps(const Island& island, double h) const;
   bool goesOn(const Island& island, double h) const;
