@@ -9,7 +9,16 @@ namespace tumble::test {
 inline long allocations = 0;
 }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// gcc tells of its address sanitizer by a macro, clang by a feature.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TUMBLE_MALLOC_IS_THE_SANITIZERS
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define TUMBLE_MALLOC_IS_THE_SANITIZERS
+#endif
+
+#if defined(__GLIBC__) && !defined(TUMBLE_MALLOC_IS_THE_SANITIZERS)
 
 extern "C" {
 void* __libc_malloc(std::size_t size) noexcept;
