@@ -67,9 +67,11 @@ ImpactReport impactReflections(const Impact& impact);
 ImpactReport impactPoisson(const Impact& impact);
 
 /// Poisson's law for crowds: one inelastic problem of all that the blow reaches; then the contacts
-/// that approached give e j back along their normals, but no more, island by island, than leaves
-/// the energy that there was. What approaches after that is stopped, here or by the problem that
-/// follows. A blow costs two or three problems, however many bodies it runs through.
+/// that approached give e j back along their normals, and those that rested or parted the mean e of
+/// them, but no more, island by island, than leaves the energy that there was. What approaches
+/// after that takes another blow, here or by the caller. A blow costs two or three problems,
+/// however many bodies it runs through. With e = 1 and without friction it keeps the energy; it
+/// cannot tell the bodies of a row that touches apart, all of which leave alike.
 ///   Guendelman, Bridson, Fedkiw, Nonconvex rigid bodies with stacking, 2003, §5. Departure: e j in
 ///   place of −e vrel, so that no energy is gained; friction of both phases is found in the first,
 ///   inside (1 + e) mu.

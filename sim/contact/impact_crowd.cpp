@@ -1,4 +1,7 @@
 // Poisson's impact law for crowds: one problem for compression, one share of it given back.
+//   v_c = v⁻ + M⁻¹ Jᵀ j_c,   v⁺ = v_c + M⁻¹ Jᵀ e j_c
+// Where one e holds for all that hits, and nothing rubs, v⁺ = v_c + e (v_c − v⁻): what hits leaves
+// at −e vrel, what rests on each other stays so, and e² of what compression took comes back.
 #include <algorithm>
 #include <cmath>
 
@@ -31,13 +34,14 @@ class Crowd {
 
  private:
   double vrel(std::size_t k) const;
+  void findRestitution();
   void restore(std::span<const Compressed> taken);
   void give(std::span<const double> share, ImpactReport& to);
 
   const Impact& impact_;
   ImpactReport& report_;
   std::vector<int> reached_, island_;
-  std::vector<double> e_;     ///< [1] per reached contact; 0 where none hits
+  std::vector<double> e_;     ///< [1] per reached contact
   std::vector<double> back_;  ///< [N·s] that restitution gives each, if nothing is cut
 };
 
@@ -93,23 +97,39 @@ void Crowd::restore(std::span<const Compressed> taken) {
   give(share, report_);
 }
 
-void Crowd::strike() {
-  constexpr int kPasses = 20;  // stops after the restitution: one does, but for rounding
-  island_ = islandsOfContacts(impact_, reached_);
+/// Per contact what it gives back of its compression: its own e where it hits; where it does not,
+/// what holds during compression holds after it, by the mean e of what hits in its island.
+void Crowd::findRestitution() {
+  e_.assign(reached_.size(), 0.0);
+  std::vector<double> speed(reached_.size(), 0.0), rebound(reached_.size(), 0.0);  // per island
+  const auto hits = [&](std::size_t k) { return vrel(k) < -impact_.tolerance.rest; };
+  for (std::size_t k = 0; k < reached_.size(); ++k) {
+    if (!hits(k)) continue;
+    e_[k] = impact_.restitution[reached_[k]];
+    speed[island_[k]] -= vrel(k);
+    rebound[island_[k]] -= e_[k] * vrel(k);
+  }
   for (std::size_t k = 0; k < reached_.size(); ++k)
-    e_.push_back(vrel(k) < -impact_.tolerance.rest ? impact_.restitution[reached_[k]] : 0.0);
+    if (!hits(k) && speed[island_[k]] > 0.0) e_[k] = rebound[island_[k]] / speed[island_[k]];
+}
+
+void Crowd::strike() {
+  island_ = islandsOfContacts(impact_, reached_);
+  findRestitution();
   const std::vector<Compressed> taken = compress(impact_, reached_, e_, island_, report_);
   for (std::size_t k = 0; k < reached_.size(); ++k) back_.push_back(e_[k] * taken[k].j);
   restore(taken);
-  for (int pass = 0; pass < kPasses && !impact_.goesOn && anyApproaching(impact_); ++pass)
-    strikeOnce(impact_, PassKind::Inelastic, report_);
 }
 
 }  // namespace
 
 ImpactReport impactCrowd(const Impact& impact) {
+  constexpr int kBlows = 100, kStops = 20;  // random heaps end after some; one took more than 20
   ImpactReport report;
-  if (anyApproaching(impact)) Crowd(impact, report).strike();
+  for (int k = 0; k < kBlows + kStops && (k == 0 || !impact.goesOn); ++k) {
+    if (!anyApproaching(impact)) break;
+    k < kBlows ? Crowd(impact, report).strike() : strikeOnce(impact, PassKind::Inelastic, report);
+  }
   return report;
 }
 

@@ -222,8 +222,8 @@ void strikeOne(const Impact& impact, int contact, ImpactReport& report) {
 std::vector<Compressed> compress(const Impact& impact, std::span<const int> contacts,
                                  std::span<const double> e, std::span<const int> island,
                                  ImpactReport& report) {
-  constexpr int kRough = 60;         // sweeps, where a contact problem follows,
-  constexpr double kRoughly = 1e-3;  // and the residual that is enough then
+  constexpr int kRough = 60;         // sweeps, where restitution takes energy and a contact
+  constexpr double kRoughly = 1e-3;  // problem follows, and the residual that is enough then
   Strike pass;
   begin(impact, pass);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -233,7 +233,9 @@ std::vector<Compressed> compress(const Impact& impact, std::span<const int> cont
   Solution solution;
   std::vector<Compressed> taken(contacts.size() + 1);
   const ImpactReport before = report;
-  if (impact.goesOn && !impact.bound()) {
+  const double most = *std::max_element(e.begin(), e.end());
+  const bool keepsAll = 1.0 - most * most < kRoughly;
+  if (impact.goesOn && !impact.bound() && !keepsAll) {
     const SolveSettings roughly{.tolerance = kRoughly, .maxIterations = kRough};
     solveByIslands(*findSolver("pgs"), pass.problem, roughly, solution);
     keepFromGaining(pass.problem, island, solution);
