@@ -1,6 +1,5 @@
 // Position projection: the least displacement, weighed by mass, that lifts what overlaps.
 #include <algorithm>
-#include <limits>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
@@ -70,10 +69,12 @@ int Stepping::lift(int most, bool asCrowd) {
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
   constexpr int kMost = 200, kMostOfCrowd = 20;  // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
+  // What is lifted goes about as far as it overlaps: wider gaps are not asked to stay, and the next
+  // round sees one that closed. Where overlap may be left alone, only the narrowest are.
+  constexpr double kFar = 100.0, kNearby = 1.0;  // of the deepest overlap or widest gap of a joint
   const int atMost = std::min(most, asCrowd ? kMostOfCrowd : kMost);
-  // Where overlap may be left alone, gaps wider than the deepest overlap are not asked to stay.
-  double reach = std::numeric_limits<double>::infinity();
-  if (asCrowd && isHasty()) reach = deepestKnown();
+  const double furthest = std::max(deepestKnown(), largestGap());
+  const double reach = (asCrowd && isHasty() ? kNearby : kFar) * furthest;
   beginVelocityProblem(state_.bodies, work_.problem);
   for (Vec6& v : work_.problem.vStar) v.setZero();
   findOverlapping();
