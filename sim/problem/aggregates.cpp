@@ -54,31 +54,32 @@ void Aggregates::findEdges(const NodeMatrix& A) {
     structure_ = std::make_unique<BlockStructure>(count_, edges_);
 }
 
+Mat3 freeBlock(const Freedom& F, const Mat3& block, const Freedom& G) {
+  if (F.kind == Freedom::Kind::All && G.kind == Freedom::Kind::All) return block;
+  return F.along.lazyProduct(block).lazyProduct(G.along);
+}
+
 [[gnu::flatten]] void Aggregates::factor(const NodeMatrix& A, std::span<const Freedom> free) {
   // Of the diagonal: what an aggregate has along what none of its nodes is free.
   constexpr double kAcross = 1e-10;
   using Kind = Freedom::Kind;
   free_.assign(free.begin(), free.end());
   factor_.begin(*structure_);
-  const auto between = [&](int i, int j, const Mat3& block) -> Mat3 {
-    if (free_[i].kind == Kind::All && free_[j].kind == Kind::All) return block;
-    return free_[i].along.lazyProduct(block).lazyProduct(free_[j].along);
-  };
   std::vector<char> moves(count_, 0);
   for (int i = 0; i < A.count(); ++i) {
     if (free_[i].kind == Kind::None) continue;
     const int p = of_[i];
     moves[p] = 1;
-    factor_.diagonal(p) += between(i, i, A.own[i]);
+    factor_.diagonal(p) += freeBlock(free_[i], A.own[i], free_[i]);
     if (free_[i].kind == Kind::Some)
       factor_.diagonal(p).diagonal().array() += kAcross * A.own[i].trace();
     for (int k = A.begin[i]; k < A.begin[i + 1]; ++k) {
       const int j = A.near[k].node;
       if (free_[j].kind == Kind::None) continue;
       if (edgeOf_[k] < 0)
-        factor_.diagonal(p) += between(i, j, A.near[k].block);
+        factor_.diagonal(p) += freeBlock(free_[i], A.near[k].block, free_[j]);
       else if (factor_.edgeRow(edgeOf_[k]) == p)
-        factor_.lower(edgeOf_[k]) += between(i, j, A.near[k].block);
+        factor_.lower(edgeOf_[k]) += freeBlock(free_[i], A.near[k].block, free_[j]);
     }
   }
   for (int p = 0; p < count_; ++p)

@@ -6,28 +6,18 @@
 #include <vector>
 
 #include "sim/problem/block_cholesky.h"
+#include "sim/problem/node_matrix.h"
 
 namespace tumble {
-
-/// A symmetric positive definite matrix of 3 × 3 blocks, row by row.
-struct NodeMatrix {
-  /// A block off the diagonal.
-  struct Neighbour {
-    int node = 0;
-    Mat3 block = Mat3::Zero();
-  };
-  std::vector<Mat3> own;   ///< blocks of the diagonal
-  std::vector<int> begin;  ///< per node: its first neighbour
-  std::vector<Neighbour> near;
-
-  int count() const { return static_cast<int>(own.size()); }
-};
 
 /// The directions along which a node is free, as the projection onto them.
 struct Freedom {
   enum class Kind { All, Some, None } kind = Kind::All;
   Mat3 along = Mat3::Identity();
 };
+
+/// F B G, for a block between a node that is free along F and one that is along G.
+Mat3 freeBlock(const Freedom& F, const Mat3& block, const Freedom& G);
 
 /// What neighbours have in common of an error, which sweeps from point to point take long to find:
 /// a point and those around it move as one (aggregation; Vaněk, Mandel & Brezina, Algebraic

@@ -69,6 +69,15 @@ void BlockStructure::fill() {
   }
 }
 
+const BlockStructure& BlockStructures::of(int rows, std::span<const BlockEdge> edges) {
+  constexpr std::size_t kMost = 64;
+  for (const auto& structure : known_)
+    if (structure->isFor(rows, edges)) return *structure;
+  if (known_.size() == kMost) known_.erase(known_.begin());
+  known_.push_back(std::make_unique<BlockStructure>(rows, edges));
+  return *known_.back();
+}
+
 template <int N>
 void BlockCholesky<N>::begin(const BlockStructure& structure) {
   structure_ = &structure;

@@ -1,6 +1,7 @@
 // Chapter 6, problem: Cholesky factors of sparse symmetric matrices made of 3 × 3 or 6 × 6 blocks.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,6 +46,16 @@ class BlockStructure {
   std::vector<int> begin_;  ///< per column of the factor: its first block below the diagonal
   std::vector<int> below_;  ///< row of each of these blocks, ascending in a column
   std::vector<int> slot_;   ///< per edge: its block
+};
+
+/// Structures of the last graphs.
+class BlockStructures {
+ public:
+  /// Stays where it is until many others were asked for.
+  const BlockStructure& of(int rows, std::span<const BlockEdge> edges);
+
+ private:
+  std::vector<std::unique_ptr<BlockStructure>> known_;
 };
 
 /// H = L Lᵀ for a positive definite H, and solutions of H x = b. Of a diagonal block only the lower

@@ -8,6 +8,7 @@
 #include "sim/problem/direct.h"
 #include "sim/problem/last_resort.h"
 #include "sim/problem/newton_system.h"
+#include "sim/problem/point_contacts.h"
 #include "sim/problem/solvers.h"
 
 namespace tumble {
@@ -432,6 +433,8 @@ SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, S
   const bool couples = !problem.couplings.empty();
   if (!couples)
     if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
+  if (couples)
+    if (const auto found = solvePointContacts(problem, settings, solution)) return *found;
   thread_local Newton<3> straight;  // both keep their memory from call to call
   thread_local Newton<6> turning;
   const auto alone = [](const Problem& p, const SolveSettings& to, Solution& answer) {

@@ -166,16 +166,6 @@ void NewtonSystem<N>::place(int point, int a, int b, const Rows& ofB) {
   patches_.push_back(patch);
 }
 
-template <int N>
-const BlockStructure& NewtonSystem<N>::structureFor(int rows, std::span<const BlockEdge> edges) {
-  constexpr std::size_t kMost = 64;
-  for (auto& structure : structures_)
-    if (structure->isFor(rows, edges)) return *structure;
-  if (structures_.size() == kMost) structures_.erase(structures_.begin());
-  structures_.push_back(std::make_unique<BlockStructure>(rows, edges));
-  return *structures_.back();
-}
-
 /// Finds the pairs of moving bodies, and which of them is the row of their block.
 template <int N>
 void NewtonSystem<N>::linkBodies() {
@@ -186,7 +176,7 @@ void NewtonSystem<N>::linkBodies() {
     if (link.i != link.j) edges_.emplace_back(std::minmax(link.i, link.j));
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-  structure_ = &structureFor(static_cast<int>(movers.size()), edges_);
+  structure_ = &structures_.of(static_cast<int>(movers.size()), edges_);
   H_.begin(*structure_);
   const auto edgeOf = [this](int a, int b) {
     const BlockEdge edge = std::minmax(a, b);

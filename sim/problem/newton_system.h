@@ -2,7 +2,6 @@
 // steps. Used by newton.cpp alone.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -145,7 +144,6 @@ class NewtonSystem {
   Rows readRows(const Problem& problem, const Cone& cone, Point& point) const;
   void place(int point, int a, int b, const Rows& ofB);
   void linkBodies();
-  const BlockStructure& structureFor(int rows, std::span<const BlockEdge> edges);
 
   /// Gives `take` the movers i and j of every block of K, with what it makes of a motion of j:
   /// both ways, and once on the diagonal.
@@ -243,7 +241,7 @@ class NewtonSystem {
   std::vector<Link> couplings_;
   std::vector<Rows> others_;
   std::vector<BlockEdge> edges_;
-  std::vector<std::unique_ptr<BlockStructure>> structures_;
+  BlockStructures structures_;
   const BlockStructure* structure_ = nullptr;
   BlockCholesky<N> H_;
   BlockLU<N> live_;

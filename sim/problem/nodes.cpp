@@ -13,18 +13,15 @@ namespace tumble {
 namespace {
 
 /// A cone, and what its point gives way to it.
-struct Touching {
+struct Touching : NodeRows {
   ConeKind kind = ConeKind::Push;
-  int node = 0;
   double mu = 0.0;
-  Mat3 J = Mat3::Zero();         ///< rows n, t1, t2, for the point
   Mat3 mobility = Mat3::Zero();  ///< D⁻¹ Jᵀ, with D the block of the point in A
   Mat3 W = Mat3::Zero();         ///< J D⁻¹ Jᵀ
-  Vec3 bias = Vec3::Zero();      ///< with what the other body moves
   Vec3 lambda = Vec3::Zero();
 };
 
-class Nodes {
+class NodeSweeps {
  public:
   void read(const Problem& problem, std::span<const Vec3> side, const Solution& start);
   /// One sweep there and back. @return the largest change of a velocity, in any direction
@@ -39,12 +36,12 @@ class Nodes {
   void write(const Problem& problem, Solution& solution) const;
 
  private:
-  void readCouplings(const Problem& problem);
+  void invertBlocks();
   void readCones(const Problem& problem, const Solution& start);
   /// b + Jᵀ λ less what the neighbours take: what is left for the point itself.
   Vec3 restOf(int node) const;
   /// b + Jᵀ λ − A v.
-  Vec3 openOf(int node) const { return restOf(node) - A_.own[node].lazyProduct(v_[node]); }
+  Vec3 openOf(int node) const { return restOf(node) - nodes_.A.own[node].lazyProduct(v_[node]); }
   void visit(int node);
   void correct();
   void findFree();
@@ -57,8 +54,7 @@ class Nodes {
   void keepOut(int node);
   void takeOpen(int node, double least);
 
-  std::vector<int> nodeOf_, bodyOf_;
-  NodeMatrix A_;
+  Nodes nodes_;
   std::vector<Mat3> inverse_;      ///< of the blocks of its diagonal
   std::vector<Touching> touches_;  ///< by node
   std::vector<int> touchBegin_;    ///< per node
@@ -71,51 +67,20 @@ class Nodes {
   double gradient_ = 0.0;
 };
 
-/// The blocks of A, row by row.
-void Nodes::readCouplings(const Problem& problem) {
-  const std::size_t count = bodyOf_.size();
-  std::vector<int>& begin = A_.begin;
-  begin.assign(count + 1, 0);
-  for (const Coupling& c : problem.couplings) {
-    if (c.a == c.b) {
-      A_.own[nodeOf_[c.a]] += c.block;
-      continue;
-    }
-    ++begin[nodeOf_[c.a] + 1];
-    ++begin[nodeOf_[c.b] + 1];
-  }
-  for (std::size_t i = 0; i < count; ++i) begin[i + 1] += begin[i];
-  A_.near.resize(begin.back());
-  std::vector<int> next(begin.begin(), begin.end() - 1);
-  for (const Coupling& c : problem.couplings) {
-    if (c.a == c.b) continue;
-    const int a = nodeOf_[c.a], b = nodeOf_[c.b];
-    A_.near[next[a]++] = {.node = b, .block = c.block};
-    A_.near[next[b]++] = {.node = a, .block = c.block.transpose()};
-  }
-  inverse_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    Mat3 factor = A_.own[i];
+void NodeSweeps::invertBlocks() {
+  inverse_.resize(nodes_.A.own.size());
+  for (std::size_t i = 0; i < inverse_.size(); ++i) {
+    Mat3 factor = nodes_.A.own[i];
     invertFactor(factor);
     inverse_[i].noalias() = factor.transpose().lazyProduct(factor);
   }
 }
 
-void Nodes::readCones(const Problem& problem, const Solution& start) {
+void NodeSweeps::readCones(const Problem& problem, const Solution& start) {
   touches_.clear();
   for (const Cone& cone : problem.cones) {
-    const Row& first = problem.rows[cone.row];
-    const bool aMoves = nodeOf_[first.a] >= 0;
-    Touching touch{.kind = cone.kind, .mu = cone.mu};
-    touch.node = nodeOf_[aMoves ? first.a : first.b];
-    for (int k = 0; k < coneRows(cone.kind); ++k) {
-      const Row& row = problem.rows[cone.row + k];
-      const Vec6 still = Vec6::Zero();
-      touch.J.row(k) = (aMoves ? 1.0 : -1.0) * row.linear.transpose();
-      touch.bias[k] = row.bias + (aMoves ? rowSpeed(row, still, problem.vStar[row.b])
-                                         : rowSpeed(row, problem.vStar[row.a], still));
-      touch.lambda[k] = start.lambda[cone.row + k];
-    }
+    Touching touch{rowsOfNode(problem, cone, nodes_.nodeOf), cone.kind, cone.mu};
+    for (int k = 0; k < coneRows(cone.kind); ++k) touch.lambda[k] = start.lambda[cone.row + k];
     touch.mobility = inverse_[touch.node].lazyProduct(touch.J.transpose());
     touch.W = touch.J.lazyProduct(touch.mobility);
     touches_.push_back(touch);
@@ -126,45 +91,39 @@ void Nodes::readCones(const Problem& problem, const Solution& start) {
                    [&](int p, int q) { return touches_[p].node < touches_[q].node; });
   std::stable_sort(touches_.begin(), touches_.end(),
                    [](const Touching& p, const Touching& q) { return p.node < q.node; });
-  touchBegin_.assign(bodyOf_.size() + 1, 0);
+  touchBegin_.assign(nodes_.bodyOf.size() + 1, 0);
   for (const Touching& touch : touches_) ++touchBegin_[touch.node + 1];
-  for (std::size_t i = 0; i < bodyOf_.size(); ++i) touchBegin_[i + 1] += touchBegin_[i];
+  for (std::size_t i = 0; i < nodes_.bodyOf.size(); ++i) touchBegin_[i + 1] += touchBegin_[i];
 }
 
-void Nodes::read(const Problem& problem, std::span<const Vec3> side, const Solution& start) {
-  nodeOf_.assign(problem.invM.size(), -1);
-  bodyOf_.clear();
-  A_.own.clear();
+void NodeSweeps::read(const Problem& problem, std::span<const Vec3> side, const Solution& start) {
+  nodes_.read(problem);
   mass_.clear();
   side_.clear();
   v_.clear();
-  for (std::size_t i = 0; i < problem.invM.size(); ++i) {
-    if (!(problem.invM[i] > 0.0)) continue;
-    nodeOf_[i] = static_cast<int>(bodyOf_.size());
-    bodyOf_.push_back(static_cast<int>(i));
-    mass_.push_back(1.0 / problem.invM[i]);
-    A_.own.push_back(Mat3(Vec3::Constant(mass_.back()).asDiagonal()));
-    side_.push_back(side[i]);
-    v_.push_back(start.v[i].head<3>());
+  for (const int body : nodes_.bodyOf) {
+    mass_.push_back(1.0 / problem.invM[body]);
+    side_.push_back(side[body]);
+    v_.push_back(start.v[body].head<3>());
   }
-  way_.assign(bodyOf_.size(), Vec3::Zero());
+  way_.assign(nodes_.bodyOf.size(), Vec3::Zero());
   gradient_ = 0.0;
   sweeps_ = 0;
-  readCouplings(problem);
+  invertBlocks();
   readCones(problem, start);
 }
 
-Vec3 Nodes::restOf(int node) const {
+Vec3 NodeSweeps::restOf(int node) const {
   Vec3 rest = side_[node];
-  for (int k = A_.begin[node]; k < A_.begin[node + 1]; ++k)
-    rest.noalias() -= A_.near[k].block.lazyProduct(v_[A_.near[k].node]);
+  for (int k = nodes_.A.begin[node]; k < nodes_.A.begin[node + 1]; ++k)
+    rest.noalias() -= nodes_.A.near[k].block.lazyProduct(v_[nodes_.A.near[k].node]);
   for (int c = touchBegin_[node]; c < touchBegin_[node + 1]; ++c)
     rest.noalias() += touches_[c].J.transpose().lazyProduct(touches_[c].lambda);
   return rest;
 }
 
 /// Moves one point to where its row and its cones hold while all others stay.
-[[gnu::flatten]] void Nodes::visit(int node) {
+[[gnu::flatten]] void NodeSweeps::visit(int node) {
   const int first = touchBegin_[node], end = touchBegin_[node + 1];
   Vec3& v = v_[node];
   v = inverse_[node].lazyProduct(restOf(node));
@@ -209,32 +168,32 @@ void bind(const Touching& touch, Freedom& free) {
 }
 
 /// Moves neighbours together, as far as they are free.
-[[gnu::flatten]] void Nodes::correct() {
+[[gnu::flatten]] void NodeSweeps::correct() {
   constexpr int kRenewed = 10;  // sweeps in which other points come to be pushed
-  if (sweeps_ == 1) aggregates_.gather(A_);
+  if (sweeps_ == 1) aggregates_.gather(nodes_.A);
   if (sweeps_ % kRenewed == 1) {
     findFree();
-    aggregates_.factor(A_, free_);
+    aggregates_.factor(nodes_.A, free_);
   }
   findOpen();
   aggregates_.correct(open_, v_);
 }
 
-void Nodes::findFree() {
+void NodeSweeps::findFree() {
   free_.assign(v_.size(), {});
   for (const Touching& touch : touches_)
     if (touch.lambda[0] > 0.0) bind(touch, free_[touch.node]);
 }
 
-void Nodes::findOpen() {
+void NodeSweeps::findOpen() {
   open_.resize(v_.size());
-  for (int i = 0; i < A_.count(); ++i) open_[i] = openOf(i);
+  for (int i = 0; i < nodes_.A.count(); ++i) open_[i] = openOf(i);
 }
 
 /// What is left of single points would be momentum of the whole that nothing gave. Once all points
 /// have moved together, as far as they are free, none of it is along that: what is across is what
 /// contacts did not give yet. Friction follows, and so again.
-void Nodes::settle(double least) {
+void NodeSweeps::settle(double least) {
   constexpr int kRounds = 12;
   constexpr double kClosed = 1e-12;  // of the momenta of all points
   double momentum = 0.0;
@@ -246,20 +205,20 @@ void Nodes::settle(double least) {
     if (sum.norm() <= kClosed * momentum) return;
     findFree();
     const Mat3 together = factorTogether(letSlide(least));
-    for (int i = 0; i < A_.count(); ++i) free += free_[i].along * open_[i];
+    for (int i = 0; i < nodes_.A.count(); ++i) free += free_[i].along * open_[i];
     const Vec3 d = together.transpose() * (together * free);
-    for (int i = 0; i < A_.count(); ++i) {
+    for (int i = 0; i < nodes_.A.count(); ++i) {
       v_[i] += free_[i].along * d;
       keepOut(i);
     }
     findOpen();
-    for (int i = 0; i < A_.count(); ++i) takeOpen(i, least);
+    for (int i = 0; i < nodes_.A.count(); ++i) takeOpen(i, least);
   }
 }
 
 /// What slips is free along its whole plane, against friction that turns with it.
 /// @return Σ mu λ_n/|u_t| across what slips: the change of friction by a common velocity
-Mat3 Nodes::letSlide(double least) {
+Mat3 NodeSweeps::letSlide(double least) {
   Mat3 turning = Mat3::Zero();
   for (const Touching& touch : touches_) {
     if (free_[touch.node].kind != Freedom::Kind::Some || !slides(touch)) continue;
@@ -275,10 +234,10 @@ Mat3 Nodes::letSlide(double least) {
 }
 
 /// The factor, as of invertFactor, of H in  Σ F (r − A F d) = H d  less what turns.
-[[gnu::flatten]] Mat3 Nodes::factorTogether(const Mat3& turning) {
+[[gnu::flatten]] Mat3 NodeSweeps::factorTogether(const Mat3& turning) {
   constexpr double kAcross = 1e-10;  // of the trace: along what no point is free
   Mat3 H = turning;
-  for (int i = 0; i < A_.count(); ++i) {
+  for (int i = 0; i < nodes_.A.count(); ++i) {
     if (free_[i].kind == Freedom::Kind::None) continue;
     Mat3 row = Mat3::Zero();
     const auto add = [&](const Mat3& block, const Freedom& free) {
@@ -287,9 +246,9 @@ Mat3 Nodes::letSlide(double least) {
       else if (free.kind == Freedom::Kind::Some)
         row.noalias() += block.lazyProduct(free.along);
     };
-    add(A_.own[i], free_[i]);
-    for (int k = A_.begin[i]; k < A_.begin[i + 1]; ++k)
-      add(A_.near[k].block, free_[A_.near[k].node]);
+    add(nodes_.A.own[i], free_[i]);
+    for (int k = nodes_.A.begin[i]; k < nodes_.A.begin[i + 1]; ++k)
+      add(nodes_.A.near[k].block, free_[nodes_.A.near[k].node]);
     H.noalias() += free_[i].along.lazyProduct(row);
   }
   H.diagonal().array() += kAcross * H.trace();
@@ -298,7 +257,7 @@ Mat3 Nodes::letSlide(double least) {
 }
 
 /// No point goes below the skin with the others.
-void Nodes::keepOut(int node) {
+void NodeSweeps::keepOut(int node) {
   for (int c = touchBegin_[node]; c < touchBegin_[node + 1]; ++c) {
     const Vec3 n = touches_[c].J.row(0);
     const double u = n.dot(v_[node]) + touches_[c].bias[0];
@@ -308,7 +267,7 @@ void Nodes::keepOut(int node) {
 
 /// Contacts take what is open in the point that they push, within their cones: what slides goes on
 /// to have all the friction that there can be.
-void Nodes::takeOpen(int node, double least) {
+void NodeSweeps::takeOpen(int node, double least) {
   for (int c = touchBegin_[node]; c < touchBegin_[node + 1]; ++c) {
     Touching& touch = touches_[c];
     const double u = touch.J.row(0).dot(v_[node]) + touch.bias[0];
@@ -329,9 +288,9 @@ void Nodes::takeOpen(int node, double least) {
   }
 }
 
-double Nodes::sweep() {
+double NodeSweeps::sweep() {
   before_ = v_;
-  const int count = A_.count();
+  const int count = nodes_.A.count();
   for (int i = 0; i < count; ++i) visit(i);
   if (sweeps_ > 0) correct();
   ++sweeps_;
@@ -342,11 +301,11 @@ double Nodes::sweep() {
   return largest;
 }
 
-void Nodes::accelerate() {
+void NodeSweeps::accelerate() {
   double gradient = 0.0;
   for (std::size_t i = 0; i < v_.size(); ++i) {
     const Vec3 change = v_[i] - before_[i];
-    gradient += change.dot(A_.own[i].lazyProduct(change));
+    gradient += change.dot(nodes_.A.own[i].lazyProduct(change));
   }
   // Where sweeps change more than before, the way that they went is no guide.
   const bool shrinks = gradient_ > 0.0 && gradient <= gradient_;
@@ -359,9 +318,9 @@ void Nodes::accelerate() {
   }
 }
 
-bool Nodes::closes(double open, double still) const {
+bool NodeSweeps::closes(double open, double still) const {
   double work = 0.0, energy = 0.0;
-  for (int i = 0; i < A_.count(); ++i) {
+  for (int i = 0; i < nodes_.A.count(); ++i) {
     const double speed = std::max(v_[i].norm(), still);
     work += v_[i].dot(openOf(i));
     energy += 0.5 * mass_[i] * speed * speed;
@@ -369,10 +328,10 @@ bool Nodes::closes(double open, double still) const {
   return std::abs(work) <= open * energy;
 }
 
-void Nodes::write(const Problem& problem, Solution& solution) const {
+void NodeSweeps::write(const Problem& problem, Solution& solution) const {
   solution.v = problem.vStar;
   solution.pull.clear();
-  for (std::size_t i = 0; i < v_.size(); ++i) solution.v[bodyOf_[i]].head<3>() = v_[i];
+  for (std::size_t i = 0; i < v_.size(); ++i) solution.v[nodes_.bodyOf[i]].head<3>() = v_[i];
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Cone& cone = problem.cones[coneOf_[k]];
     for (int r = 0; r < coneRows(cone.kind); ++r)
@@ -384,7 +343,7 @@ void Nodes::write(const Problem& problem, Solution& solution) const {
 
 SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
                        const SweepSettings& settings, Solution& solution) {
-  thread_local Nodes nodes;  // keeps its storage from call to call
+  thread_local NodeSweeps nodes;  // keeps its storage from call to call
   solution.lambda.resize(problem.rows.size(), 0.0);
   nodes.read(problem, side, solution);
   SolveReport report{.status = SolveStatus::NotConverged, .scale = velocityScale(problem)};

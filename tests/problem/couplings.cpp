@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/problem/nodes.h"
+#include "sim/problem/point_contacts.h"
 #include "tests/catch.h"
 #include "tests/problem/check.h"
 #include "tests/problem/problems.h"
@@ -182,6 +183,52 @@ TEST_CASE("sweeps from point to point end where Newton's method does") {
   }
   CHECK(solved >=
         (rubs ? 19 : 20));  // one goes to and fro between sticking and sliding, and says so
+}
+
+namespace {
+
+/// A level square sheet of n × n points, one spring apart, that comes down on a floor and slides:
+/// stiff along itself, softer across.
+Problem slidingSheet(int n, bool rubs) {
+  Draw draw(7);
+  Problem problem;
+  addCube(problem, 0.0, 1.0, Vec3::Zero());
+  std::vector<SpringOf> springs;
+  for (int i = 0; i < n * n; ++i) {
+    const double fall = draw(-1.0, 0.3), along = draw(-0.1, 1.0);
+    const int point = addPoint(problem, 0.01, Vec3(along, fall, 0.2));
+    addContact(problem, point, 0, Vec3::Zero(), Vec3::Zero(), rubs ? 0.3 : 0.0);
+    const auto tie = [&](int other, const Vec3& way) {
+      springs.push_back(
+          {other, point, (way + (rubs ? 0.1 : 0.5) * Vec3::UnitY()).normalized(), 50.0, 0.0});
+    };
+    if (i % n > 0) tie(point - 1, Vec3::UnitX());
+    if (i >= n) tie(point - n, Vec3::UnitZ());
+  }
+  addCouplings(problem, springs);
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("contacts of single points are solved by few factors") {
+  const bool rubs = GENERATE(false, true);
+  const Problem problem = slidingSheet(24, rubs);
+  Solution answer;
+  const auto report = solvePointContacts(problem, {}, answer);
+  REQUIRE(report);
+  CAPTURE(report->iterations, report->residual, report->balance);
+  CHECK(report->status == SolveStatus::Solved);
+  CHECK(report->iterations <= 6);
+  CHECK(naturalResidual(problem, answer) <= 1e-12);
+  CHECK(openBalance(problem, answer) <= 1e-12);
+}
+
+TEST_CASE("a point between two solids is left to other solvers") {
+  Problem problem = slidingSheet(24, true);
+  addContact(problem, 1, 0, Vec3::Zero(), Vec3::Zero(), 0.3);
+  Solution answer;
+  CHECK_FALSE(solvePointContacts(problem, {}, answer));
 }
 
 TEST_CASE("only solvers that know couplings say so") {

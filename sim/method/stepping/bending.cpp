@@ -112,6 +112,22 @@ Bendings bendingsOf(const Model& model) {
   return bendings;
 }
 
+namespace {
+
+/// Adds −h ∂E/∂x + h² H (u − w) of an element to c.
+void addMoved(BendingPart& part, std::span<const int> at, int count, double h,
+              const ElementTerms& terms) {
+  ElementVector u = ElementVector::Zero();
+  for (int k = 0; k < count; ++k) {
+    u.segment<3>(3 * k) = part.about[at[k]];
+    if (part.movesOut()) u.segment<3>(3 * k) -= part.wayOut[at[k]];
+  }
+  const ElementVector c = h * (h * elementTimes(terms.hessian, u, count) - terms.gradient);
+  for (int k = 0; k < count; ++k) part.constant[at[k]] += c.segment<3>(3 * k);
+}
+
+}  // namespace
+
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h) {
   std::fill(part.own.begin(), part.own.end(), Mat3::Zero());
@@ -124,28 +140,26 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   double energy = 0.0;
   ElementTerms terms;
   ElementPlaces x;
+  x.fill(Vec3::Zero());
   auto edge = part.edgesOf.begin();
   for (const Element* joined : part.elements) {
     const Element& element = *joined;
-    x.fill(Vec3::Zero());
-    ElementVector u = ElementVector::Zero();
     std::array<int, kElementPoints> at = {};
     for (int k = 0; k < element.count; ++k) {
       at[k] = pointOf[element.points[k]];
-      u.segment<3>(3 * k) = part.about[at[k]];
       x[k] = bodies[element.points[k]].x + h * part.about[at[k]];
-      if (part.movesOut()) u.segment<3>(3 * k) -= part.wayOut[at[k]];
     }
     differentiate(element.energy, x, ElementAsk::Projected, terms);
     energy += terms.energy;
-    ElementVector c = -h * terms.gradient;
-    if (moves) c = h * (h * elementTimes(terms.hessian, u, element.count) - terms.gradient);
+    if (moves) addMoved(part, at, element.count, h, terms);
+    const bool resists = damps(element.energy);
     const auto K = [&](int i, int j) -> Mat3 {
-      return h * (h * terms.hessian.block<3, 3>(3 * i, 3 * j) +
-                  terms.damping.block<3, 3>(3 * i, 3 * j));
+      Mat3 block = h * terms.hessian.block<3, 3>(3 * i, 3 * j);
+      if (resists) block += terms.damping.block<3, 3>(3 * i, 3 * j);
+      return h * block;
     };
     for (int k = 0; k < element.count; ++k) {
-      part.constant[at[k]] += c.segment<3>(3 * k);
+      if (!moves) part.constant[at[k]] -= h * terms.gradient.segment<3>(3 * k);
       part.own[at[k]] += K(k, k);
     }
     forPairs(element,
