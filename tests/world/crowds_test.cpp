@@ -87,7 +87,8 @@ TEST_CASE("stepping: a crowd of bricks is struck once a step, and gains nothing"
 }
 
 // Oracle: energy, and the promise of the table of presets. The same fall of bricks, the stricter
-// the preset, the less is left; none gains, and a draft divides no step.
+// the preset, the less is left; none gains, and a draft divides few steps, none once the bricks are
+// a crowd. Measured 272 parts of 240 steps.
 TEST_CASE("stepping: the stricter a preset, the less of a crowd overlaps, and none gains") {
   double before = 1.0;
   for (const std::string preset : {"draft", "fast", "balanced", "exact"}) {
@@ -103,7 +104,7 @@ TEST_CASE("stepping: the stricter a preset, the less of a crowd overlaps, and no
     CHECK(books.energy_added_repair < 5e-3 * books.energy_start);
     CHECK(books.max_penetration < std::max(1.5 * before, 1e-9));
     CHECK((books.islands_rough > 0) == (preset != "exact"));
-    if (preset == "draft") CHECK(books.steps == std::lround(def.duration / def.stepping.step));
+    if (preset == "draft") CHECK(books.steps < 1.2 * def.duration / def.stepping.step);
     before = books.max_penetration;
   }
 }
@@ -140,6 +141,25 @@ TEST_CASE("stepping: a draft gives back what restitution asks for, and divides n
   CHECK(books.max_hit_shift <= h);
   CHECK(books.steps == std::lround(def.duration / h));
   CHECK(books.max_energy_gain < 1e-9 * books.energy_start);
+}
+
+// Oracle: the audit. Balls that fall onto each other and the floor are more than a few, and no
+// crowd. Where a draft struck them when a step began, what a ball hit went on to the floor through
+// the gap between them: a tenth of the momentum came from nothing. Measured 1e-15.
+TEST_CASE("stepping: a draft of bodies that are no crowd strikes nothing through a gap") {
+  WorldDef def = worldOf("stepping", 0.6, {ground(0.5)});
+  std::mt19937 random(1);
+  const auto aside = [&] { return 0.06 * static_cast<double>(random()) / 4294967296.0 - 0.03; };
+  for (int k = 0; k < 40; ++k)
+    def.bodies.push_back(
+        ball("ball." + std::to_string(k), 0.15,
+             {0.4 * (k % 4) + aside(), 0.3 + 0.45 * (k / 16), 0.4 * (k / 4 % 4) + aside()}, 0.5));
+  def.stepping.take(*findSolverPreset("draft"));
+  World world(def);
+  run(world);
+  const Certificate& books = world.report().certificate;
+  CAPTURE(world.report().notes, books.audit_momentum_error, books.hits_early);
+  CHECK(world.report().disagreements.empty());
 }
 
 // Oracle: energy, and the promise of the preset. A tray full of bricks by a draft of 30 steps a

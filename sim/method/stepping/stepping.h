@@ -186,11 +186,8 @@ class Stepping {
   static int weightOf(const PairMemory& pair);
   /// Whether their hits divide no step.
   bool strikesAsCrowd() const;
-  /// Whether their hits may divide a step: where bodies are few they may, whatever the preset.
-  bool divides() const {
-    constexpr std::size_t kFew = 32;
-    return model_.def.stepping.divides || (!crowd_ && work_.solids.size() <= kFew);
-  }
+  /// Whether their hits may divide a step: where they are no crowd they may, whatever the preset.
+  bool divides() const { return model_.def.stepping.divides || !crowd_; }
   /// Whether they are in such haste that a step is taken whole, without a second look.
   bool isDrafted() const { return crowd_ && isHasty() && !model_.def.stepping.divides; }
   /// Whether the contact problem of a step takes in what hits.
