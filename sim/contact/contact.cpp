@@ -299,6 +299,18 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
   }
 }
 
+double runsRound(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  if (c.crosses) return 0.0;
+  const Vec3 w = a.omega - b.omega;
+  const auto goesRound = [&](const Vec3& u) {
+    const double along = u.dot(c.n), turn = c.n.dot(w) - u.dot(w) * along;
+    return turn == 0.0 ? 0.0 : std::abs(turn) / (1.0 - along * along);
+  };
+  const bool roundA = c.rimA > 0.0 && c.halfA.x() == 0.0,
+             roundB = c.rimB > 0.0 && c.halfB.x() == 0.0;
+  return std::max(roundA ? goesRound(c.ea) : 0.0, roundB ? goesRound(c.eb) : 0.0);
+}
+
 double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
   const Vec3 centripetal =
       a.omega.cross(a.omega.cross(c.pa - a.x)) - b.omega.cross(b.omega.cross(c.pb - b.x));

@@ -77,6 +77,11 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 /// roll.
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
+/// How fast [rad/s], as seen in space, the place of contact runs round the rims that touch there:
+/// the outermost point along n of a circle about u goes round n as u does,
+///   (n·w − (u·w)(u·n))/(1 − (u·n)²),   w the angular velocity of the one body against the other.
+double runsRound(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
+
 /// The part of d²(separation)/dt² [m/s²] that does not come from accelerations:
 ///   n·(ωa×(ωa×ra) − ωb×(ωb×rb)) + ṅ·(ṗa − ṗb) + n·(ωa×wa − ωb×wb)
 /// with wa and wb the velocities at which pa and pb wander over their bodies: feet on faces and

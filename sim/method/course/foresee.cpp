@@ -52,13 +52,18 @@ double turningSpeed(const RigidBody& body, const Shape& shape) {
 
 double Course::foresee(double span) const {
   constexpr double kShortest = 1e-3;  // no pair may slow the others down for ever
-  constexpr double kTurn = 0.1;  // [rad] of a body in one stretch: integrators lose a larger one
+  // [rad] of a body, or of a contact round its rim, in one stretch: integrators lose a larger one
+  constexpr double kTurn = 0.1;
   const double shortest = kShortest * span;
   double safe = span;
   if (state_.near.empty()) return safe;  // nothing can be met: the step is the author's
   for (const RigidBody& body : state_.bodies)
     if (const double spin = body.omega.norm(); spin * safe > kTurn && !body.fixed())
       safe = std::max(shortest, kTurn / spin);
+  for (const Contact& c : state_.lasting)
+    if (const double runs = runsRound(state_.bodies[c.a], state_.bodies[c.b], c.point);
+        runs * safe > kTurn)
+      safe = std::max(shortest, kTurn / runs);
   std::vector<Contact> points;
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto& [b, a] = state_.near[k];

@@ -53,22 +53,12 @@ double Stepping::partOnRim(std::size_t pair) {
   return std::max(part, kLeast * step);
 }
 
-/// A point that is outermost along m on a circle about u goes round m as u does:
-///   (m·w − (u·w)(u·m))/(1 − (u·m)²),   w the angular velocity of the one body against the other.
 double Stepping::runsRound(std::size_t pair) const {
-  const auto [ib, ia] = state_.near[pair];
-  const Vec3 w = state_.bodies[ia].omega - state_.bodies[ib].omega;
+  const auto [b, a] = state_.near[pair];
   double fastest = 0.0;
-  for (const Touch& touch : memory_.pairs[pair].touches) {
-    const ContactPoint& c = touch.contact.point;
-    const auto goesRound = [&](const Vec3& u) {
-      const double along = u.dot(c.n), turn = c.n.dot(w) - u.dot(w) * along;
-      if (turn != 0.0) fastest = std::max(fastest, std::abs(turn) / (1.0 - along * along));
-    };
-    if (c.crosses) continue;
-    if (c.rimA > 0.0 && c.halfA.x() == 0.0) goesRound(c.ea);
-    if (c.rimB > 0.0 && c.halfB.x() == 0.0) goesRound(c.eb);
-  }
+  for (const Touch& touch : memory_.pairs[pair].touches)
+    fastest = std::max(fastest,
+                       tumble::runsRound(state_.bodies[a], state_.bodies[b], touch.contact.point));
   return fastest;
 }
 
