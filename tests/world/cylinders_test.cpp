@@ -210,7 +210,7 @@ namespace {
 
 /// A flat cylinder that falls on its rim: it rolls round it by four turns in a step of 1/240 s, and
 /// is thrown up again.
-WorldDef fallsOnItsRim(const std::string& method) {
+WorldDef fallsOnItsRim(const char* method) {
   BodyDef body = cylinder(
       "falls", 0.22798810144310636, 0.16695901463215557,
       {-0.11074451515366249, 1.7, 0.26560262106196614},
