@@ -125,11 +125,11 @@ void Crowd::strike() {
 
 ImpactReport impactCrowd(const Impact& impact) {
   constexpr int kBlows = 100, kStops = 20;  // random heaps end after some; one took more than 20
+  const int blows = impact.goesOn ? 1 : kBlows, stops = impact.goesOn ? 0 : kStops;
   ImpactReport report;
-  for (int k = 0; k < kBlows + kStops && (k == 0 || !impact.goesOn); ++k) {
-    if (!anyApproaching(impact)) break;
-    k < kBlows ? Crowd(impact, report).strike() : strikeOnce(impact, PassKind::Inelastic, report);
-  }
+  for (int k = 0; k < blows && anyApproaching(impact); ++k) Crowd(impact, report).strike();
+  for (int k = 0; k < stops && anyApproaching(impact); ++k)
+    strikeOnce(impact, PassKind::Inelastic, report);
   return report;
 }
 
