@@ -16,22 +16,20 @@ bool Stepping::project() {
   const auto potential = [&] {
     return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
   };
-  const auto isOpen = [&] { return deepest > mayOverlap() || largestGap() > tolerance_.drift; };
-  bool open = isOpen();
-  const bool lifts = open;
+  double gap = largestGap();
+  const auto isOpen = [&] { return deepest > mayOverlap() || gap > tolerance_.drift; };
+  const bool lifts = isOpen();
   const double before = lifts ? potential() : 0.0;
   int left = model_.def.stepping.iterations;  // of the solver, for all rounds
-  const auto rounds = [&] {
-    return isDrafted() && largestGap() <= tolerance_.drift ? kDrafted : kRounds;
-  };
-  for (int round = 0; open && left > 0 && round < rounds(); ++round) {
-    left -= lift(left, rough_ && (leftOpen_ > 0.0 || round < kSwept));
+  const auto rounds = [&] { return isDrafted() && gap <= tolerance_.drift ? kDrafted : kRounds; };
+  for (int round = 0; isOpen() && left > 0 && round < rounds(); ++round) {
+    left -= lift(std::max(deepest, gap), left, rough_ && (leftOpen_ > 0.0 || round < kSwept));
     deepest = deepestOverlap();
-    open = isOpen();
+    gap = largestGap();
   }
   if (lifts) report_.certificate.energy_added_repair += potential() - before;
   report_.certificate.max_penetration = std::max(report_.certificate.max_penetration, deepest);
-  return !open;
+  return !isOpen();
 }
 
 double Stepping::deepestOverlap() {
@@ -64,16 +62,15 @@ int Stepping::rootOf(std::size_t pair) {
   return islandRoot(work_.root, model_.fixed(a) ? b : a);
 }
 
-int Stepping::lift(int most, bool asCrowd) {
+int Stepping::lift(double furthest, int most, bool asCrowd) {
   // Displacements obey the problem of the velocities with the gap as bias:
   //   separation + J Δ ≥ 0,  λ ≥ 0,  complementary,  M Δ = Jᵀ λ.
   constexpr int kMost = 200, kMostOfCrowd = 20;  // iterations of one round
   constexpr double kTolerance = 1e-4;  // of the deepest overlap: the next round sees the rest
   // What is lifted goes about as far as it overlaps: wider gaps are not asked to stay, and the next
   // round sees one that closed. Where overlap may be left alone, only the narrowest are.
-  constexpr double kFar = 100.0, kNearby = 1.0;  // of the deepest overlap or widest gap of a joint
+  constexpr double kFar = 100.0, kNearby = 1.0;  // of the furthest
   const int atMost = std::min(most, asCrowd ? kMostOfCrowd : kMost);
-  const double furthest = std::max(deepestKnown(), largestGap());
   const double reach = (asCrowd && isHasty() ? kNearby : kFar) * furthest;
   beginVelocityProblem(state_.bodies, work_.problem);
   for (Vec6& v : work_.problem.vStar) v.setZero();

@@ -465,9 +465,10 @@ class Stepping {
   double largestGap() const { return largestJointGap(state_.bodies, joints()); }
   void findOverlapping();
   int rootOf(std::size_t pair);
-  /// Lifts what overlaps, by at most so many iterations of the solver, or of that of crowds;
-  /// returns how many it took.
-  int lift(int most, bool asCrowd);
+  /// Lifts what overlaps, by at most so many iterations of the solver, or of that of crowds.
+  /// @param furthest [m] the deepest overlap, or the widest gap of a joint if that is wider
+  /// @return how many it took
+  int lift(double furthest, int most, bool asCrowd);
 
   // events.cpp
   void recordEvents(double t);
