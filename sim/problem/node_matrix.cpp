@@ -43,6 +43,12 @@ void Nodes::read(const Problem& problem) {
   }
 }
 
+void Nodes::write(const Problem& problem, std::span<const Vec3> v, Solution& solution) const {
+  solution.v = problem.vStar;
+  solution.pull.clear();
+  for (std::size_t i = 0; i < v.size(); ++i) solution.v[bodyOf[i]].head<3>() = v[i];
+}
+
 NodeRows rowsOfNode(const Problem& problem, const Cone& cone, std::span<const int> nodeOf) {
   const Row& first = problem.rows[cone.row];
   const bool aMoves = nodeOf[first.a] >= 0;

@@ -29,6 +29,8 @@ struct Nodes {
   NodeMatrix A;
 
   void read(const Problem& problem);
+  /// v of all bodies: those of the nodes, vStar of what stands; and no pulls.
+  void write(const Problem& problem, std::span<const Vec3> v, Solution& solution) const;
 };
 
 /// The rows of a cone of a node against what does not move:  u = J v + bias.

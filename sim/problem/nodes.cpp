@@ -329,9 +329,7 @@ bool NodeSweeps::closes(double open, double still) const {
 }
 
 void NodeSweeps::write(const Problem& problem, Solution& solution) const {
-  solution.v = problem.vStar;
-  solution.pull.clear();
-  for (std::size_t i = 0; i < v_.size(); ++i) solution.v[nodes_.bodyOf[i]].head<3>() = v_[i];
+  nodes_.write(problem, v_, solution);
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Cone& cone = problem.cones[coneOf_[k]];
     for (int r = 0; r < coneRows(cone.kind); ++r)

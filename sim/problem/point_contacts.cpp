@@ -7,6 +7,7 @@
 
 #include "sim/problem/aggregates.h"
 #include "sim/problem/block_cholesky.h"
+#include "sim/problem/cone.h"
 #include "sim/problem/gmres.h"
 #include "sim/problem/node_matrix.h"
 
@@ -19,7 +20,6 @@ enum class Law { Open, Sticks, Slides };
 
 /// A contact, and the piece of the law that it is on.
 struct Touching : NodeRows {
-  bool rubs = false;
   double mu = 0.0;
   Vec3 lambda = Vec3::Zero(), u = Vec3::Zero();
   Law law = Law::Open, factored = Law::Open;
@@ -67,14 +67,18 @@ class PointContacts {
 };
 
 bool PointContacts::read(const Problem& problem, const Solution& start) {
-  if (problem.invM.size() < kManyPoints) return false;
+  // With fewer bodies a factor costs little, and stages of solveNewton end from any start.
+  constexpr std::size_t kMany = 512;
+  if (problem.invM.size() < kMany) return false;
+  if (std::any_of(problem.Iinv.begin(), problem.Iinv.end(),
+                  [](const Mat3& inverse) { return !inverse.isZero(0.0); }))
+    return false;  // a solid moves
   nodes_.read(problem);
   if (!readTouches(problem, start)) return false;
   const bool known = start.v.size() == problem.vStar.size();
   star_.clear();
   v_.clear();
   for (const int body : nodes_.bodyOf) {
-    if (!problem.Iinv[body].isZero(0.0)) return false;
     star_.push_back(problem.vStar[body].head<3>());
     v_.push_back((known ? start.v : problem.vStar)[body].head<3>());
   }
@@ -95,9 +99,9 @@ bool PointContacts::readTouches(const Problem& problem, const Solution& start) {
     if (aMoves == bMoves || !(rubs || cone.kind == ConeKind::Push)) return false;
     Touching touch{rowsOfNode(problem, cone, nodes_.nodeOf)};
     if (std::exchange(touchOf_[touch.node], static_cast<int>(touches_.size())) >= 0) return false;
-    touch.rubs = rubs;
     touch.mu = rubs ? cone.mu : 0.0;
-    for (int k = 0; warm && k < (rubs ? 3 : 1); ++k) touch.lambda[k] = start.lambda[cone.row + k];
+    for (int k = 0; warm && k < coneRows(cone.kind); ++k)
+      touch.lambda[k] = start.lambda[cone.row + k];
     touches_.push_back(touch);
   }
   return true;
@@ -272,13 +276,13 @@ double PointContacts::balance() const {
 }
 
 void PointContacts::write(const Problem& problem, Solution& solution) const {
-  solution.v = problem.vStar;
-  solution.pull.clear();
+  nodes_.write(problem, v_, solution);
   solution.lambda.resize(problem.rows.size());
-  for (std::size_t i = 0; i < v_.size(); ++i) solution.v[nodes_.bodyOf[i]].head<3>() = v_[i];
-  for (std::size_t c = 0; c < touches_.size(); ++c)
-    for (int k = 0; k < (touches_[c].rubs ? 3 : 1); ++k)
-      solution.lambda[problem.cones[c].row + k] = touches_[c].lambda[k];
+  for (std::size_t c = 0; c < touches_.size(); ++c) {
+    const Cone& cone = problem.cones[c];
+    for (int k = 0; k < coneRows(cone.kind); ++k)
+      solution.lambda[cone.row + k] = touches_[c].lambda[k];
+  }
 }
 
 std::optional<SolveReport> PointContacts::solve(const Problem& problem,

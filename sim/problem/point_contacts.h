@@ -1,16 +1,11 @@
 // Chapter 6, problem: contacts of points that bend together with what does not move, one a point.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 
 #include "sim/problem/problem.h"
 
 namespace tumble {
-
-/// Bodies of a problem from which on it is solved so: with fewer a factor costs little, and stages
-/// of solveNewton end from any start, where these steps may go to and fro.
-inline constexpr std::size_t kManyPoints = 512;
 
 /// Newton's method on the velocities alone, by a factor for many of its steps. The contact of a
 /// point that has no other takes what the row of the point in A (v − vStar) = Jᵀ λ leaves, so that
