@@ -1,9 +1,9 @@
 // Crowds in steps: what many bodies do that meet at once.
 #include <cmath>
-#include <random>
 
 #include "sim/problem/problem.h"
 #include "tests/catch.h"
+#include "tests/world/draws.h"
 #include "tests/world/scenes.h"
 #include "tests/world/tray.h"
 
@@ -22,8 +22,8 @@ double deepestOfBalls(const Sample& sample, double r) {
 
 /// Bricks above each other, slightly turned, that fall on a floor.
 WorldDef rain(int wide, int high, double e) {
-  std::mt19937 random(3);
-  const auto draw = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
+  Draws draws{std::mt19937(3)};
+  const auto draw = [&] { return draws(-0.5, 0.5); };
   WorldDef def = worldOf("stepping", 1.0, {ground(e, 0.5)});
   for (int y = 0; y < high; ++y)
     for (int x = 0; x < wide; ++x)
@@ -148,8 +148,8 @@ TEST_CASE("stepping: a draft gives back what restitution asks for, and divides n
 // the gap between them: a tenth of the momentum came from nothing. Measured 1e-15.
 TEST_CASE("stepping: a draft of bodies that are no crowd strikes nothing through a gap") {
   WorldDef def = worldOf("stepping", 0.6, {ground(0.5)});
-  std::mt19937 random(1);
-  const auto aside = [&] { return 0.06 * static_cast<double>(random()) / 4294967296.0 - 0.03; };
+  Draws draws{std::mt19937(1)};
+  const auto aside = [&] { return draws(-0.03, 0.03); };
   for (int k = 0; k < 40; ++k)
     def.bodies.push_back(
         ball("ball." + std::to_string(k), 0.15,

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 
 #include "sim/problem/problem.h"
 #include "tests/catch.h"
+#include "tests/world/draws.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
@@ -18,10 +18,7 @@ constexpr double kG = 9.81;
 
 /// Bricks of any shape and spin above a smooth floor that gives all back.
 WorldDef thrownBrick(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto draw = [&](double from, double to) {
-    return from + (to - from) * (static_cast<double>(random()) / 4294967296.0);
-  };
+  Draws draw{std::mt19937(seed)};
   WorldDef def = worldOf("stepping", 5.0, {ground(1.0)});
   const Vec3 edges(draw(0.1, 0.5), draw(0.1, 0.5), draw(0.1, 0.5));
   BodyDef brick = box("brick", edges, {0.0, 1.0, 0.0}, 1.0);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 #include <string>
 
+#include "tests/world/draws.h"
 #include "tests/world/scenes.h"
 
 namespace tumble::scenes {
@@ -14,8 +14,8 @@ inline const Shape kBrick = Box{{0.15, 0.1, 0.1}};
 /// So many bodies of a shape, turned at random, in layers above a floor between four walls.
 inline WorldDef tray(const Shape& shape, int count) {
   constexpr double e = 0.2, mu = 0.5, apart = 0.5;
-  std::mt19937 random(7);
-  const auto draw = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
+  Draws draws{std::mt19937(7)};
+  const auto draw = [&] { return draws(-0.5, 0.5); };
   const int wide = static_cast<int>(std::lround(std::sqrt(count / 4.0))) - 1;
   const double half = 0.35 * (wide + 1);
   WorldDef def;
