@@ -1,17 +1,35 @@
 // Chapter 5, collide: the table of broad phases.
 #include "sim/collide/broad_phase.h"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
 using Boxes = std::span<const Aabb>;
 using Pairs = std::vector<BroadPhase::Pair>;
 
-void updateAll(BroadPhase::Memory&, Boxes boxes, std::span<const char>, Pairs& pairs) {
+/// A box of the set that is told apart is held against the others alone.
+void updateAll(BroadPhase::Memory& memory, Boxes boxes, std::span<const char> apart,
+               Pairs& pairs) {
+  const int n = static_cast<int>(boxes.size());
+  std::vector<int>& others = memory.others;
+  others.clear();
+  for (int i = 0; i < n; ++i)
+    if (apart.empty() || !apart[i]) others.push_back(i);
   pairs.clear();
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size(); ++j)
-      if (boxes[i].overlaps(boxes[j])) pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
+  std::size_t passed = 0;
+  for (int i = 0; i < n; ++i) {
+    const auto test = [&](int j) {
+      if (boxes[i].overlaps(boxes[j])) pairs.emplace_back(i, j);
+    };
+    const bool isOther = passed < others.size() && others[passed] == i;
+    passed += isOther;
+    if (isOther)
+      for (int j = i + 1; j < n; ++j) test(j);
+    else
+      for (std::size_t k = passed; k < others.size(); ++k) test(others[k]);
+  }
 }
 
 void updateEnds(BroadPhase::Memory& memory, Boxes boxes, std::span<const char>, Pairs& pairs) {
@@ -29,9 +47,9 @@ constexpr BroadPhaseRow kRows[] = {
     {"grid", "cells of space, and the near pairs found there while boxes stay near", updateGrid},
 };
 
-// Up to this many boxes, looking at every pair costs less (0.6 µs of 30 boxes, the grid 0.9; of
-// 100, 7 µs and 3): tests/bench/sim/broad_phase.cpp.
-constexpr std::size_t kFewBoxes = 32;
+// Up to so many pairs a box, as 32 boxes have, looking at all of them costs less (0.6 µs of 30
+// boxes, the grid 0.9; of 100, 7 µs and 3): tests/bench/sim/broad_phase.cpp.
+constexpr double kFewPairs = 15.5;
 
 }  // namespace
 
@@ -39,12 +57,15 @@ std::span<const BroadPhaseRow> broadPhaseRows() {
   return kRows;
 }
 
-const BroadPhaseRow& chooseBroadPhase(std::size_t boxes) {
-  return boxes <= kFewBoxes ? kRows[0] : kRows[2];
+const BroadPhaseRow& chooseBroadPhase(std::size_t boxes, std::size_t apart) {
+  const auto pairsOf = [](double count) { return 0.5 * count * (count - 1.0); };
+  const auto all = static_cast<double>(boxes), told = static_cast<double>(apart);
+  return pairsOf(all) - pairsOf(told) <= kFewPairs * all ? kRows[0] : kRows[2];
 }
 
 void BroadPhase::update(std::span<const Aabb> boxes, std::span<const char> apart) {
-  const BroadPhaseRow& row = only_ ? *only_ : chooseBroadPhase(boxes.size());
+  const auto toldApart = static_cast<std::size_t>(std::count(apart.begin(), apart.end(), 1));
+  const BroadPhaseRow& row = only_ ? *only_ : chooseBroadPhase(boxes.size(), toldApart);
   row.update(memory_, boxes, apart, pairs_);
 }
 

@@ -19,7 +19,7 @@ class BroadPhase {
  public:
   using Pair = std::pair<int, int>;
 
-  /// Takes the row of the table that costs least for the number of boxes.
+  /// Takes the row of the table that costs least for the boxes, by their number.
   BroadPhase() = default;
   /// Always takes one row.
   explicit BroadPhase(const BroadPhaseRow& row) : only_(&row) {}
@@ -37,6 +37,7 @@ class BroadPhase {
   struct Memory {
     SortedEnds ends;
     CellGrid grid;
+    std::vector<int> others;  ///< boxes that are not told apart
   };
   const Memory& memory() const { return memory_; }
 
@@ -53,8 +54,8 @@ struct BroadPhaseRow {
                  std::vector<BroadPhase::Pair>&);
 };
 
-/// The table, and the row that `BroadPhase` takes for a number of boxes.
+/// The table, and the row that `BroadPhase` takes for so many boxes, of which some are told apart.
 std::span<const BroadPhaseRow> broadPhaseRows();
-const BroadPhaseRow& chooseBroadPhase(std::size_t boxes);
+const BroadPhaseRow& chooseBroadPhase(std::size_t boxes, std::size_t apart);
 
 }  // namespace tumble

@@ -130,6 +130,32 @@ TEST_CASE("1000 boxes have the pairs of brute force at each of 10,000 steps", "[
   CHECK(changes > 5000);
 }
 
+// As points of a cloth among few solids, and among many.
+TEST_CASE("every broad phase has the pairs of all boxes that are not both told apart") {
+  for (const int every : {3, 100}) {
+    Drift drift(300, 6.0, 0.0625, 28);
+    std::vector<char> apart(300);
+    for (int i = 0; i < 300; ++i) apart[static_cast<std::size_t>(i)] = i % every != 1;
+    const auto without = [&](Pairs pairs) {
+      std::erase_if(pairs, [&](const auto& pair) {
+        return apart[static_cast<std::size_t>(pair.first)] &&
+               apart[static_cast<std::size_t>(pair.second)];
+      });
+      return pairs;
+    };
+    std::vector<BroadPhase> rows = everyRow();
+    for (int k = 0; k < 20; ++k) {
+      const Pairs pairs = without(bruteForce(drift.boxes()));
+      CHECK(pairs.size() > 100);
+      for (BroadPhase& row : rows) {
+        row.update(drift.boxes(), apart);
+        CHECK(without(row.pairs()) == pairs);
+      }
+      drift.step();
+    }
+  }
+}
+
 // Sizes over nine powers of ten, a slab of a kilometre among bricks of 10 cm, thin sheets and
 // needles, points, a crowd in one place, and a few very far away: what a grid with one size of cell
 // would miss or choke on.
