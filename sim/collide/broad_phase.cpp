@@ -10,8 +10,7 @@ using Boxes = std::span<const Aabb>;
 using Pairs = std::vector<BroadPhase::Pair>;
 
 /// A box of the set that is told apart is held against the others alone.
-void updateAll(BroadPhase::Memory& memory, Boxes boxes, std::span<const char> apart,
-               Pairs& pairs) {
+void updateAll(BroadPhase::Memory& memory, Boxes boxes, std::span<const char> apart, Pairs& pairs) {
   const int n = static_cast<int>(boxes.size());
   std::vector<int>& others = memory.others;
   others.clear();

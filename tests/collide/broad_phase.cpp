@@ -146,7 +146,7 @@ TEST_CASE("every broad phase has the pairs of all boxes that are not both told a
     std::vector<BroadPhase> rows = everyRow();
     for (int k = 0; k < 20; ++k) {
       const Pairs pairs = without(bruteForce(drift.boxes()));
-      CHECK(pairs.size() > 100);
+      CHECK(pairs.size() > 10);
       for (BroadPhase& row : rows) {
         row.update(drift.boxes(), apart);
         CHECK(without(row.pairs()) == pairs);
