@@ -7,7 +7,6 @@ namespace tumble {
 
 void differentiate(const Corotated& solid, const ElementPlaces& x, ElementAsk ask,
                    ElementTerms& terms) {
-  terms.clear(ask);
   const Mat3 F = deformation(solid.cell, x);
   const Stretches stretches = stretchesFor(ask, F);
   const auto [mu, lambda, viscosity] = solid.solid;

@@ -174,7 +174,10 @@ Solidity solidityOf(double young, double poisson, double viscosity) {
     }
     return Mat3(cell.volume * block);
   });
-  if (viscosity > 0.0) setViscosity(cell.gradient, cell.volume, viscosity, F, terms.damping);
+  if (viscosity > 0.0)
+    setViscosity(cell.gradient, cell.volume, viscosity, F, terms.damping);
+  else
+    terms.damping.topLeftCorner<12, 12>().setZero();
 }
 
 }  // namespace tumble

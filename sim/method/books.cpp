@@ -86,6 +86,10 @@ void trimTrail(State& state, double t) {
 }
 
 void account(const Model& model, State& state, Report& report) {
+  account(model, state, report, potentialEnergy(model.def.gravity, model.def.forces, state.bodies));
+}
+
+void account(const Model& model, State& state, Report& report, double potential) {
   Certificate& books = report.certificate;
   Vec3 momentum = Vec3::Zero();
   double size = 0.0;
@@ -104,8 +108,7 @@ void account(const Model& model, State& state, Report& report) {
   }
   books.max_joint_gap = std::max(books.max_joint_gap, largestJointGap(state.bodies, model.joints));
   books.events = static_cast<long>(report.events.size());
-  books.energy_end = kinetic + potentialEnergy(model.def.gravity, model.def.forces, state.bodies) +
-                     energyStored(state.lasting);
+  books.energy_end = kinetic + potential + energyStored(state.lasting);
   // Contacts may take of this, but give nothing.
   const double own = books.energy_end - books.energy_added_repair - books.work_of_forces;
   books.max_energy_gain = std::max(books.max_energy_gain, own - state.energyOwn);

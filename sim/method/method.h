@@ -80,6 +80,8 @@ void trimTrail(State& state, double t);
 std::string spentBy(const Model& model, const State& state);
 
 /// Brings the running totals and the certificate up to date at the end of a step.
+/// @param potential  [J] of the bodies, in gravity and of all forces
+void account(const Model& model, State& state, Report& report, double potential);
 void account(const Model& model, State& state, Report& report);
 
 /// Energy [J] stored in contacts that are springs.

@@ -109,6 +109,8 @@ Bendings bendingsOf(const Model& model) {
   for (const Force& force : model.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force))
       addParts(model, *bending->body, bendings);
+    else
+      bendings.others.push_back(force);
   return bendings;
 }
 
@@ -168,22 +170,23 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
   return energy;
 }
 
-double energyAfter(const BendingPart& part, const std::vector<int>& pointOf,
-                   std::span<const RigidBody> bodies, std::span<const Vec6> after, double h) {
-  double energy = 0.0;
+void reach(BendingPart& part, const std::vector<int>& pointOf, std::span<const RigidBody> bodies,
+           std::span<const Vec6> after, double h) {
+  part.reachedAt.resize(part.bodies.size());
+  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
+    const int i = part.bodies[p];
+    part.reachedAt[p] = bodies[i].x + h * after[i].head<3>();
+    if (part.movesOut()) part.reachedAt[p] += h * part.wayOut[p];
+  }
+  part.reached = 0.0;
   ElementTerms terms;
   ElementPlaces x;
   x.fill(Vec3::Zero());
   for (const Element* element : part.elements) {
-    for (int k = 0; k < element->count; ++k) {
-      const int i = element->points[k];
-      x[k] = bodies[i].x + h * after[i].head<3>();
-      if (part.movesOut()) x[k] += h * part.wayOut[pointOf[i]];
-    }
+    for (int k = 0; k < element->count; ++k) x[k] = part.reachedAt[pointOf[element->points[k]]];
     differentiate(element->energy, x, ElementAsk::Energy, terms);
-    energy += terms.energy;
+    part.reached += terms.energy;
   }
-  return energy;
 }
 
 void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h) {

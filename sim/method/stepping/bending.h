@@ -34,14 +34,15 @@ struct BendingPart {
   std::vector<Vec3> side;      ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
   std::vector<Vec3> star;      ///< [m/s] per point: v without λ
   double stored = 0.0;         ///< [J] at the start of the step
-  double reached = 0.0;        ///< [J] where the velocities found lead
-  double turned = 0.0;         ///< [m/s] by which the last linearisation changed the motion
-  bool anew = false;           ///< linear forces are others than when islands were solved last
-  bool touched = false;        ///< an island with contacts has it
-  bool fresh = false;          ///< velocities may be others than those of its books
-  bool costly = false;         ///< a factor of A costs more than a number of sweeps
-  bool sweeps = false;         ///< solved by sweeps where it can be
-  std::vector<Vec3> swept;     ///< [m/s] per point: v as the last sweeps left it
+  double reached = 0.0;        ///< [J] where the velocities found lead,
+  std::vector<Vec3> reachedAt;  ///< [m] places of the points there
+  double turned = 0.0;          ///< [m/s] by which the last linearisation changed the motion
+  bool anew = false;            ///< linear forces are others than when islands were solved last
+  bool touched = false;         ///< an island with contacts has it
+  bool fresh = false;           ///< velocities may be others than those of its books
+  bool costly = false;          ///< a factor of A costs more than a number of sweeps
+  bool sweeps = false;          ///< solved by sweeps where it can be
+  std::vector<Vec3> swept;      ///< [m/s] per point: v as the last sweeps left it
 
   std::unique_ptr<BlockStructure> structure;  ///< of A
   BlockCholesky<3> factor;
@@ -54,8 +55,9 @@ struct BendingPart {
 /// All of a model; and per body its place in them.
 struct Bendings {
   std::vector<BendingPart> parts;
-  std::vector<int> partOf;   ///< per body: its part, or −1
-  std::vector<int> pointOf;  ///< per body: its number in its part
+  std::vector<int> partOf;    ///< per body: its part, or −1
+  std::vector<int> pointOf;   ///< per body: its number in its part
+  std::vector<Force> others;  ///< of the model that bend nothing
 
   BendingPart& partWith(int body) { return parts[partOf[body]]; }
 };
@@ -66,9 +68,9 @@ Bendings bendingsOf(const Model& model);
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h);
 
-/// The energy [J] where its points are after h seconds at these velocities of bodies, moved out.
-double energyAfter(const BendingPart& part, const std::vector<int>& pointOf,
-                   std::span<const RigidBody> bodies, std::span<const Vec6> after, double h);
+/// Finds the energy where its points are after h seconds at these velocities of bodies, moved out.
+void reach(BendingPart& part, const std::vector<int>& pointOf, std::span<const RigidBody> bodies,
+           std::span<const Vec6> after, double h);
 
 /// The right side of the step; and for star how points would move that nothing joined.
 void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h);

@@ -182,8 +182,7 @@ bool Stepping::gains(double h) {
   bentBooks_.resize(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (!parts[k].fresh) continue;
-    parts[k].reached =
-        energyAfter(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, h);
+    reach(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, h);
     bentBooks_[k] = booksOf(parts[k], h);
     parts[k].fresh = false;
   }
@@ -214,6 +213,23 @@ bool Stepping::isToHalve(double h) {
       taken += books.lostImpact + books.lostFriction;
     }
   return taken < -kGiven * size && divisible;
+}
+
+/// The potential energy [J] of the bodies as they are. What bends has it already where it came to
+/// be where its velocities led.
+double Stepping::potentialNow() const {
+  const Vec3& gravity = model_.def.gravity;
+  double sum = potentialEnergy(gravity, memory_.bendings->others, state_.bodies);
+  for (const BendingPart& part : memory_.bendings->parts) {
+    bool there = !part.reachedAt.empty();
+    for (std::size_t p = 0; p < part.reachedAt.size(); ++p) {
+      const Vec3& x = state_.bodies[part.bodies[p]].x;
+      there = there && (x - part.reachedAt[p]).lpNorm<Eigen::Infinity>() <= roundingAt(x);
+    }
+    if (!there) return potentialEnergy(gravity, model_.def.forces, state_.bodies);
+    sum += part.reached;
+  }
+  return sum;
 }
 
 void Stepping::bookBent() {

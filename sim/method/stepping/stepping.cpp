@@ -261,7 +261,7 @@ void Stepping::endSegment(double t1) {
   state_.t = t1;
   ++report_.certificate.steps;
   ++report_.certificate.evaluations;
-  account(model_, state_, report_);
+  account(model_, state_, report_, potentialNow());
   joinStill();
 }
 

@@ -454,6 +454,7 @@ class Stepping {
   void joinBent();
   void coupleBent(Island& island);
   void bookBent();
+  double potentialNow() const;
 
   // project.cpp
   /// @return whether all that overlapped or gaped is closed
