@@ -358,8 +358,9 @@ Vec3 slipAcceleration(const RigidBody& a, const RigidBody& b, const ContactPoint
 [[gnu::flatten]] void tangents(const Vec3& n, const Vec3& preferred, Vec3& t1, Vec3& t2) {
   t1 = across(preferred, n);
   const double length = t1.norm();
-  constexpr double kAlong = 1e-9;  // sine to the normal
-  if (length > kAlong * preferred.norm() && length > 0.0) {
+  constexpr double kAlong = 1e-9;        // sine to the normal
+  constexpr double kVanishing = 1e-150;  // squares of less underflow
+  if (length > kAlong * preferred.norm() && length > kVanishing) {
     t1 /= length;
   } else {  // the coordinate axis that is least along n
     int axis = 0;

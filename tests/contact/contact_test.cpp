@@ -167,3 +167,16 @@ TEST_CASE("restitution outside [0, 1] is refused") {
   for (double e : {-0.1, 1.1, std::nan("")})
     CHECK_THROWS_AS(collisionImpulse(a, b, c, e), std::invalid_argument);
 }
+
+// As of points of a cloth that falls on the plane in which it is its own mirror image.
+TEST_CASE("tangents are of length 1 along any slip, however slow") {
+  const Vec3 n = Vec3(0.1, -1.0, 0.2).normalized();
+  for (double speed = 1.0; speed > 0.0; speed *= 1e-3) {
+    Vec3 t1, t2;
+    tangents(n, speed * Vec3(0.3, 0.5, -0.7), t1, t2);
+    CAPTURE(speed);
+    CHECK(std::abs(t1.norm() - 1.0) <= 1e-15);
+    CHECK(std::abs(t2.norm() - 1.0) <= 1e-15);
+    CHECK(std::abs(t1.dot(t2)) <= 1e-15);
+  }
+}
