@@ -1,6 +1,7 @@
 #include "sim/problem/point_contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@ enum class Law { Open, Sticks, Slides };
 /// A contact, and the piece of the law that it is on.
 struct Touching : NodeRows {
   double mu = 0.0;
+  Vec3 rho = Vec3::Zero();  ///< [kg] along n, and along t1 and t2
   Vec3 lambda = Vec3::Zero(), u = Vec3::Zero();
   Law law = Law::Open, factored = Law::Open;
   Vec3 along = Vec3::Zero(), across = Vec3::Zero();  ///< friction that slides, unit vectors
@@ -39,8 +41,10 @@ class PointContacts {
   bool readTouches(const Problem& problem, const Solution& start);
   void findStructure();
   void choose();
-  void slide(Touching& touch, const Vec3& z, double rho);
+  void slide(Touching& touch, const Vec3& z);
   bool step();
+  void go(bool whole);
+  double missing() const;
   bool factor();
   void aim();
   void applySlope(std::span<const Vec3> y, std::span<Vec3> out) const;
@@ -60,7 +64,8 @@ class PointContacts {
   std::vector<Freedom> free_;  ///< per node: where its velocity is not known at once
   Vectors star_, v_;
   Vectors moved_, open_;  ///< v − v*, and A of it
-  Vectors step_, right_;
+  Vectors step_, right_, start_;
+  std::array<double, 2> left_ = {};  ///< [N² s²] missing after the last two steps
   Gmres gmres_;
   Solution found_;
   int factors_ = 0;
@@ -89,6 +94,7 @@ bool PointContacts::read(const Problem& problem, const Solution& start) {
 }
 
 bool PointContacts::readTouches(const Problem& problem, const Solution& start) {
+  constexpr double kYields = 0.1;  // of a block of A: neighbours of a point give way with it
   const bool warm = start.lambda.size() == problem.rows.size();
   touches_.clear();
   touchOf_.assign(nodes_.bodyOf.size(), -1);
@@ -100,6 +106,10 @@ bool PointContacts::readTouches(const Problem& problem, const Solution& start) {
     Touching touch{rowsOfNode(problem, cone, nodes_.nodeOf)};
     if (std::exchange(touchOf_[touch.node], static_cast<int>(touches_.size())) >= 0) return false;
     touch.mu = rubs ? cone.mu : 0.0;
+    const Mat3& own = nodes_.A.own[touch.node];
+    const auto n = touch.J.row(0);
+    const double across = n * own * n.transpose(), along = kYields * 0.5 * (own.trace() - across);
+    touch.rho = {across, along, along};
     for (int k = 0; warm && k < coneRows(cone.kind); ++k)
       touch.lambda[k] = start.lambda[cone.row + k];
     touches_.push_back(touch);
@@ -118,16 +128,11 @@ void PointContacts::findStructure() {
 
 /// On which piece of the law each contact is, by λ and u.
 void PointContacts::choose() {
-  constexpr double kYields = 0.1;  // of a block of A: neighbours of a point give way with it
   free_.assign(v_.size(), {});
   for (Touching& touch : touches_) {
-    const Mat3& own = nodes_.A.own[touch.node];
     const auto n = touch.J.row(0);
-    const double across = n * own * n.transpose();
-    const double rho = kYields * 0.5 * (own.trace() - across);
     touch.u = touch.J * v_[touch.node] + touch.bias;
-    Vec3 z = touch.lambda - rho * touch.u;
-    z[0] = touch.lambda[0] - across * touch.u[0];
+    const Vec3 z = touch.lambda - touch.rho.cwiseProduct(touch.u);
     touch.law = Law::Open;
     if (!(z[0] > 0.0)) continue;
     Freedom& free = free_[touch.node];
@@ -137,13 +142,13 @@ void PointContacts::choose() {
     } else {
       touch.law = Law::Slides;
       free = {Freedom::Kind::Some, Mat3::Identity() - n.transpose() * n};
-      slide(touch, z, rho);
+      slide(touch, z);
     }
   }
 }
 
 /// Friction that slides is mu λ_n along z_t; how it turns with z_t and λ_t.
-void PointContacts::slide(Touching& touch, const Vec3& z, double rho) {
+void PointContacts::slide(Touching& touch, const Vec3& z) {
   constexpr double kLeast = 1e-6;  // of |z_t|: less is all but stuck
   touch.turning = touch.turned = 0.0;
   if (touch.mu == 0.0) return;
@@ -152,7 +157,7 @@ void PointContacts::slide(Touching& touch, const Vec3& z, double rho) {
   const Eigen::Vector2d along = z.tail<2>() / size, across(-along[1], along[0]);
   touch.along = touch.J.bottomRows<2>().transpose() * along;
   touch.across = touch.J.bottomRows<2>().transpose() * across;
-  touch.turning = part * rho;
+  touch.turning = part * touch.rho[1];
   touch.turned = part * across.dot(touch.lambda.tail<2>());
 }
 
@@ -220,10 +225,10 @@ bool PointContacts::factor() {
   return H_.factor();
 }
 
-/// One step. @return false where the slope has no factor
+/// The next step. @return false where the slope has no factor
 bool PointContacts::step() {
   constexpr int kFew = 4;         // changes of pieces that GMRES makes up for
-  constexpr double kPart = 1e-4;  // of the right side: the next step does the rest
+  constexpr double kPart = 1e-3;  // of the right side: the next step does the rest
   const auto changed = std::count_if(touches_.begin(), touches_.end(), [](const Touching& touch) {
     return touch.law != touch.factored;
   });
@@ -235,8 +240,43 @@ bool PointContacts::step() {
         H_.solve(x);
         keepFree(x);
       });
-  for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += step_[i] + right_[i];
+  for (std::size_t i = 0; i < v_.size(); ++i) step_[i] += right_[i];
   return true;
+}
+
+/// Takes so much of the step that less is missing than after one of the last two: without, pieces
+/// may go to and fro for ever; and less each time takes many short steps.
+void PointContacts::go(bool whole) {
+  constexpr double kShortest = 1.0 / 64.0, kLess = 1e-4;
+  start_ = v_;
+  double left = 0.0;
+  const double before = std::max(left_[0], left_[1]);
+  for (double part = 1.0;; part *= 0.5) {
+    for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = start_[i] + part * step_[i];
+    findForces();
+    left = missing();
+    if (whole || part <= kShortest || left <= (1.0 - kLess * part) * before) break;
+  }
+  left_ = {left_[1], left};
+}
+
+/// The squares of what is missing of all equations [N² s²], with the λ that follow from v.
+double PointContacts::missing() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    Vec3 left = open_[i];
+    if (touchOf_[i] >= 0) {
+      const Touching& touch = touches_[touchOf_[i]];
+      const Vec3 u = touch.J * v_[i] + touch.bias;
+      Vec3 z = touch.J * open_[i] - touch.rho.cwiseProduct(u);
+      z[0] = std::max(z[0], 0.0);
+      const double size = z.tail<2>().norm(), most = touch.mu * z[0];
+      if (size > most) z.tail<2>() *= most / size;
+      left -= touch.J.transpose() * z;
+    }
+    sum += left.squaredNorm();
+  }
+  return sum;
 }
 
 /// A (v − v*), which contacts take of their points.
@@ -287,15 +327,16 @@ void PointContacts::write(const Problem& problem, Solution& solution) const {
 
 std::optional<SolveReport> PointContacts::solve(const Problem& problem,
                                                 const SolveSettings& settings, Solution& solution) {
-  constexpr int kMost = 16;        // steps: pieces that change for longer do so for ever
+  constexpr int kMost = 32;        // steps: the old stages cost as much
   constexpr double kOpen = 1e-12;  // balance of momentum that is as good as closed
   SolveReport report{.scale = velocityScale(problem)};
   std::optional<SolveReport> solved;
   findForces();
+  left_.fill(missing());
   for (int k = 0; k < kMost; ++k) {
     choose();
     if (!step()) break;
-    findForces();
+    go(solved.has_value());
     judge(problem, report);
     const bool good = report.residual <= settings.tolerance &&
                       report.balance <= std::max(kOpen, 0.01 * settings.tolerance);

@@ -16,6 +16,8 @@ namespace tumble {
 /// pieces on which they are smooth: what sticks stops, what slides stays on its plane. The
 /// rest of a step is a linear problem, symmetric but for friction that follows its normal force: a
 /// Cholesky factor without that leaves a few rounds of GMRES (Saad & Schultz 1986).
+/// It is cut short where more would be missing of all equations than after either of the last two
+/// (Grippo, Lampariello & Lucidi, A nonmonotone line search technique for Newton's method, 1986).
 /// @return nothing where there are few bodies, contacts of another kind, or more than one at a
 ///         point, or where the steps do not end: nothing is promised from afar
 std::optional<SolveReport> solvePointContacts(const Problem& problem, const SolveSettings& settings,
