@@ -272,7 +272,7 @@ TEST_CASE("a trampoline takes a heavy ball, and carries a rod that hangs from it
           c.max_joint_gap, c.max_complementarity);
   CHECK(c.max_complementarity <= 1e-9);
   CHECK(c.momentum_error <= 1e-9);
-  CHECK(c.energy_balance_error <= 1e-2);
+  CHECK(c.energy_balance_error <= 1e-5);  // measured 5e-7
   CHECK(c.max_joint_gap <= 1e-9);
   CHECK(c.energy_end <= c.energy_start);
   CHECK(c.max_energy_gain <= 1e-6 * c.energy_start);  // measured 0

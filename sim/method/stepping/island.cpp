@@ -217,7 +217,8 @@ void Stepping::fallAsOne(Island& island, double h) {
   const bool stretches = !bent && rests(island, h);
   memory.kept = stretches || (!bent && (keeps(island, h) || pushesAlike(island, h)));
   if (stretches) stretch(island, h);
-  if (!memory.kept && !(bent && keepsBent(island, h))) {
+  const bool solves = !memory.kept && !(bent && keepsBent(island, h));
+  if (solves) {
     answer.kept = false;
     const bool sweeps = bent && canSweep(island), crowd = crowd_ && isCrowd(island);
     if (bent && !sweeps) factorSwept(island);
@@ -256,6 +257,7 @@ void Stepping::fallAsOne(Island& island, double h) {
     work_.touched[island.movers[i]] =
         touched || model_.bends(island.movers[i]) || isHalved(island.movers[i]);
   }
+  if (bent && solves) bookWays(island, h);  // of the solids in it
   if (!pushed) return;
   if (isSmooth(island, h))
     for (const int i : island.movers) work_.smooth[i] = 1;

@@ -83,8 +83,7 @@ bool Stepping::isSmooth(const Island& island, double h) const {
   return true;
 }
 
-/// What lands within a step moves with the velocity of its end, which is not what forces gave it on
-/// its way: the difference of their work is lost in the impact.
+/// What lands within a step is booked in its impact.
 void Stepping::bookLanding(Island& island, double h) const {
   const auto lands = [&](const Touch& touch) {
     const ContactPoint& c = touch.contact.point;
@@ -96,9 +95,16 @@ void Stepping::bookLanding(Island& island, double h) const {
         return std::any_of(touches.begin(), touches.end(), lands);
       }))
     return;
+  bookWays(island, h);
+}
+
+/// What is touched moves with the velocity of the end of the step, which is not what forces gave it
+/// on its way: the difference of their work is lost.
+void Stepping::bookWays(Island& island, double h) const {
   IslandBooks& books = island.memory->books;
   for (const int i : island.movers) {
-    if (!work_.touched[i] || work_.later[i] > 0.0 || isDriven(i)) continue;
+    if (!work_.touched[i] || work_.later[i] > 0.0 || isDriven(i) || isHalved(i) || model_.bends(i))
+      continue;
     const RigidBody& body = state_.bodies[i];
     const Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);
     const double turning = body.torque.dot(change.tail<3>());

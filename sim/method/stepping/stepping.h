@@ -312,6 +312,7 @@ class Stepping {
   bool goesRound(const Touch& touch, double h) const;
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
   void bookLanding(Island& island, double h) const;
+  void bookWays(Island& island, double h) const;
   /// A contact point, and the places of its bodies, in the middle of the step.
   struct Middle {
     ContactPoint point;
