@@ -30,6 +30,23 @@ WorldDef thrownBrick(unsigned seed) {
   return def;
 }
 
+/// Two bricks, each tilted along its edges by a hair, the upper of which falls on the other.
+WorldDef bricksThatFall(unsigned seed) {
+  Draws draw{std::mt19937(seed)};
+  WorldDef def = worldOf("stepping", 1.0, {ground(0.2, 0.5)});
+  const double hair = std::pow(10.0, draw(-9.0, -4.0)), pitch = draw(-0.4, 0.4);
+  for (const double side : {1.0, -1.0}) {
+    BodyDef brick = box(side > 0.0 ? "lower" : "upper", {0.3, 0.2, 0.2},
+                        {0.05 - 0.05 * side, 0.45 - 0.15 * side, 0.0}, 0.2, 0.5);
+    brick.orientation = Quat(std::cos(0.5 * pitch), 0.5 * side * hair, 0.0, std::sin(0.5 * pitch));
+    brick.orientation.normalize();
+    const double vx = draw(-0.5, 0.5), vz = draw(-0.3, 0.3);
+    brick.velocity = {vx, -1.0, vz};
+    def.bodies.push_back(brick);
+  }
+  return def;
+}
+
 /// Largest |energy − that at the start| [J] at the ends of steps.
 double energyStray(World& world, double end) {
   double stray = 0.0, start = 0.0;
@@ -43,6 +60,30 @@ double energyStray(World& world, double end) {
 }
 
 }  // namespace
+
+// Oracle: the audit, which takes bodies for apart where their gap is a millionth of their size.
+// Hits that are due within a ten thousandth of a step, struck at once, are up to 7e-7 m apart here:
+// one of these runs took 0.12 of its momentum from nothing. Measured 4e-14.
+// Points of an edge that lands hold its line. As they are found, out of one plane by gaps that are
+// not closed yet, they ask for forces beyond a solver's last digits: 44 of these runs had steps
+// that were left above the tolerance. Measured 12.
+TEST_CASE("stepping: bricks strike what they touch, and edges that land are solved") {
+  constexpr unsigned kFirst = 101, kLast = 200;
+  int above = 0;
+  double fromNothing = 0.0;
+  for (unsigned seed = kFirst; seed <= kLast; ++seed) {
+    World world(bricksThatFall(seed));
+    world.advance(1.0);
+    const std::vector<std::string>& notes = world.report().notes;
+    above += std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("left above the tolerance") != std::string::npos;
+    });
+    fromNothing = std::max(fromNothing, world.report().certificate.audit_momentum_error);
+  }
+  CAPTURE(above);
+  CHECK(fromNothing < 1e-12);
+  CHECK(above <= 20);
+}
 
 // Oracle: the closed form. After the fall and k bounces a ball is e²ᵏ of its height up, at a time
 // that the heights give. Measured over all rows 2e-13 of the height.

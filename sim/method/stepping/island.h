@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/body/rigid_body.h"
+#include "sim/collide/contact_point.h"
 #include "sim/joint/joint_rows.h"
 #include "sim/problem/problem.h"
 
@@ -60,6 +61,12 @@ struct IslandAnswer {
   std::string crushed;    ///< words, where no forces can hold what moves on
 };
 
+/// Where the rows of a contact point are taken.
+struct Stance {
+  ContactPoint point;
+  Vec3 a, b;  ///< [m] places of its bodies
+};
+
 /// An island at hand. Its storage serves one island after the other.
 struct Island {
   std::span<const Link> links;
@@ -74,8 +81,10 @@ struct Island {
   std::vector<Vec3> side;          ///< [N s] per body of a problem of what bends
   Solution solution, before;       ///< and that of the round before
 
-  std::vector<RigidBody> ahead;     ///< per body in a joint: after the step
-  std::vector<JointRow> jointRows;  ///< of one joint there
+  std::vector<Stance> stances;       ///< of a pair, point by point
+  std::vector<const Stance*> faces;  ///< the nearest of each normal
+  std::vector<RigidBody> ahead;      ///< per body in a joint: after the step
+  std::vector<JointRow> jointRows;   ///< of one joint there
 
   IslandAnswer answer;
 };

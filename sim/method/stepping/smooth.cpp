@@ -113,7 +113,8 @@ void Stepping::bookWays(Island& island, double h) const {
   }
 }
 
-Stepping::Middle Stepping::middleOf(const Contact& contact, double h) const {
+/// Where the rows of a contact are taken in the middle of the step.
+Stance Stepping::inMiddle(const Contact& contact, double h) const {
   RigidBody a = state_.bodies[contact.a], b = state_.bodies[contact.b];
   Contact c = contact;
   c.anchor = anchorOf(a, b, c.point);

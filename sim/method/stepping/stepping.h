@@ -280,15 +280,12 @@ class Stepping {
   double missedBy(const Touch& touch, bool allClosed, double h) const;
   void stand(Island& island, bool crowd, double h) const;
   void stretch(Island& island, double h);
-  void build(Island& island, double h);
-  void addTouch(Island& island, Touch& touch, bool allClosed, double h);
   bool areClosed(std::span<const Touch> touches) const;
   double gapRate(const Touch& touch, bool allClosed, double h) const;
   /// What a step adds to the relative velocity of two bodies that turn together: each goes along
   /// its chord, not along its tangent.
   Vec3 carried(const Contact& contact, double h) const;
   bool atStart() const { return partStart_ == 0.0; }
-  Row& addRow(Island& island, const Row& row);
   void share(Island& island, double h);
   void remember(Island& island);
   void shareTouch(Island& island, Touch& touch, const Cone& cone, double h);
@@ -299,11 +296,18 @@ class Stepping {
     return speedAt(contact, contact.a, twists) - speedAt(contact, contact.b, twists);
   }
   bool slides(const Touch& touch) const;
-  int localOf(Island& island, int body);
   /// Whether a fixed body that moves takes part.
   bool isLed(const Island& island) const;
   /// Words on what is crushed in an island, if no velocities obey its contacts.
   void findCrushed(Island& island, const SolveReport& solved);
+
+  // built.cpp
+  int localOf(Island& island, int body);
+  void build(Island& island, double h);
+  Row& addRow(Island& island, const Row& row);
+  void addPair(Island& island, std::vector<Touch>& touches, double h);
+  void level(Island& island) const;
+  void addTouch(Island& island, Touch& touch, const Stance& at, bool allClosed, double h);
 
   // smooth.cpp: what slides or rolls on.
   bool foreseesSmooth(Island& island, double h);
@@ -313,12 +317,7 @@ class Stepping {
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
   void bookLanding(Island& island, double h) const;
   void bookWays(Island& island, double h) const;
-  /// A contact point, and the places of its bodies, in the middle of the step.
-  struct Middle {
-    ContactPoint point;
-    Vec3 a, b;
-  };
-  Middle middleOf(const Contact& contact, double h) const;
+  Stance inMiddle(const Contact& contact, double h) const;
 
   // joined.cpp
   void bookJoints(double h);
