@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-constexpr double kSoon = 1e-4,
+constexpr double kSoon = 1e-6,
                  kNext = 1e-10;  ///< of a step: what is struck at once, and after that
 
 constexpr const char* kPassedOn =
