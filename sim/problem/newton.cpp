@@ -355,8 +355,9 @@ template <int N>
 bool Newton<N>::solveAnew(int most, const Solution& start, SolveReport& report) {
   report.iterations = std::exchange(system_.factorizations, 0);
   if (report.iterations > 0) system_.restart(start);
-  // What rubs between points that bend slides: calm stages would not end there.
-  report.residual = system_.couples() && system_.rubs() ? kInfinity : solveCalm();
+  // Calm stages keep the slip terms of the start, so that they do not end where contacts slide.
+  const bool slides = system_.couples() ? system_.rubs() : system_.slides();
+  report.residual = slides ? kInfinity : solveCalm();
   const bool calm = report.residual <= tolerance_;
   if (!calm) {
     if (!std::isfinite(report.residual)) system_.restart(start);

@@ -285,6 +285,14 @@ void NewtonSystem<N>::restart(const Solution& start) {
 }
 
 template <int N>
+bool NewtonSystem<N>::slides() const {
+  constexpr double kLittle = 1e-2;  // of the scale
+  return std::any_of(points.begin(), points.end(), [&](const Point& point) {
+    return point.kind == ConeKind::Friction && std::hypot(point.u[1], point.u[2]) > kLittle * scale;
+  });
+}
+
+template <int N>
 double NewtonSystem<N>::residual() const {
   double worst = 0.0;
   for (const Point& point : points) {

@@ -101,6 +101,7 @@ class NewtonSystem {
   void goBack(const std::vector<Point>& points, const std::vector<Mover>& movers);
 
   bool rubs() const { return rubs_; }  ///< whether a contact has friction
+  bool slides() const;                 ///< whether one of these slips, by more than a little
   bool couples() const {
     return !couplings_.empty();
   }                         ///< whether bodies are coupled by more than M

@@ -243,3 +243,18 @@ TEST_CASE("an answer does not depend on what was solved before it") {
     CHECK(others == 0);
   }
 }
+
+// What slides at the start most often slides at the end, and then stages that keep the slip terms
+// of the start do not end. Heaps of cubes that move at random took 1,390 factors with such stages
+// before the others. Measured 1,186.
+TEST_CASE("newton takes few factors where contacts slide") {
+  int factors = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    Solution solution;
+    const SolveReport report = findSolver("newton")->solve(heap(seed, 10), {}, solution);
+    CHECK(report.status == SolveStatus::Solved);
+    factors += report.iterations;
+  }
+  CAPTURE(factors);
+  CHECK(factors <= 1300);
+}
