@@ -128,8 +128,8 @@ double energyStored(std::span<const Contact> contacts) {
   return sum;
 }
 
-void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now, double t,
-                   Report& report) {
+void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now,
+                   std::span<const RigidBody> bodies, double t, Report& report) {
   for (const Contact& c : now) {
     if (ofSamePair(now, c) != &c) continue;
     const Contact* old = ofSamePair(before, c);
@@ -137,9 +137,12 @@ void recordChanges(const std::vector<Contact>& before, const std::vector<Contact
     if (c.sliding != (old && old->sliding))
       report.events.push_back(eventAt(t, c.sliding ? EventKind::Slip : EventKind::Stick, c));
   }
-  for (const Contact& c : before)
-    if (ofSamePair(before, c) == &c && !ofSamePair(now, c))
-      report.events.push_back(eventAt(t, EventKind::Separate, c));
+  for (const Contact& c : before) {
+    if (ofSamePair(before, c) != &c || ofSamePair(now, c)) continue;
+    Contact parted = c;
+    follow(bodies[c.a], bodies[c.b], parted);
+    report.events.push_back(eventAt(t, EventKind::Separate, parted));
+  }
 }
 
 void sortEvents(Report& report, std::size_t from) {

@@ -87,10 +87,10 @@ void account(const Model& model, State& state, Report& report);
 /// Energy [J] stored in contacts that are springs.
 double energyStored(std::span<const Contact> contacts);
 
-/// Tells what became of lasting contacts at time t [s]: rest, separate, slip and stick. One event
-/// for a pair, told at its first contact.
-void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now, double t,
-                   Report& report);
+/// Tells what became of lasting contacts at time t [s], where the bodies are as given: rest,
+/// separate, slip and stick. One event for a pair, told at its first contact.
+void recordChanges(const std::vector<Contact>& before, const std::vector<Contact>& now,
+                   std::span<const RigidBody> bodies, double t, Report& report);
 
 /// Sorts the events that came after the first `from` by time, then a, then b.
 void sortEvents(Report& report, std::size_t from);

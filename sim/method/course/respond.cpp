@@ -150,7 +150,7 @@ void Course::chooseLasting() {
                                 tolerance_.keep, state_.limits);
   settleCreep(lasting);
   std::swap(state_.lasting, lasting);
-  recordChanges(lasting, state_.lasting, state_.t, report_);
+  recordChanges(lasting, state_.lasting, state_.bodies, state_.t, report_);
 }
 
 }  // namespace tumble

@@ -325,7 +325,7 @@ std::vector<Contact> Exact::changeHolds(double t, const Cluster& cluster,
 
   // A rest at the end of a row of bounces is told when the last of them would be over.
   Report changes;
-  recordChanges(before, now, t, changes);
+  recordChanges(before, now, state_.bodies, t, changes);
   for (Event event : changes.events) {
     const auto same = [&](const Event& e) { return e.a == event.a && e.b == event.b; };
     if (event.kind == EventKind::Separate && std::erase_if(state_.exact.closing, same) > 0)

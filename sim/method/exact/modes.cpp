@@ -79,7 +79,7 @@ void Sustained::chooseModes() {
       c.slipDirection = -tangential(c).normalized();
     }
     unload();
-    recordChanges(before, lasting, state_.t, report_);
+    recordChanges(before, lasting, state_.bodies, state_.t, report_);
     state_.exact.modesKnown = true;
   }
   slip_.clear();

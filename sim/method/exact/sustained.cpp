@@ -207,7 +207,7 @@ void Sustained::cross(double most) {
   state_.t = t1;
   ++books.steps;
   ++books.evaluations;
-  recordChanges(before, state_.lasting, state_.t, report_);
+  recordChanges(before, state_.lasting, state_.bodies, state_.t, report_);
   account(model_, state_, report_);
   state_.effort = system_.effort;
   before_ = system_.evaluations();
