@@ -185,8 +185,8 @@ void Audit::findDisagreements(Report& report) const {
   };
   const double would = 0.5 * loadPower_ * t_ * t_;
   const double scale = std::max(kineticMax_, kStill * would);
-  hold("energy that nothing gave / J", gain_, std::max(0.0, books.energy_added_repair),
-       kEnergyShare * scale);
+  hold("energy that nothing gave / J", gain_,
+       std::max(books.energy_added_repair, books.max_energy_gain), kEnergyShare * scale);
   hold("balance of energy, relative", books.audit_energy_error, books.energy_balance_error,
        kEnergyShare);
   hold("momentum that nothing gave, relative", books.audit_momentum_error, books.momentum_error,
