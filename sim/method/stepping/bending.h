@@ -39,6 +39,7 @@ struct BendingPart {
   double turned = 0.0;          ///< [m/s] by which the last linearisation changed the motion
   bool anew = false;            ///< linear forces are others than when islands were solved last
   bool touched = false;         ///< an island with contacts has it
+  bool newton = false;          ///< is linearised until Newton's method ends
   bool fresh = false;           ///< velocities may be others than those of its books
   bool costly = false;          ///< a factor of A costs more than a number of sweeps
   bool sweeps = false;          ///< solved by sweeps where it can be

@@ -15,6 +15,7 @@ bool Stepping::bend(double h) {
     BendingPart& part = memory_.bendings->parts[k];
     std::fill(part.about.begin(), part.about.end(), Vec3::Zero());
     part.turned = std::numeric_limits<double>::infinity();
+    part.newton = false;
     int& left = memory_.unswept[k].left;
     part.sweeps = model_.def.stepping.bent > 0.0 && part.costly && left == 0;
     left = std::max(left - 1, 0);
@@ -45,10 +46,16 @@ bool Stepping::bendFurther(double h, bool all) {
   bool any = false;
   for (std::size_t k = 0; k < bentBooks_.size(); ++k) {
     BendingPart& part = memory_.bendings->parts[k];
-    part.anew = (all || bentBooks_[k].gained()) && turnOn(part, h);
+    part.anew = (all || part.newton || bentBooks_[k].gained()) && turnOn(part, h);
     any = any || part.anew;
   }
   return any && work_.crushed.empty();
+}
+
+bool Stepping::anyByNewton() const {
+  const std::vector<BendingPart>& parts = memory_.bendings->parts;
+  return std::any_of(parts.begin(), parts.end(),
+                     [](const BendingPart& part) { return part.newton; });
 }
 
 bool Stepping::turnOn(BendingPart& part, double h) {
@@ -138,6 +145,40 @@ void Stepping::coupleBent(Island& island) {
   });
 }
 
+/// Whether linear forces twist what flies and turns more than it swings. Forces of energies at the
+/// end of a step have no moment there; linear ones leave one, which a stiff solid that tumbles
+/// keeps as a false spin.
+bool Stepping::twists(const BendingPart& part, std::span<const Vec3> v, std::span<const Vec3> pull,
+                      double h) const {
+  constexpr double kTwist = 0.01;   // of the angle that it turns in the step, and of its spin
+  constexpr double kTurns = 0.5;    // of the angular momenta of its points is its own
+  constexpr double kFlight = 1e-9;  // of the angular momenta of points that fly: less is rounding
+  double mass = 0.0;
+  Vec3 centre = Vec3::Zero(), mean = Vec3::Zero();
+  for (std::size_t p = 0; p < v.size(); ++p) {
+    const double M = state_.bodies[part.bodies[p]].M;
+    mass += M;
+    centre += M * part.reachedAt[p];
+    mean += M * v[p];
+  }
+  centre /= mass;
+  mean /= mass;
+  double spin = 0.0, flight = 0.0, inertia = 0.0;
+  Vec3 moment = Vec3::Zero(), L = Vec3::Zero();
+  for (std::size_t p = 0; p < v.size(); ++p) {
+    const Vec3 arm = part.reachedAt[p] - centre;
+    const double length = arm.norm(), lever = state_.bodies[part.bodies[p]].M * length;
+    moment += arm.cross(part.constant[p] - pull[p]);
+    L += state_.bodies[part.bodies[p]].M * arm.cross(v[p] - mean);
+    spin += lever * (v[p] - mean).norm();
+    flight += lever * v[p].norm();
+    inertia += lever * length;
+  }
+  const double turned = h * spin / inertia;
+  return L.norm() > kTurns * spin &&
+         moment.norm() > std::max(kTwist * turned * spin, kFlight * flight);
+}
+
 /// What the implicit step takes [J], by the impulses p of what bends and its energies alone: with
 /// v̄ the mean of the velocities before and after, a point gains p·v̄ while the energies give
 /// −ΔE; gravity acts on the way h v⁺, which is ½ h Δv longer than that of v̄. Points that are led
@@ -167,6 +208,8 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
     books.movedOut -= (impulse + h * body.M * model_.def.gravity).dot(part.wayOut[p]);
   }
   books.taken = books.led - gained;
+  books.astray =
+      !part.touched && part.moving.size() == part.bodies.size() && twists(part, v, pull, h);
   books.size += part.reached + part.stored;
   return books;
 }
@@ -184,6 +227,7 @@ bool Stepping::gains(double h) {
     if (!parts[k].fresh) continue;
     reach(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, h);
     bentBooks_[k] = booksOf(parts[k], h);
+    parts[k].newton = parts[k].newton || bentBooks_[k].astray;
     parts[k].fresh = false;
   }
   return std::any_of(bentBooks_.begin(), bentBooks_.end(),

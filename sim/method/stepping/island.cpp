@@ -28,7 +28,7 @@ void Stepping::solveSteadily(double h) {
 }
 
 void Stepping::solveInTurns(double h) {
-  constexpr int kRounds = 10, kAgain = 12;
+  constexpr int kRounds = 10, kAgain = 12, kNewton = 40;
   const int rounds = isDrafted() ? 1 : kRounds;
   if (tiesRun()) freeChains(h);
   const auto solve = [&] {
@@ -42,8 +42,9 @@ void Stepping::solveInTurns(double h) {
   solve();
   const int most = model_.def.stepping.linearisations;
   for (int k = 1; bends() && work_.crushed.empty() && !misses_; ++k) {
-    const bool again = gains(h) && k < kAgain, all = k < most;
-    if (!(again || all) || !bendFurther(h, all)) break;
+    const bool again = gains(h) && k < kAgain, all = k < most,
+               newton = anyByNewton() && k < kNewton;
+    if (!(again || all || newton) || !bendFurther(h, all)) break;
     solve();
   }
 }

@@ -405,6 +405,7 @@ class Stepping {
     double size = 0.0;             ///< [J] of the energies that make it up
     double movedOut = 0.0;         ///< [J] that the way out of solids gives
     Vec3 external = Vec3::Zero();  ///< [N·s] on the points that move, by those
+    bool astray = false;           ///< linear forces twist what flies
 
     /// Whether linear forces gave energy, as those of what buckles or turns far in a step can:
     /// about the motion that they give they do not, but for what is left of Newton's method.
@@ -412,6 +413,9 @@ class Stepping {
   };
   BentBooks booksOf(const BendingPart& part, double h) const;
   bool gains(double h);
+  bool anyByNewton() const;
+  bool twists(const BendingPart& part, std::span<const Vec3> v, std::span<const Vec3> pull,
+              double h) const;
   bool isToHalve(double h);
   /// Gives `act` every part that has a point in an island, once.
   template <class Act>
