@@ -21,6 +21,7 @@ void forBodies(const Bonds& bonds, std::span<RigidBody> bodies, Give give) {
 }  // namespace
 
 void Bonds::clear() {
+  misfit = 0.0;
   rows.clear();
   kinds.clear();
   owners.clear();

@@ -17,6 +17,7 @@ struct Bonds {
   std::vector<int> owners;      ///< per row: the joint that it belongs to; −1: none
   std::vector<int> places;      ///< per row: its number among all rows of its owner
   std::vector<double> lambda;   ///< per row: force [N, N m] or impulse, as found
+  double misfit = 0.0;          ///< [1] widest gap of an equality, of the arm of its joint
 
   bool empty() const { return rows.empty(); }
   void clear();

@@ -105,8 +105,12 @@ SolveReport RestForces::solveAnew(bool friction) {
   // bears joints under any load, with what leans on them.
   solution_ = {};             // the same answer whatever was solved before
   constexpr int kMost = 200;  // factorizations, pivots or sweeps
+  constexpr double kGaps = 10.0;
   const bool joined = hasJoints(problem_);
-  const SolveSettings settings{.tolerance = joined ? kJoined : kFree, .maxIterations = kMost};
+  // Rows of joints that repeat each other do so but for the square of the gaps that are open.
+  const SolveSettings settings{.tolerance = joined ? kJoined : kFree,
+                               .maxIterations = kMost,
+                               .dependent = kGaps * misfit_ * misfit_};
   const Solver& first = *findSolver(joined && !friction ? "pivoting" : "newton");
   SolveReport report = solveByIslands(first, problem_, settings, solution_);
   if (polished_ && friction) report = solveByIslands(kPolish, problem_, {}, solution_);
@@ -131,6 +135,7 @@ SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> co
   for (const Contact& contact : contacts) addRows(bodies, contact);
   const std::size_t firstBond = problem_.rows.size();
   if (bound) appendBonds(*bonds, problem_);
+  misfit_ = bound ? bonds->misfit : 0.0;
   const SolveReport report = solve(contacts);
   if (bound) {
     readBonds(solution_.lambda, firstBond, *bonds);

@@ -49,7 +49,8 @@ class RestForces {
   Vec3 force(std::size_t contact) const;
 
   bool polished_, hard_ = false;
-  double left_ = 0.0;  ///< residual of the last problem that was solved anew
+  double left_ = 0.0;    ///< residual of the last problem that was solved anew
+  double misfit_ = 0.0;  ///< Bonds::misfit
   Problem problem_;
   Solution solution_;
 };

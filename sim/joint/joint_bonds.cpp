@@ -1,6 +1,7 @@
 #include "sim/joint/joint_bonds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/contact/rows.h"
@@ -60,6 +61,8 @@ void restBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
   forRows(bodies, joints, [&](int joint, const JointRow& row) {
     if (row.limit >= 0 && !among(limits, limitOf(joint, row))) return;
     addRow(row, row.row.bias + 2.0 / tau * row.rate + row.gap / (tau * tau), joint, bonds);
+    if (row.limit < 0)
+      bonds.misfit = std::max(bonds.misfit, row.arm * std::abs(row.gap) / joints[joint].arm);
   });
 }
 

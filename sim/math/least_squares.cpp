@@ -4,11 +4,8 @@
 
 namespace tumble {
 
-/// [1] Equations that follow from the others leave no more than this.
-constexpr double kDependent = 1e-11;
-
-void LeastSquares::factor(const Eigen::Ref<const MatX>& A) {
-  orthogonal_.setThreshold(kDependent);
+void LeastSquares::factor(const Eigen::Ref<const MatX>& A, double dependent) {
+  orthogonal_.setThreshold(dependent);
   orthogonal_.compute(A);
 }
 
@@ -48,7 +45,7 @@ VecX leastSquares(const MatX& A, const VecX& b) {
 
 VecX leastSquaresWithin(const MatX& R, const MatX& A, const VecX& b) {
   Eigen::ColPivHouseholderQR<MatX> basis;
-  basis.setThreshold(kDependent);
+  basis.setThreshold(LeastSquares::kDependent);
   basis.compute(R);
   if (basis.rank() == R.rows()) return leastSquares(A, b);
   const MatX Q = basis.householderQ() * MatX::Identity(R.rows(), basis.rank());

@@ -8,11 +8,13 @@
 namespace tumble {
 
 /// The shortest of all x that minimise |A x − b|, for one A and many b. Equations that follow from
-/// the others to 1e-11 of the largest count as following exactly. By a complete orthogonal
-/// decomposition, A P = Q T Z. Allocates only where A takes another shape.
+/// the others to a share `dependent` of the largest count as following exactly. By a complete
+/// orthogonal decomposition, A P = Q T Z. Allocates only where A takes another shape.
 class LeastSquares {
  public:
-  void factor(const Eigen::Ref<const MatX>& A);
+  static constexpr double kDependent = 1e-11;  ///< what rounding leaves of a dependence
+
+  void factor(const Eigen::Ref<const MatX>& A, double dependent = kDependent);
   /// @return x, good until the next call
   const VecX& solve(const Eigen::Ref<const VecX>& b);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -115,7 +116,8 @@ struct EqualityWork {
 
 /// λ of equalities: A λ + b = 0 by Cholesky, or the smallest λ by least squares where rows depend
 /// on each other; and what rounding left of it twice again. False where that would take too long.
-bool solveEqualities(const Problem& problem, std::vector<double>& found) {
+/// @param share  SolveSettings::dependent
+bool solveEqualities(const Problem& problem, double share, std::vector<double>& found) {
   constexpr int kAgain = 2;
   constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
   thread_local EqualityWork work;
@@ -132,7 +134,8 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
   const Eigen::LLT<Eigen::Ref<MatX>> factor(L);  // in its place
   const auto pivots = L.diagonal().array();
   const bool regular =
-      factor.info() == Eigen::Success && (pivots > kSingular * A.diagonal().array().sqrt()).all();
+      factor.info() == Eigen::Success &&
+      (pivots > std::max(kSingular, std::sqrt(share)) * A.diagonal().array().sqrt()).all();
   if (!regular && rows > kMostDependent) return false;
   LeastSquares* const dependent = regular ? nullptr : &work.dependent[rows];
   if (dependent) {  // by forces, in whatever units torques are
@@ -141,7 +144,7 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
       A.row(i) *= arm;
       A.col(i) *= arm;
     }
-    dependent->factor(A);
+    dependent->factor(A, share);
   }
 
   found.assign(rows, 0.0);
@@ -163,7 +166,7 @@ bool solveEqualities(const Problem& problem, std::vector<double>& found) {
 }
 
 /// λ and v, where the problem is one of those that need no search, whatever residual they leave.
-std::optional<SolveReport> solveAtOnce(const Problem& problem, Solution& found) {
+std::optional<SolveReport> solveAtOnce(const Problem& problem, double dependent, Solution& found) {
   constexpr std::size_t kMostRows = 300;  // sparse factors are faster beyond
   const auto is = [&](ConeKind kind) {
     return std::all_of(problem.cones.begin(), problem.cones.end(),
@@ -173,7 +176,7 @@ std::optional<SolveReport> solveAtOnce(const Problem& problem, Solution& found) 
   const bool few = !problem.cones.empty() && problem.rows.size() <= kMostRows;
   if (one && is(ConeKind::Push)) return solveContact<1>(problem, found);
   if (one && is(ConeKind::Friction)) return solveContact<3>(problem, found);
-  if (!few || !is(ConeKind::Equality) || !solveEqualities(problem, found.lambda))
+  if (!few || !is(ConeKind::Equality) || !solveEqualities(problem, dependent, found.lambda))
     return std::nullopt;
   found.v.resize(problem.vStar.size());
   velocitiesFromLambda(problem, found.lambda, found.v);
@@ -184,12 +187,17 @@ std::optional<SolveReport> solveAtOnce(const Problem& problem, Solution& found) 
 
 }  // namespace
 
-std::optional<SolveReport> solveDirect(const Problem& problem, double tolerance,
+std::optional<SolveReport> solveDirect(const Problem& problem, const SolveSettings& settings,
                                        Solution& solution) {
   thread_local Solution found;  // keeps its storage from call to call
-  const std::optional<SolveReport> report = solveAtOnce(problem, found);
+  const double dependent = std::max(settings.dependent, LeastSquares::kDependent);
+  const std::optional<SolveReport> report = solveAtOnce(problem, dependent, found);
   if (!report) return std::nullopt;
-  if (!(report->residual <= tolerance) && !atRounding(problem, found, report->residual))
+  // Rows that follow from others but for a share of the largest contradict them by its root.
+  const double most = dependent > LeastSquares::kDependent
+                          ? std::max(settings.tolerance, std::sqrt(dependent))
+                          : settings.tolerance;
+  if (!(report->residual <= most) && !atRounding(problem, found, report->residual))
     return std::nullopt;
   std::swap(solution, found);
   return report;

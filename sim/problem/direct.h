@@ -11,7 +11,7 @@ namespace tumble {
 /// of its slip; or of few Equality cones, which is linear. v is what λ gives: balance 0.
 /// @return nothing for any other problem, or where the residual stays above the tolerance and above
 ///         rounding; `solution` is then as before
-std::optional<SolveReport> solveDirect(const Problem& problem, double tolerance,
+std::optional<SolveReport> solveDirect(const Problem& problem, const SolveSettings& settings,
                                        Solution& solution);
 
 }  // namespace tumble

@@ -433,7 +433,7 @@ bool turns(const Problem& problem) {
 SolveReport solveNewton(const Problem& problem, const SolveSettings& settings, Solution& solution) {
   const bool couples = !problem.couplings.empty();
   if (!couples)
-    if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
+    if (const auto direct = solveDirect(problem, settings, solution)) return *direct;
   if (couples)
     if (const auto found = solvePointContacts(problem, settings, solution)) return *found;
   thread_local Newton<3> straight;  // both keep their memory from call to call

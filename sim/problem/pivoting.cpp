@@ -58,7 +58,7 @@ SolveReport solvePivoting(const Problem& problem, const SolveSettings& settings,
                           Solution& solution) {
   // Rows without bounds need no pivots.
   if (allEqualities(problem))
-    if (const auto direct = solveDirect(problem, settings.tolerance, solution)) return *direct;
+    if (const auto direct = solveDirect(problem, settings, solution)) return *direct;
   const Delassus system = delassus(problem);
   VecX lambda = VecX::Zero(system.b.size()), lo = lambda, hi = lambda;
   Solution best;

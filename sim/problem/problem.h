@@ -87,6 +87,9 @@ struct SolveSettings {
   /// Where Solution::pull is expected, per row, NaN where it is not known; or empty. An answer that
   /// is the only one does not depend on it.
   std::span<const double> pull = {};
+  /// Equalities that follow from others but for this share of the largest, or for rounding, count
+  /// as following exactly.
+  double dependent = 0.0;
 };
 
 /// A row of the table of solvers. λ in `solution` (if of the right length) is the starting point.
