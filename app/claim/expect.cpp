@@ -61,9 +61,9 @@ double targetOf(const Scene& scene, const ExpectDef& expect, const Sample* sampl
   return aim(*sample);
 }
 
-// How far the measured value is from where it should be; NaN if either is not known.
+// How far the measured value is from where it should be; NaN if either is no number, or has no end.
 double errorOf(Relation relation, double measured, double target) {
-  if (std::isnan(measured) || std::isnan(target)) return kNoNumber;
+  if (!std::isfinite(measured) || !std::isfinite(target)) return kNoNumber;
   if (relation == Relation::AtMost) return std::max(0.0, measured - target);
   if (relation == Relation::AtLeast) return std::max(0.0, target - measured);
   return std::abs(measured - target);

@@ -26,7 +26,9 @@ void readAims(Section& section, ExpectDef& expect) {
                     readAim(section, "at_least", Relation::AtLeast, expect);
   if (given != 1)
     section.complain("equals",
-                     "expected one of `equals`, `at_most` and `at_least`, a number or a formula");
+                     fmt::format("expected one of `equals`, `at_most` and `at_least`, a "
+                                 "number or a formula; {}",
+                                 given == 0 ? "there is none" : "keep one of those given"));
 }
 
 void readWhen(Section& section, const Scene& scene, ExpectDef& expect) {

@@ -64,6 +64,11 @@ TEST_CASE("a formula is measured at an instant, at the ends and where it is larg
   CHECK(off.error == Approx(0.05).epsilon(1e-9));
 }
 
+TEST_CASE("no claim holds of what has no end") {
+  CHECK_FALSE(rowOf("value = \"ball.3.y / 0\"\nat_least = 0").holds());
+  CHECK_FALSE(rowOf("value = \"ball.3.y\"\nat_most = \"1 / ball.3.z\"").holds());
+}
+
 // Oracle: closed form, 3²/(2 g) above the start, whatever --set or a sweep puts there.
 // Measured 2e-16, allowed 1e-12.
 TEST_CASE("a formula reads numbers of the scene by their keys, as a sweep has changed them") {

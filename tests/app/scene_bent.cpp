@@ -96,8 +96,9 @@ TEST_CASE("what cannot follow what bends refuses it by name") {
     text.replace(text.find("[world]\n"), 8, keys);
     return complaint(text);
   };
-  CHECK(with("[world]\nmethod = \"exact\"\n").find("as \"c\" does; take \"stepping\"") !=
-        std::string::npos);
+  for (const char* method : {"exact", "course"})
+    CHECK(with(std::string("[world]\nmethod = \"") + method + "\"\n")
+              .find("as \"c\" does; take \"stepping\"") != std::string::npos);
   CHECK(with("[world]\n[stepping]\nsolver = \"pgs\"\n").find("take \"newton\"") !=
         std::string::npos);
   CHECK(
