@@ -114,6 +114,7 @@ class Writer {
     json_["camera"] = {{"eye", list(picture.camera.eye)},
                        {"target", list(picture.camera.target)},
                        {"fov", picture.camera.fov},
+                       {"aspect", 1.0 * scene_.image.width / scene_.image.height},
                        {"azimuth", picture.camera.azimuth}};
     json_["centre"] = list(picture.centre);
     json_["origin"] = list({picture.centre.x(), picture.floor.height, picture.centre.z()});
