@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "sim/method/model.h"
@@ -28,6 +29,9 @@ struct Method {
 /// All methods. To add one: write `sim/method/<name>/` and add its row in methods.cpp.
 std::span<const Method> methods();
 const Method* findMethod(std::string_view name);
+
+/// Refuses what bends, in the method's words on why it does.
+void refuseWhatBends(const Model& model, const std::string& why);
 
 /// Pairs of bodies worth a closer look: boxes overlap, and not both are fixed. The witnesses of
 /// state.near pass on to the pairs that stay; the caller puts the pairs in its place.

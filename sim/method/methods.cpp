@@ -31,4 +31,11 @@ const Method* findMethod(std::string_view name) {
   return nullptr;
 }
 
+void refuseWhatBends(const Model& model, const std::string& why) {
+  for (const Force& force : model.def.forces)
+    if (const auto* bending = std::get_if<Bending>(&force))
+      throw Refusal("method", "\"" + model.def.method + "\" " + why + ", as \"" +
+                                  bending->body->name + "\" does; take \"stepping\" or \"auto\"");
+}
+
 }  // namespace tumble

@@ -55,15 +55,8 @@ void checkContact(const Model& model) {
 
 }  // namespace
 
-void refuseWhatBends(const Model& model, const std::string& why) {
-  for (const Force& force : model.def.forces)
-    if (const auto* bending = std::get_if<Bending>(&force))
-      throw Refusal("method", why + ", as \"" + bending->body->name +
-                                  "\" does; take \"stepping\" or \"auto\"");
-}
-
 void checkCourse(const Model& model, std::span<const RigidBody> bodies) {
-  refuseWhatBends(model, "\"course\" has no implicit step, which it takes to follow what bends");
+  refuseWhatBends(model, "follows nothing that bends");
   const CourseSettings& course = model.def.course;
   const Integrator* row = findIntegrator(course.integrator);
   if (!row)

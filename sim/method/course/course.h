@@ -15,8 +15,6 @@
 namespace tumble {
 
 void checkCourse(const Model& model, std::span<const RigidBody> bodies);
-/// Refuses what bends, in words that say why the method does.
-void refuseWhatBends(const Model& model, const std::string& why);
 void advanceCourse(const Model& model, State& state, double t_end, Report& report);
 void lookCourse(const Model& model, const State& state, double t, std::vector<RigidBody>& bodies,
                 std::vector<Contact>& contacts, std::vector<JointForce>& joints);

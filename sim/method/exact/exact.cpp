@@ -6,7 +6,6 @@
 
 #include "sim/collide/approach.h"
 #include "sim/collide/collide.h"
-#include "sim/method/course/course.h"
 #include "sim/method/exact/sustained.h"
 
 namespace tumble {
@@ -86,7 +85,7 @@ void giveUp(const Model& model, const State& state, Report& report) {
 
 void checkExact(const Model& model, std::span<const RigidBody>) {
   const std::vector<Force>& forces = model.def.forces;
-  refuseWhatBends(model, "\"exact\" knows no closed form of what bends");
+  refuseWhatBends(model, "knows no closed form of what bends");
   for (std::size_t k = 0; k < forces.size(); ++k)
     if (!fliesUnder(forces[k]))
       throw Refusal("forces[" + std::to_string(k) + "]",
