@@ -85,7 +85,7 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
   problem_.cones.back().mu = contact.friction;
 }
 
-SolveReport RestForces::solve(std::span<const Contact> contacts) {
+SolveReport RestForces::solve(std::span<const Contact> contacts, double misfit) {
   const bool friction = std::any_of(contacts.begin(), contacts.end(),
                                     [](const Contact& c) { return c.friction > 0.0; });
   if (hard_ && solution_.lambda.size() == problem_.rows.size()) {
@@ -94,13 +94,13 @@ SolveReport RestForces::solve(std::span<const Contact> contacts) {
     if (report.status == SolveStatus::Solved || (left_ > kLost && report.residual <= left_))
       return report;
   }
-  const SolveReport report = solveAnew(friction);
+  const SolveReport report = solveAnew(friction, misfit);
   hard_ = friction && report.iterations > kHard && problem_.rows.size() <= kDense;
   left_ = report.residual;
   return report;
 }
 
-SolveReport RestForces::solveAnew(bool friction) {
+SolveReport RestForces::solveAnew(bool friction, double misfit) {
   // What a solver leaves is in the certificate. Where forces have no end, pivoting says so; and it
   // bears joints under any load, with what leans on them.
   solution_ = {};             // the same answer whatever was solved before
@@ -110,7 +110,7 @@ SolveReport RestForces::solveAnew(bool friction) {
   // Rows of joints that repeat each other do so but for the square of the gaps that are open.
   const SolveSettings settings{.tolerance = joined ? kJoined : kFree,
                                .maxIterations = kMost,
-                               .dependent = kGaps * misfit_ * misfit_};
+                               .dependent = kGaps * misfit * misfit};
   const Solver& first = *findSolver(joined && !friction ? "pivoting" : "newton");
   SolveReport report = solveByIslands(first, problem_, settings, solution_);
   if (polished_ && friction) report = solveByIslands(kPolish, problem_, {}, solution_);
@@ -135,8 +135,7 @@ SolveReport RestForces::apply(std::span<RigidBody> bodies, std::span<Contact> co
   for (const Contact& contact : contacts) addRows(bodies, contact);
   const std::size_t firstBond = problem_.rows.size();
   if (bound) appendBonds(*bonds, problem_);
-  misfit_ = bound ? bonds->misfit : 0.0;
-  const SolveReport report = solve(contacts);
+  const SolveReport report = solve(contacts, bound ? bonds->misfit : 0.0);
   if (bound) {
     readBonds(solution_.lambda, firstBond, *bonds);
     addBondForces(*bonds, bodies);
@@ -163,9 +162,10 @@ void RestForces::settleCreep(std::span<const RigidBody> bodies, std::span<const 
     c.sliding = c.sliding && !c.creeping;
     addRows(ends, c);
   }
-  if (bonds && !bonds->empty()) appendBonds(*bonds, problem_);
+  const bool bound = bonds && !bonds->empty();
+  if (bound) appendBonds(*bonds, problem_);
   for (Row& row : problem_.rows) row.bias = 0.0;  // velocities, not accelerations
-  solveAnew(true);
+  solveAnew(true, bound ? bonds->misfit : 0.0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& c = contacts[i];
     if (!c.creeping) continue;

@@ -44,13 +44,13 @@ class RestForces {
   void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact);
   /// What was hard a moment ago is hard still: it begins with the forces of then, and takes what
   /// leaves no more than was left then.
-  SolveReport solve(std::span<const Contact> contacts);
-  SolveReport solveAnew(bool friction);
+  /// @param misfit  Bonds::misfit
+  SolveReport solve(std::span<const Contact> contacts, double misfit);
+  SolveReport solveAnew(bool friction, double misfit);
   Vec3 force(std::size_t contact) const;
 
   bool polished_, hard_ = false;
-  double left_ = 0.0;    ///< residual of the last problem that was solved anew
-  double misfit_ = 0.0;  ///< Bonds::misfit
+  double left_ = 0.0;  ///< residual of the last problem that was solved anew
   Problem problem_;
   Solution solution_;
 };

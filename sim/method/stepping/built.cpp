@@ -109,20 +109,20 @@ void Stepping::addPair(Island& island, std::vector<Touch>& touches, double h) {
   const bool allClosed = areClosed(touches);
   std::vector<Stance>& stances = island.stances;
   stances.clear();
-  for (const Touch& touch : touches) {
+  for (Touch& touch : touches) {
     if (flies(touch, h)) continue;
     const Contact& c = touch.contact;
-    stances.push_back(island.smooth ? inMiddle(c, h)
-                                    : Stance{c.point, state_.bodies[c.a].x, state_.bodies[c.b].x});
+    stances.push_back(island.smooth
+                          ? inMiddle(touch, h)
+                          : Stance{&touch, c.point, state_.bodies[c.a].x, state_.bodies[c.b].x});
   }
   level(island);
-  auto stance = stances.begin();
-  for (Touch& touch : touches)
-    if (!flies(touch, h)) addTouch(island, touch, *stance++, allClosed, h);
+  for (const Stance& stance : stances) addTouch(island, stance, allClosed, h);
 }
 
 /// Adds a point of a pair, of which all points touch or not.
-void Stepping::addTouch(Island& island, Touch& touch, const Stance& at, bool allClosed, double h) {
+void Stepping::addTouch(Island& island, const Stance& at, bool allClosed, double h) {
+  Touch& touch = *at.touch;
   const Contact& contact = touch.contact;
   const RigidBody &bodyA = state_.bodies[contact.a], &bodyB = state_.bodies[contact.b];
   const ContactPoint& c = at.point;

@@ -61,8 +61,11 @@ struct IslandAnswer {
   std::string crushed;    ///< words, where no forces can hold what moves on
 };
 
+struct Touch;
+
 /// Where the rows of a contact point are taken.
 struct Stance {
+  Touch* touch;
   ContactPoint point;
   Vec3 a, b;  ///< [m] places of its bodies
 };

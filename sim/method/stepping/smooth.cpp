@@ -114,7 +114,8 @@ void Stepping::bookWays(Island& island, double h) const {
 }
 
 /// Where the rows of a contact are taken in the middle of the step.
-Stance Stepping::inMiddle(const Contact& contact, double h) const {
+Stance Stepping::inMiddle(Touch& touch, double h) const {
+  const Contact& contact = touch.contact;
   RigidBody a = state_.bodies[contact.a], b = state_.bodies[contact.b];
   Contact c = contact;
   c.anchor = anchorOf(a, b, c.point);
@@ -124,7 +125,7 @@ Stance Stepping::inMiddle(const Contact& contact, double h) const {
     updateDerived(*body);
   }
   follow(a, b, c);
-  return {.point = c.point, .a = a.x, .b = b.x};
+  return {.touch = &touch, .point = c.point, .a = a.x, .b = b.x};
 }
 
 }  // namespace tumble

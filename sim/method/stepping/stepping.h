@@ -307,7 +307,7 @@ class Stepping {
   Row& addRow(Island& island, const Row& row);
   void addPair(Island& island, std::vector<Touch>& touches, double h);
   void level(Island& island) const;
-  void addTouch(Island& island, Touch& touch, const Stance& at, bool allClosed, double h);
+  void addTouch(Island& island, const Stance& at, bool allClosed, double h);
 
   // smooth.cpp: what slides or rolls on.
   bool foreseesSmooth(Island& island, double h);
@@ -317,7 +317,7 @@ class Stepping {
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
   void bookLanding(Island& island, double h) const;
   void bookWays(Island& island, double h) const;
-  Stance inMiddle(const Contact& contact, double h) const;
+  Stance inMiddle(Touch& touch, double h) const;
 
   // joined.cpp
   void bookJoints(double h);
