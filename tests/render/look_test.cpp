@@ -1,4 +1,5 @@
-// What the picture says about space: shadows, ghosts, glass, bodies that sank.
+// What the picture says about space: shadows, ghosts, glass, bodies that sank; long, for all cases
+// measure pixels by the same few pieces.
 // Long: what is drawn beside bodies, labels and pages of panels among it, is measured by one set of
 // helpers.
 #include <algorithm>
