@@ -1,5 +1,4 @@
-// What a wrong scene file is told: the place, the key, what was expected, the word that was meant;
-// long, for it goes through all keys.
+// What a wrong scene file is told: the place, the key, what was expected, the word that was meant.
 // Long: every key has its mistakes here.
 #include "app/scene/scene.h"
 #include "tests/catch.h"

@@ -1,5 +1,4 @@
-// What the picture says about space: shadows, ghosts, glass, bodies that sank; long, for all cases
-// measure pixels by the same few pieces.
+// What the picture says about space: shadows, ghosts, glass, bodies that sank.
 // Long: what is drawn beside bodies, labels and pages of panels among it, is measured by one set of
 // helpers.
 #include <algorithm>
