@@ -15,7 +15,7 @@ struct Fraction3;
 struct Points {
   std::vector<Vec3> at;                                 ///< [m] rounded
   std::vector<std::shared_ptr<const Fraction3>> exact;  ///< where that is not the whole; else null
-  mutable long looks = 0;                               ///< questions that took whole numbers
+  mutable long looks = 0;  ///< what questions that took whole numbers cost, in triangles looked at
 };
 
 /// A triangle of a surface, counter-clockwise seen from outside.
@@ -33,9 +33,6 @@ struct CutPlane {
   double height(const Vec3& p) const { return n.dot(p) - d; }
 };
 CutPlane planeThrough(const Vec3& a, const Vec3& b, const Vec3& c);
-
-/// +1 above, −1 below, 0 on the plane: exactly, or to a tolerance [m] > 0.
-int sideOf(const Points& points, int p, const CutPlane& plane, double tolerance);
 
 /// Sixfold volume [m³] of what a surface encloses.
 double sixfoldVolume(const Points& points, const Surface& surface);

@@ -2,6 +2,7 @@
 // (Meisters 1975; the ties as in Eberly, "Triangulation by Ear Clipping", 2002).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "sim/shape/cut.h"
@@ -157,34 +158,70 @@ class Filler {
     loop = std::move(joined);
   }
 
-  bool isEar(const Loop& loop, std::size_t k) const {
-    const int a = at(loop, k + loop.size() - 1), b = loop[k], c = at(loop, k + 1);
-    if (!(turn(a, b, c) > 0.0)) return false;
-    return std::none_of(loop.begin(), loop.end(), [&](int p) {
-      return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
-             turn(c, a, p) >= 0.0;
-    });
+  /// A corner of what is left of a loop, and what is known of it.
+  struct Corner {
+    int point;
+    std::size_t last, next;  ///< its neighbours
+    bool known = false;      ///< whether it is an ear was asked since a neighbour went
+    bool ear = false;
+    std::size_t inside = kNone;  ///< a corner in its triangle, for which alone it is no ear
+    bool cut = false;
+  };
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  /// A corner stays what it is until a neighbour is cut off, or the corner inside its triangle.
+  bool isEar(std::vector<Corner>& corners, std::size_t k) const {
+    Corner& here = corners[k];
+    if (here.known && (here.inside == kNone || !corners[here.inside].cut)) return here.ear;
+    const int a = corners[here.last].point, b = here.point, c = corners[here.next].point;
+    here.known = true;
+    here.ear = turn(a, b, c) > 0.0;
+    if (!here.ear) return false;
+    // Of those before it each was found outside, or has been cut off.
+    for (std::size_t m = here.inside == kNone ? 0 : here.inside; m < corners.size(); ++m) {
+      const int p = corners[m].point;
+      if (corners[m].cut || p == a || p == b || p == c) continue;
+      if (turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0) continue;
+      here.inside = m;
+      here.ear = false;
+      return false;
+    }
+    here.inside = kNone;
+    return true;
   }
 
-  /// The ear that is cut next. Where rounding leaves none, any corner that turns least.
-  std::size_t earOf(const Loop& loop) const {
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      if (isEar(loop, k)) return k;
-    std::size_t flattest = 0;
-    const auto bend = [&](std::size_t k) {
-      return std::abs(turn(at(loop, k + loop.size() - 1), loop[k], at(loop, k + 1)));
-    };
-    for (std::size_t k = 1; k < loop.size(); ++k)
-      if (bend(k) < bend(flattest)) flattest = k;
+  /// The ear that is cut next, the first of all. Where rounding leaves none, any corner that turns
+  /// least.
+  std::size_t earOf(std::vector<Corner>& corners) const {
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      if (!corners[k].cut && isEar(corners, k)) return k;
+    std::size_t flattest = kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Corner& here = corners[k];
+      if (here.cut) continue;
+      const double bend =
+          std::abs(turn(corners[here.last].point, here.point, corners[here.next].point));
+      if (flattest == kNone || bend < least) flattest = k, least = bend;
+    }
     return flattest;
   }
 
-  void cutEars(Loop& loop, Surface& out) const {
-    while (loop.size() > 2) {
-      const std::size_t k = earOf(loop);
-      const int a = at(loop, k + loop.size() - 1), b = loop[k], c = at(loop, k + 1);
-      out.push_back({{a, b, c}, -1});
-      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
+  /// In steps by the square of the number of corners.
+  void cutEars(const Loop& loop, Surface& out) const {
+    const std::size_t n = loop.size();
+    std::vector<Corner> corners;
+    for (std::size_t k = 0; k < n; ++k)
+      corners.push_back({.point = loop[k], .last = (k + n - 1) % n, .next = (k + 1) % n});
+    for (std::size_t left = n; left > 2; --left) {
+      const std::size_t k = earOf(corners);
+      Corner& ear = corners[k];
+      out.push_back({{corners[ear.last].point, ear.point, corners[ear.next].point}, -1});
+      ear.cut = true;
+      for (const std::size_t side : {ear.last, ear.next})
+        corners[side].known = false, corners[side].inside = kNone;
+      corners[ear.last].next = ear.next;
+      corners[ear.next].last = ear.last;
     }
   }
 

@@ -110,8 +110,7 @@ class Decomposer {
   }
 
  private:
-  /// A question that takes whole numbers costs as much as looking at a hundred triangles.
-  bool spent() const { return work_ + 100 * points_.looks > most_; }
+  bool spent() const { return work_ + points_.looks > most_; }
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
   double slack() const { return std::max(tolerance_, kRounding * size_); }
 

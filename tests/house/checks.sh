@@ -33,6 +33,10 @@ fuzzed() {
     "${@:3}" -artifact_prefix="$found/" "$found" "$2" >"$log" 2>&1 && return
   echo "the $1 fuzzer, by its log $log:"
   tail -n 25 "$log"
+  local finding
+  for finding in "$found"/{timeout,crash,oom,leak}-*; do
+    [[ -f $finding ]] && echo "$finding, to be had by base64 -d:" && base64 "$finding"
+  done
   return 1
 }
 # Both readers at once.
