@@ -85,7 +85,7 @@ void Stepping::bindGroups(double h) {
       group.moved[k] = state_.bodies[group.bodies[k]];
     }
     if (group.halved) group.power = powerOfForces(group.forces, group.moved);
-    if (!group.bound || group.springs.empty()) continue;
+    if (!group.bound || (group.springs.empty() && !group.steady)) continue;
     sumForces(model_.def.gravity, group.halved ? group.forces : group.others, group.moved);
     for (std::size_t k = 0; k < group.bodies.size(); ++k) {
       RigidBody& body = state_.bodies[group.bodies[k]];
@@ -277,14 +277,22 @@ void Stepping::applyDragged(int i, double h) {
   updateVelocities(body);
 }
 
-/// Power [W] of wind and point forces on bodies that no driven group moves.
+/// Power [W] of wind and point forces on bodies that no driven group moves; of those that grip a
+/// body, with the torque by which the step turns it.
 double Stepping::steadyPower() const {
   double sum = 0.0;
+  const auto counts = [&](int body) {
+    return !work_.flown[body] && !isHalved(body) && isActive(body);
+  };
   for (const Force& force : memory_.drives->steady) {
     const UniformWind* wind = std::get_if<UniformWind>(&force);
     const int body = wind ? wind->body : std::get<PointForce>(force).body;
-    if (!work_.flown[body] && !isHalved(body) && isActive(body))
-      sum += powerOfForces(std::span(&force, 1), state_.bodies);
+    if (counts(body) && !isGripped(body)) sum += powerOfForces(std::span(&force, 1), state_.bodies);
+  }
+  for (const DrivenGroup& group : memory_.drives->groups) {
+    if (!group.steady || !counts(group.bodies.front())) continue;
+    const RigidBody& body = state_.bodies[group.bodies.front()];
+    sum += (body.force - body.M * model_.def.gravity).dot(body.v) + body.torque.dot(body.omega);
   }
   return sum;
 }

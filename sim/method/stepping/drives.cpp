@@ -139,6 +139,9 @@ void prepare(const Model& model, std::span<const RigidBody> bodies, DrivenGroup&
   for (const Force& force : model.def.forces) std::visit(Share(model, group), force);
   for (const Force& force : group.forces)
     if (!std::holds_alternative<Spring>(force)) group.others.push_back(force);
+  group.steady = std::all_of(group.forces.begin(), group.forces.end(), [](const Force& force) {
+    return std::holds_alternative<UniformWind>(force) || std::holds_alternative<PointForce>(force);
+  });
   for (const int i : group.bodies) group.moved.push_back(bodies[i]);
   group.system = std::make_shared<DrivenSystem>(model.def.gravity, group.forces, group.moved);
   group.stepper = findIntegrator("dopri5")->make(group.system->size(), {.tolerance = kTolerance});

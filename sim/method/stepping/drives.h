@@ -49,6 +49,7 @@ struct DrivenGroup {
   std::vector<Force> others;    ///< those that are no springs
   std::vector<Spring> springs;  ///< by bodies of the world
   std::vector<Force> stores;    ///< the same
+  bool steady = false;          ///< winds and point forces alone: one body, which they turn with
   bool stiff = false;           ///< faster than a step can follow
   bool bound = false;           ///< something holds it in this step
   bool halved = false;          ///< and forces on it act in halves; else its springs are rows

@@ -215,6 +215,7 @@ void Stepping::fallAsOne(Island& island, double h) {
   IslandMemory& memory = memory_.islands[answer.head];
   island.memory = &memory;
   island.smooth = pushed && foreseesSmooth(island, h);
+  if (island.smooth) gripAnew(island, h);
   const bool stretches = !bent && rests(island, h);
   memory.kept = stretches || (!bent && (keeps(island, h) || pushesAlike(island, h)));
   if (stretches) stretch(island, h);
@@ -236,6 +237,7 @@ void Stepping::fallAsOne(Island& island, double h) {
     share(island, h);
     if (island.smooth && !isSmooth(island, h)) {
       island.smooth = false;
+      gripAnew(island, h);
       build(island, h);
       solved = solveAsPlanned(island, bent, crowd, h);
       share(island, h);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/body/force.h"
 #include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
@@ -62,7 +63,7 @@ bool Stepping::foreseesSmooth(Island& island, double h) {
 /// as much as they turn the other back only if bodies move with the velocities of its end.
 bool Stepping::isSmooth(const Island& island, double h) const {
   const auto moves = [&](int i) { return work_.after[i] != work_.before[i]; };
-  const auto isDrivenBody = [&](int i) { return isDriven(i); };
+  const auto isDrivenBody = [&](int i) { return isDriven(i) && !isGripped(i); };
   if (std::none_of(island.movers.begin(), island.movers.end(), moves) ||
       std::any_of(island.movers.begin(), island.movers.end(), isDrivenBody))
     return false;
@@ -81,6 +82,22 @@ bool Stepping::isSmooth(const Island& island, double h) const {
     }
   }
   return true;
+}
+
+/// Point forces turn a body as where it stands in the middle of a smooth step, in any other one as
+/// where it stands at the start.
+void Stepping::gripAnew(Island& island, double h) {
+  for (const int i : island.movers) {
+    if (!isGripped(i)) continue;
+    DrivenGroup& group = memory_.drives->groups[memory_.drives->groupOf[i]];
+    RigidBody &body = state_.bodies[i], &at = group.moved.front();
+    at = body;
+    if (island.smooth) at.q = rotated(at.q, 0.5 * h * at.omega).normalized();
+    updateDerived(at);
+    sumForces(model_.def.gravity, group.forces, group.moved);
+    body.torque = at.torque;
+    work_.star[i].tail<3>() = body.Iinv * (body.L + h * body.torque);
+  }
 }
 
 /// What lands within a step is booked in its impact.
@@ -103,7 +120,8 @@ void Stepping::bookLanding(Island& island, double h) const {
 void Stepping::bookWays(Island& island, double h) const {
   IslandBooks& books = island.memory->books;
   for (const int i : island.movers) {
-    if (!work_.touched[i] || work_.later[i] > 0.0 || isDriven(i) || isHalved(i) || model_.bends(i))
+    if (!work_.touched[i] || work_.later[i] > 0.0 || (isDriven(i) && !isGripped(i)) ||
+        isHalved(i) || model_.bends(i))
       continue;
     const RigidBody& body = state_.bodies[i];
     const Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);

@@ -312,6 +312,7 @@ class Stepping {
   // smooth.cpp: what slides or rolls on.
   bool foreseesSmooth(Island& island, double h);
   bool isSmooth(const Island& island, double h) const;
+  void gripAnew(Island& island, double h);
   bool lasts(const Touch& touch, const Vec3& rate) const;
   bool goesRound(const Touch& touch, double h) const;
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
@@ -359,6 +360,12 @@ class Stepping {
   // driven.cpp: springs and drag.
   bool isDriven(int body) const {
     return memory_.drives->groupOf[body] >= 0 || memory_.drives->dragOf[body] >= 0;
+  }
+  /// Whether winds and point forces alone drive a body, one of these off its centre: it has a group
+  /// of its own.
+  bool isGripped(int body) const {
+    const int group = memory_.drives->groupOf[body];
+    return group >= 0 && memory_.drives->groups[group].steady;
   }
   /// Decides which driven groups are free in this step; the springs of others leave the forces.
   void bindGroups(double h);
