@@ -83,12 +83,15 @@ void beginAllowedVelocities(std::span<const RigidBody> bodies, std::span<const J
 }
 
 void stepBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
-               std::span<const Vec6> vStar, double h, Bonds& bonds) {
+               std::span<const Vec6> vStar, double h, double touch, Bonds& bonds) {
   constexpr double kNear = 0.5;  // share of a limit's gap that a step may use up unseen
   bonds.clear();
   forRows(bodies, joints, [&](int joint, const JointRow& row) {
     const double bias = row.gap / h + 0.5 * h * (row.row.bias + rotorRate(bodies, row.row));
-    if (row.limit >= 0 && bias + along(row.row, vStar) > kNear * row.gap / h && row.gap > 0.0)
+    // What is reached is not left out: what turns it may be the joint's own force, which no vStar
+    // foresees.
+    if (row.limit >= 0 && bias + along(row.row, vStar) > kNear * row.gap / h &&
+        row.arm * row.gap > touch)
       return;
     addRow(row, bias, joint, bonds);
   });

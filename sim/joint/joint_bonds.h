@@ -30,10 +30,10 @@ void beginAllowedVelocities(std::span<const RigidBody> bodies, std::span<const J
 ///   gap + h J v⁺ + ½ h² (J̇ v + J v̇) = 0,   of a limit ≥ 0
 /// with v̇ of bodies that turn freely, ω̇ = −I⁻¹ (ω × L), so that after the step gaps are zero but
 /// for terms in h³. Velocities should be what the joints allow: a slender body amplifies what they
-/// do not. Limits that no body comes near in the step are left out.
-/// @param vStar  velocities at the end of the step without λ
+/// do not. Limits beyond `touch` [m] that no body comes near in the step are left out.
+/// @param vStar  velocities at the end of the step without λ, and what joints make of loads
 void stepBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints,
-               std::span<const Vec6> vStar, double h, Bonds& bonds);
+               std::span<const Vec6> vStar, double h, double touch, Bonds& bonds);
 
 /// The rows of all joints for displacements that close their gaps:  gap + J Δ = 0, of a limit ≥ 0.
 void liftBonds(std::span<const RigidBody> bodies, std::span<const Joint> joints, Bonds& bonds);

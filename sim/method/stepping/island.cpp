@@ -56,7 +56,8 @@ void Stepping::solveIslands(double h) {
   if (bends()) foreseeBent();
   work_.bonds.clear();
   work_.crushed.clear();
-  if (!joints().empty()) stepBonds(state_.bodies, joints(), work_.star, h, work_.bonds);
+  if (!joints().empty())
+    stepBonds(state_.bodies, joints(), work_.star, h, tolerance_.touch, work_.bonds);
   addSprings(h);
   work_.touched.resize(n);
   work_.later.resize(n);
