@@ -5,7 +5,50 @@
 
 #include <algorithm>
 
+#include "app/scene/findings.h"
+
 namespace tumble {
+
+namespace {
+
+constexpr const char* kNameChars =
+    "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+/// A name in a text, or a number, which is of the same letters.
+struct Word {
+  std::size_t at = 0;
+  std::string text;
+  bool called = false;  ///< a parenthesis follows
+};
+
+std::vector<Word> wordsOf(const std::string& text) {
+  std::vector<Word> words;
+  for (std::size_t at = text.find_first_of(kNameChars); at != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_not_of(kNameChars, at), text.size());
+    const std::size_t next = text.find_first_not_of(" \t", end);
+    words.push_back(
+        {at, text.substr(at, end - at), next != std::string::npos && text[next] == '('});
+    at = text.find_first_of(kNameChars, end);
+  }
+  return words;
+}
+
+bool isName(const Word& word) {
+  return std::string("0123456789.").find(word.text.front()) == std::string::npos;
+}
+
+// What muParser calls a parenthesis that it did not expect.
+void requireKnownFunctions(const std::string& text, const mu::Parser& parser) {
+  std::vector<std::string> known;
+  for (const auto& [name, ignored] : parser.GetFunDef()) known.push_back(name);
+  for (const Word& word : wordsOf(text))
+    if (word.called && isName(word) &&
+        std::find(known.begin(), known.end(), word.text) == known.end())
+      throw NotAFormula("unknown function " + inQuotes(word.text) + hint(word.text, known),
+                        static_cast<int>(word.at));
+}
+
+}  // namespace
 
 struct Formula::Parser {
   mu::Parser parser;
@@ -14,7 +57,7 @@ struct Formula::Parser {
 
 Formula::Formula(const std::string& text) : parser_(new Parser) {
   mu::Parser& parser = parser_->parser;
-  parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+  parser.DefineNameChars(kNameChars);
   parser.DefineConst("pi", 3.14159265358979323846);
   // An assignment would be taken for the value that is assigned.
   for (std::size_t i = 0; i < text.size(); ++i)
@@ -22,6 +65,7 @@ Formula::Formula(const std::string& text) : parser_(new Parser) {
         (i == 0 || std::string("=<>!").find(text[i - 1]) == std::string::npos))
       throw NotAFormula("a formula has no '='; what it should be stands in `equals`",
                         static_cast<int>(i));
+  requireKnownFunctions(text, parser);
   try {
     parser.SetExpr(text);
     for (const auto& [name, ignored] : parser.GetUsedVar()) names_.push_back(name);
@@ -33,6 +77,12 @@ Formula::Formula(const std::string& text) : parser_(new Parser) {
     throw NotAFormula(error.GetMsg() + "; expected for example \"ball.y\" or \"energy / 2\"",
                       std::clamp(error.GetPos(), 0, static_cast<int>(text.size())));
   }
+}
+
+int Formula::placeOf(const std::string& name, const std::string& text) {
+  for (const Word& word : wordsOf(text))
+    if (word.text == name) return static_cast<int>(word.at);
+  return static_cast<int>(text.size());
 }
 
 Formula::~Formula() = default;

@@ -20,9 +20,12 @@ class NotAFormula : public std::invalid_argument {
 
 /// + − * / ^, comparisons, && || ?:, parentheses, pi, and the functions sin cos tan asin acos atan
 /// sqrt abs exp ln log10 min max sum avg. A name is of letters, digits, dots and underlines and
-/// begins with a letter. By muParser.
+/// begins with a letter; before a parenthesis it is that of a function. By muParser.
 class Formula {
  public:
+  /// Where a text asks for a name: bytes from its start, or where it ends if it never does.
+  static int placeOf(const std::string& name, const std::string& text);
+
   /// @throws NotAFormula
   explicit Formula(const std::string& text);
   ~Formula();

@@ -25,10 +25,32 @@ std::optional<double> settingOf(const Scene& scene, const std::string& name) {
   return known == scene.numbers.end() ? std::nullopt : std::optional(known->second);
 }
 
-// The nearest key with a number, if it is near; else quantities.
-std::string hintOf(const Scene& scene, const std::string& name) {
+std::vector<std::string> partsOf(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char letter : path)
+    if (letter == '.')
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  return parts;
+}
+
+// Whether each part of a path is near that of another: two keys of one long body are not.
+bool isNear(const std::string& path, const std::string& other) {
+  const std::vector<std::string> parts = partsOf(path), others = partsOf(other);
+  return std::equal(parts.begin(), parts.end(), others.begin(), others.end(),
+                    [](const std::string& a, const std::string& b) {
+                      return a == b || nearestName(a, {b}) == b;
+                    });
+}
+
+// The nearest key with a number, or that of the certificate, if it is near; else quantities.
+std::string hintOf(const Scene& scene, const std::string& name, bool running) {
   std::vector<std::string> keys;
   for (const auto& [key, number] : scene.numbers) keys.push_back(key);
+  for (const CertificateField& field : kCertificateFields)
+    if (running) keys.emplace_back(field.key);
+  std::erase_if(keys, [&](const std::string& key) { return !isNear(name, key); });
   const std::string near = nearestName(name, keys);
   return near.empty() ? hintOfQuantity(scene, name) : ", did you mean '" + near + "'?";
 }
@@ -41,8 +63,8 @@ std::vector<Meter::Fault> Meter::faults(const Scene& scene, const std::string& t
     const Formula formula(text);
     for (const std::string& name : formula.names())
       if (!Gauge::named(scene, name) && !(running && findField(name)) && !settingOf(scene, name))
-        found.push_back({"unknown quantity " + inQuotes(name) + hintOf(scene, name),
-                         static_cast<int>(text.find(name))});
+        found.push_back({"unknown quantity " + inQuotes(name) + hintOf(scene, name, running),
+                         Formula::placeOf(name, text)});
   } catch (const NotAFormula& error) {
     found.push_back({error.what(), error.at()});
   }

@@ -48,7 +48,9 @@ void Findings::raise() {
 
 std::string nearestName(std::string_view word, const std::vector<std::string>& names) {
   if (word.size() > kLongestWord) return "";
-  int fewest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  // One slip in a word of one letter leaves nothing of it: any other would be as near.
+  const int letters = static_cast<int>(word.size());
+  int fewest = (letters < 2 ? 0 : std::max(1, letters / 3)) + 1;
   std::string nearest;
   int begun = 0;
   std::string longer;

@@ -41,7 +41,7 @@ class Findings {
 
 /// The name at the fewest slips (insertion, deletion, replacement, swap of neighbours: optimal
 /// string alignment after Damerau and Levenshtein) from the word, if these are at most a third of
-/// its length, or the only one that the word begins; else "".
+/// its length (one, in two letters), or the only one that the word begins; else "".
 std::string nearestName(std::string_view word, const std::vector<std::string>& names);
 
 /// ", did you mean 'X'? Valid: a, b, c" with what there is to say.

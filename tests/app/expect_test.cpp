@@ -134,6 +134,18 @@ TEST_CASE("a formula that is none is refused where it goes wrong") {
                Slip{"value = \"2 * bal.3.x\"\nequals = 0", {"throw:13:14:", "ball.3"}},
                Slip{"value = \"enrgy\"\nequals = 0", {"throw:13:10:", "'energy'"}},
                Slip{"value = \"1 + * 2\"\nequals = 0", {"throw:13:14:", "for example"}},
+               Slip{"value = \"1 + sine(t)\"\nequals = 0",
+                    {"throw:13:14:", "value: unknown function 'sine', did you mean 'sin'?"}},
+               Slip{"value = \"t\"\nequals = \"2e3 * (t) + qqqq (t)\"",
+                    {"throw:14:23:", "equals: unknown function 'qqqq'; valid: ", "sqrt"}},
+               Slip{"value = \"t * 1e5 + ball.3.y (2)\"\nequals = 0",
+                    {"throw:13:20:", "unknown function 'ball.3.y'; valid: "}},
+               Slip{"value = \"t + e\"\nequals = 0", {"throw:13:14:", "did you mean 'energy'?"}},
+               Slip{"value = \"t2 + t23 + t\"\nequals = 0", {"throw:13:10:", "throw:13:15:"}},
+               Slip{"value = \"a + ball.3.q\"\nequals = 0",
+                    {"throw:13:10:", "'a'; valid: t", "throw:13:14:", "'ball.3.q'; valid: x"}},
+               Slip{"value = \"body.ball.3.mss\"\nequals = 0",
+                    {"throw:13:10:", "did you mean 'body.ball.3.mass'?"}},
                Slip{"value = \"t = 2\"\nequals = 0", {"throw:13:12:", "equals"}},
                Slip{"value = \"t\"", {"equals", "at_most"}},
                Slip{"value = \"t\"\nequals = 0\nat_most = 1", {"equals"}},
@@ -147,6 +159,22 @@ TEST_CASE("a formula that is none is refused where it goes wrong") {
   const std::string refusal = refusalOf(slip.expect);
   CAPTURE(refusal);
   for (const std::string& text : slip.says) CHECK(refusal.find(text) != std::string::npos);
+}
+
+TEST_CASE(
+    "a graph's formula is refused at its place, with the near name of what only graphs read") {
+  const auto refusal = [](const std::string& value) {
+    return refusalOf(
+        "value = \"t\"\nat_least = 0\n[[graph]]\nshows = \"values\"\n"
+        "curves = [{ label = \"a\", value = \"" +
+        value + "\" }]");
+  };
+  const std::string function = refusal("2 * sine(t)");
+  CAPTURE(function);
+  CHECK(
+      function.starts_with("throw:17:39: error: graph.0.curves.0.value: unknown function "
+                           "'sine', did you mean 'sin'?"));
+  CHECK(refusal("evets").find("'evets', did you mean 'events'?") != std::string::npos);
 }
 
 TEST_CASE("every quantity of both tables has a value in a scene that has bodies and contacts") {

@@ -24,6 +24,14 @@ TEST_CASE("a word far from all names gets no advice, a beginning of one does") {
   CHECK(hint("dampin", names) == ", did you mean 'damping'? Valid: stiffness, damping, rest");
 }
 
+TEST_CASE("a single letter is near no other name, unless it begins just one") {
+  CHECK(nearestName("q", {"x", "y", "vx"}).empty());
+  CHECK(nearestName("", {"x"}).empty());
+  CHECK(nearestName("x", {"y", "x"}) == "x");
+  CHECK(nearestName("s", {"vx", "spin"}) == "spin");
+  CHECK(nearestName("vq", {"x", "vx"}) == "vx");
+}
+
 TEST_CASE("the first of two equally near names is taken") {
   CHECK(nearestName("ba", {"bar", "bat"}) == "bar");
 }
