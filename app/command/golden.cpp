@@ -102,6 +102,7 @@ struct Shelf {
   Holding holding;
   Manifest manifest;
   std::string out;
+  std::map<std::string, int> renewals = {};  ///< by --update: how many are "new", "changed", …
 };
 
 Shelf ownShelf(const Options& options) {
@@ -135,11 +136,17 @@ std::vector<Shelf> shelvesOf(const Options& options, const std::vector<Subject>&
   return shelves;
 }
 
-void print(const std::vector<Finding>& findings) {
+void print(const std::vector<Finding>& findings, bool failuresAlone) {
   for (const Finding& finding : findings)
-    if (!finding.passes() || !quiet())
+    if (!finding.passes() || !failuresAlone)
       fmt::print("{:<5} {:<20} {:<12} {}\n", finding.passes() ? "ok" : "FAIL", finding.subject,
                  finding.name, finding.verdict());
+}
+
+void print(const std::string& subject, const std::vector<Renewal>& renewals) {
+  if (quiet()) return;
+  for (const Renewal& one : renewals)
+    fmt::print("{:<7} {:<20} {:<12} {}\n", one.word, subject, one.name, one.how);
 }
 
 std::string drawnBy(const Manifest& manifest) {
@@ -150,13 +157,15 @@ std::string drawnBy(const Manifest& manifest) {
 // Holds a subject against the goldens of a folder, after it has replaced them if that is asked for.
 void hold(Shelf& shelf, const Golden& now, const Options& options, const Context& context) {
   if (options.update) {
-    storeGolden(now, shelf.manifest, shelf.holding.folder);
+    const std::vector<Renewal> renewals = storeGolden(now, shelf.manifest, shelf.holding.folder);
+    for (const Renewal& one : renewals) ++shelf.renewals[one.word];
+    if (!options.json) print(now.subject, renewals);
     Manifest entry{context.renderer(), context.version(), TUMBLE_VERSION, {}};
     entry.images[now.subject] = shelf.manifest.images[now.subject];
     enterInManifest(shelf.holding.folder, entry);
   }
   const std::vector<Finding> found = compareGolden(now, shelf.manifest, shelf.holding.folder);
-  if (!options.json) print(found);
+  if (!options.json) print(found, quiet() || options.update);
   shelf.holding.findings.insert(shelf.holding.findings.end(), found.begin(), found.end());
 }
 
@@ -173,14 +182,25 @@ void leaveActual(const Finding& finding, const std::string& folder) {
   writePng(file, *finding.actual);
 }
 
+// "2 new, 1 changed, 3 ok".
+std::string told(const std::map<std::string, int>& renewals) {
+  std::string text;
+  for (const char* word : {"new", "changed", "gone", "ok"})
+    if (const auto count = renewals.find(word); count != renewals.end())
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count->second, word);
+  return text;
+}
+
 // Tells what came of the comparison and leaves behind what helps to see why.
 int conclude(const Shelf& shelf, bool json) {
   const Holding& holding = shelf.holding;
   const auto total = static_cast<long>(holding.findings.size());
-  if (!json)
-    fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n",
-               holding.scenes.empty() ? "" : holding.folder + ": ", total, holding.passing(),
+  const std::string where = holding.scenes.empty() ? "" : holding.folder + ": ";
+  if (!json && shelf.renewals.empty())
+    fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n", where, total, holding.passing(),
                holding.exact());
+  else if (!json)
+    fmt::print("{}{} goldens: {}\n", where, total, told(shelf.renewals));
   if (!json && holding.exact() < total && holding.expectedBy != holding.actualBy)
     fmt::print("{}\n", holding.environment());
   for (const Finding& finding : holding.findings) leaveActual(finding, shelf.out);

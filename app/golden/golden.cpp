@@ -132,18 +132,54 @@ std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
   return findings;
 }
 
-void storeGolden(const Golden& now, Manifest& manifest, const std::string& folder) {
+namespace {
+
+// What a finding about what stands there says of what takes its place.
+Renewal renewal(const Finding& before, bool stood) {
+  if (!stood) return {before.name, "new", ""};
+  if (before.exact()) return {before.name, "ok", before.verdict()};
+  return {before.name, "changed", before.verdict()};
+}
+
+Renewal store(const Golden& now, const NamedImage& drawn, Manifest& manifest,
+              const fs::path& folder) {
+  const std::string file = (folder / now.subject / (drawn.name + ".png")).string();
+  const bool stood = fs::exists(file);
+  Finding before{.subject = now.subject, .name = drawn.name};
+  try {
+    before = compareImage(now, drawn, manifest, folder);
+  } catch (const std::runtime_error&) {
+    before.remark = "what stood there was no image";
+  }
+  writePng(file, drawn.image);
+  manifest.images[now.subject][drawn.name] = pixelHash(drawn.image);
+  return renewal(before, stood);
+}
+
+Renewal store(const Golden& now, const NamedTable& table, const fs::path& folder) {
+  const std::string file = (folder / now.subject / (table.name + ".csv")).string();
+  const bool stood = fs::exists(file);
+  const Finding before = compareTable(now, table, folder);
+  writeFile(file, table.csv);
+  return renewal(before, stood);
+}
+
+}  // namespace
+
+std::vector<Renewal> storeGolden(const Golden& now, Manifest& manifest, const std::string& folder) {
   const fs::path place = fs::path(folder) / now.subject;
   makeFolder(place.string());
-  for (const auto& [name, hash] : manifest.images[now.subject])
-    if (!has(now, name)) fs::remove(place / (name + ".png"));
-  manifest.images[now.subject].clear();
-  for (const NamedImage& drawn : now.images) {
-    writePng((place / (drawn.name + ".png")).string(), drawn.image);
-    manifest.images[now.subject][drawn.name] = pixelHash(drawn.image);
-  }
-  for (const NamedTable& table : now.tables)
-    writeFile((place / (table.name + ".csv")).string(), table.csv);
+  std::vector<Renewal> renewals;
+  for (const NamedImage& drawn : now.images)
+    renewals.push_back(store(now, drawn, manifest, folder));
+  for (const NamedTable& table : now.tables) renewals.push_back(store(now, table, folder));
+  std::erase_if(manifest.images[now.subject], [&](const auto& entry) {
+    if (has(now, entry.first)) return false;
+    fs::remove(place / (entry.first + ".png"));
+    renewals.push_back({entry.first, "gone", "no longer drawn"});
+    return true;
+  });
+  return renewals;
 }
 
 std::vector<NamedImage> distinctImages(std::vector<NamedImage> candidates) {

@@ -68,9 +68,16 @@ struct Holding {
 std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
                                    const std::string& folder);
 
+/// What became of one golden that was stored.
+struct Renewal {
+  std::string name;
+  std::string word;  ///< "new", "changed", "gone", or "ok" if it stood there to the last bit
+  std::string how;   ///< how it is the same, or how far off what stood there was; nothing if new
+};
+
 /// Puts a subject's images and numbers into the folder, enters them in the manifest, and removes
 /// images that are no longer drawn. @throws FileError
-void storeGolden(const Golden& now, Manifest& manifest, const std::string& folder);
+std::vector<Renewal> storeGolden(const Golden& now, Manifest& manifest, const std::string& folder);
 
 /// Images from the candidates that show something new: each fails against all that are kept before
 /// it.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/file/file.h"
 #include "app/file/html.h"
 #include "app/golden/formats.h"
 #include "app/golden/report.h"
@@ -86,6 +87,31 @@ TEST_CASE("an update removes images that are no longer drawn") {
   storeGolden(fewer, manifest, scratch.path.string());
   CHECK_FALSE(fs::exists(scratch.path / "drop/end.png"));
   CHECK(allPass(compareGolden(fewer, manifest, scratch.path.string())));
+}
+
+TEST_CASE("an update says what is new, changed, gone, and as it was") {
+  const Scratch scratch;
+  Manifest manifest;
+  const std::string folder = scratch.path.string();
+  const auto words = [&](const Golden& now) {
+    std::string all;
+    for (const Renewal& one : storeGolden(now, manifest, folder))
+      all += one.name + " " + one.word + ", ";
+    return all;
+  };
+  Golden now = sample();
+  now.tables = {{"numbers", "t,y\n0,1\n"}};
+  CHECK(words(now) == "start new, end new, numbers new, ");
+  CHECK(words(now) == "start ok, end ok, numbers ok, ");
+  // One level of light in one pixel would pass, and is a change all the same.
+  now.images[0].image.rgb[0] ^= 1;
+  CHECK(words(now) == "start changed, end ok, numbers ok, ");
+  now.tables[0].csv = "t,y\n0,2\n";
+  now.images.pop_back();
+  CHECK(words(now) == "start ok, numbers changed, end gone, ");
+  writeFile(folder + "/drop/start.png", "no image");
+  CHECK(words(now) == "start changed, numbers ok, ");
+  CHECK(allPass(compareGolden(now, manifest, folder)));
 }
 
 TEST_CASE("only images that show something new are kept") {

@@ -45,7 +45,12 @@ TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of 
   const Scratch scratch;
   scratch.file("wedge.obj", kWedge);
   scratch.file("mine.toml", kScene);
-  CHECK(tumbleRun(scratch, "golden --folder kept --update mine.toml").code == 0);
+  const Outcome first = tumbleRun(scratch, "golden --folder kept --update mine.toml");
+  CHECK(first.code == 0);
+  CHECK(holds(first.out, "new     mine                 start"));
+  CHECK(holds(first.out, "kept: 5 goldens: 5 new\n"));
+  CHECK(holds(tumbleRun(scratch, "golden --folder kept --update mine.toml").out,
+              "kept: 5 goldens: 5 ok\n"));
   CHECK(std::filesystem::exists(scratch / "kept/mine/start.png"));
   CHECK(std::filesystem::exists(scratch / "kept/mine/numbers.csv"));
 
