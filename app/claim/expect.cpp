@@ -46,13 +46,6 @@ Measured measure(const ExpectDef& expect, const Recording& recording, Meter& met
   return extreme;
 }
 
-std::string labelOf(const ExpectDef& expect) {
-  const std::string when = expect.at ? fmt::format("at {:g} s", *expect.at)
-                           : expect.over == "max" || expect.over == "min" ? expect.over
-                                                                          : "at the " + expect.over;
-  return (expect.label.empty() ? expect.value : expect.label) + ", " + when;
-}
-
 // What it should come to, at the sample where it was measured.
 double targetOf(const Scene& scene, const ExpectDef& expect, const Sample* sample) {
   if (expect.aim.empty()) return expect.target;
@@ -110,12 +103,21 @@ void addFaults(const Scene& scene, const std::string& key, const std::string& wh
 
 }  // namespace
 
+std::string labelOf(const ExpectDef& expect) {
+  const std::string when = expect.at ? fmt::format("at {:g} s", *expect.at)
+                           : expect.over == "max" || expect.over == "min" ? expect.over
+                                                                          : "at the " + expect.over;
+  return (expect.label.empty() ? expect.value : expect.label) + ", " + when;
+}
+
 std::vector<Expectation> expectationsOf(const Scene& scene, const Recording& recording) {
   std::vector<Expectation> all;
-  for (const ExpectDef& expect : scene.expects) {
+  for (std::size_t i = 0; i < scene.expects.size(); ++i) {
+    const ExpectDef& expect = scene.expects[i];
+    if (expect.at && !isSample(*expect.at, recording.rate)) continue;
     Meter meter(scene, expect.value);
     Expectation one = judged(scene, expect, recording, meter);
-    if (expect.at && !isSample(*expect.at, recording.rate)) continue;
+    one.index = i;
     all.push_back(std::move(one));
   }
   return all;

@@ -13,8 +13,12 @@ struct Expectation {
   /// Where a body's centre should have been when it was measured, of a formula that is one
   /// coordinate of it.
   std::optional<Vec3> place = {};
-  int axis = 0;  ///< of that coordinate
+  int axis = 0;           ///< of that coordinate
+  std::size_t index = 0;  ///< which of the scene's it is
 };
+
+/// Its name in tables: "y of the ball, max".
+std::string labelOf(const ExpectDef& expect);
 
 /// In the order of the scene. One at an instant between samples, as a recording at another rate has
 /// them, is left out; one at an instant that the run did not reach fails.

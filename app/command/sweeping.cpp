@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 
+#include "app/claim/expect.h"
 #include "app/claim/verdict.h"
 #include "app/command/command.h"
 #include "app/command/run.h"
@@ -24,30 +25,47 @@ std::string lastKey(const std::string& parameter) {
   return parameter.substr(parameter.rfind('.') + 1);
 }
 
-std::string csvHeader() {
-  std::string header = "parameter,value,";
-  for (const auto& [key, number] : kCertificateFields) header += fmt::format("{},", key);
-  return header + "cpu_seconds,stopped,claims,claims_failed,worst_claim,worst_error_share\n";
-}
-
 // A value stands bare where it can, as numbers do; lists and texts with commas are quoted.
 std::string csvValue(const std::string& text) {
   return text.find_first_of(",\"\n") == std::string::npos ? text : csvQuoted(text);
 }
 
-std::string csvRow(const Sweep& sweep, std::size_t k, const Recording& recording,
+std::string csvHeader(const Scene& scene) {
+  std::string header = "parameter,value,";
+  for (const auto& [key, number] : kCertificateFields) header += fmt::format("{},", key);
+  header += "cpu_seconds,stopped,claims,claims_failed,worst_claim,worst_error_share";
+  for (const ExpectDef& expect : scene.expects) {
+    const std::string label = labelOf(expect);
+    header += fmt::format(",{},{}", csvValue(label), csvValue("expected: " + label));
+  }
+  return header + "\n";
+}
+
+// Measured and expected of each [[expect]] of the scene that is swept; two empty cells for one that
+// the run does not measure.
+std::string expectCells(std::size_t count, const VariantRun& run) {
+  std::vector<std::string> cells(count, ",,");
+  for (const Expectation& one : expectationsOf(asRun(run.scene, run.recording), run.recording))
+    if (one.index < count)
+      cells[one.index] = fmt::format(",{:.17g},{:.17g}", one.row.measured, one.row.exact);
+  return fmt::format("{}", fmt::join(cells, ""));
+}
+
+std::string csvRow(const Scene& scene, std::size_t k, const VariantRun& run,
                    const Verdict& verdict) {
+  const Sweep& sweep = *scene.sweep;
   std::string row = fmt::format("{},{},", sweep.parameter, csvValue(sweep.values[k]));
-  const Report& report = recording.report;
+  const Report& report = run.recording.report;
   for (const auto& [key, number] : kCertificateFields) {
     if (const auto* count = std::get_if<long Certificate::*>(&number))
       row += fmt::format("{},", report.certificate.**count);
     else
       row += fmt::format("{:.17g},", report.certificate.*std::get<double Certificate::*>(number));
   }
-  return row + fmt::format("{:.17g},{},{},{},{},{:.17g}\n", recording.cpuSeconds,
-                           report.stopped ? 1 : 0, verdict.rows.size(), verdict.failed,
-                           csvQuoted(verdict.worst), verdict.worstShare);
+  row += fmt::format("{:.17g},{},{},{},{},{:.17g}", run.recording.cpuSeconds,
+                     report.stopped ? 1 : 0, verdict.rows.size(), verdict.failed,
+                     csvQuoted(verdict.worst), verdict.worstShare);
+  return row + expectCells(scene.expects.size(), run) + "\n";
 }
 
 std::string findingOf(const Recording& recording, const Verdict& verdict) {
@@ -89,7 +107,7 @@ SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<in
   const Sweep& sweep = *scene.sweep;
   SweepResult result;
   std::deque<VariantRun> runs;
-  std::string csv = csvHeader();
+  std::string csv = csvHeader(scene);
   for (std::size_t k = part.first; k < sweep.values.size(); k += part.second) {
     VariantRun& run = runs.emplace_back();
     run.scene = sceneOf(scene, {"", {sweep.setting(k)}, {}});
@@ -103,7 +121,7 @@ SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<in
       stripForPanel(picture);
       return picture;
     };
-    csv += csvRow(sweep, k, run.recording, verdict);
+    csv += csvRow(scene, k, run, verdict);
     ++result.runs;
     result.failing += verdict.failed > 0;
     result.files.push_back(shoot.strobe());

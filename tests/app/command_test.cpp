@@ -165,6 +165,40 @@ TEST_CASE("the shards of a sweep write the rows of the whole") {
           readPng(folder / ("all/sweep-" + std::to_string(k) + "/strobe.png")));
 }
 
+// Oracle: closed form, 0.6 − g t²/2 as it falls. Measured 2e-16, allowed 1e-12.
+TEST_CASE("a sweep's table has what each claim of the scene's own measured and expected") {
+  const Folder folder;
+  writeFile(
+      folder / "drop.toml",
+      std::string(kDrop) +
+          "[[expect]]\nvalue = \"2 * materials.rubber.restitution\"\nat_most = \"t\"\nwithin = 9\n"
+          "[[expect]]\nlabel = \"height\"\nvalue = \"ball.y\"\nat = 0.125\nat_least = 0\n"
+          "[[expect]]\nvalue = \"ball.z\"\nat = 0.25\nequals = 0\n");
+  const Scene scene = readScene(folder / "drop.toml", {"world.duration=0.25", "image.rate=8"});
+  Studio studio;
+  runSweep(scene, folder / "all", {0, 1}, studio);
+  const std::vector<std::string> rows = lines(folder / "all/sweep.csv");
+  REQUIRE(rows.size() == 4);
+  CHECK(
+      rows[0].ends_with("worst_error_share,"
+                        "\"2 * materials.rubber.restitution, at the end\","
+                        "\"expected: 2 * materials.rubber.restitution, at the end\","
+                        "\"height, at 0.125 s\",\"expected: height, at 0.125 s\","
+                        "\"ball.z, at 0.25 s\",\"expected: ball.z, at 0.25 s\""));
+  const double height = 0.6 - 0.5 * 9.81 * 0.125 * 0.125;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::istringstream cells(rows[k + 1]);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    CAPTURE(rows[k + 1]);
+    const std::size_t first = row.size() - 6;
+    CHECK(std::stod(row[first]) == Approx(2.0 * std::vector{0.1, 0.5, 0.9}[k]));
+    CHECK(std::stod(row[first + 1]) == 0.25);
+    CHECK(std::stod(row[first + 2]) == Approx(height).epsilon(1e-12));
+    CHECK(std::stod(row[first + 3]) == 0.0);
+  }
+}
+
 // In place of ffmpeg a script that keeps its input, so that every byte handed over can be seen.
 TEST_CASE("a film gets every pixel of its images, and is there only when it is complete") {
   const Folder folder;
