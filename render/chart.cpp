@@ -14,6 +14,9 @@ using Eigen::Vector2d;
 
 constexpr Colour kGrid = {0.886f, 0.894f, 0.910f}, kFaintGrid = {0.935f, 0.940f, 0.948f};
 constexpr double kLegendGap = 28.0, kLegendStep = 42.0, kMark = 4.2;
+constexpr double kStroke = 2.0;    // of a curve [px]
+constexpr double kSeenGap = 2.0;   // between two strokes that are told apart [px]
+constexpr double kCrowded = 10.0;  // guides nearer than that hide what they cross [px]
 
 const Drawing::TextStyle kTick{13.0, Face::Regular, Align::Left, ink::secondary};
 const Drawing::TextStyle kPower{9.5, Face::Regular, Align::Left, ink::secondary};
@@ -94,6 +97,40 @@ void drawMark(std::size_t shape, const Vector2d& at, const Colour& colour, Drawi
   }
 }
 
+/// Whether the points between two lie on the line from one to the other, to a tenth of a pixel.
+bool straight(const std::vector<Vector2d>& points, std::size_t from, std::size_t to) {
+  constexpr double kOff = 0.1;
+  const Vector2d start = points[from], along = points[to] - start;
+  const double length = along.norm();
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const Vector2d way = points[i] - start;
+    const double off = std::abs(along.x() * way.y() - along.y() * way.x());
+    const double share = along.dot(way);
+    if (off > kOff * length || share < 0.0 || share > length * length) return false;
+  }
+  return true;
+}
+
+/// What a stroke can show of many points [px]: the first, the last, and of those between that
+/// follow each other in a column as wide as the stroke the lowest and the highest, in their order.
+/// A curve that goes on to the right keeps at most one for each pixel across, and every peak.
+std::vector<Vector2d> thinned(const std::vector<Vector2d>& points) {
+  const auto column = [&](std::size_t i) { return std::floor(points[i].x() / kStroke); };
+  std::vector<Vector2d> kept = {points.front()};
+  for (std::size_t i = 1; i + 1 < points.size();) {
+    std::size_t low = i, high = i, next = i + 1;
+    for (; next + 1 < points.size() && column(next) == column(i); ++next) {
+      if (points[next].y() > points[low].y()) low = next;
+      if (points[next].y() < points[high].y()) high = next;
+    }
+    kept.push_back(points[std::min(low, high)]);
+    if (low != high) kept.push_back(points[std::max(low, high)]);
+    i = next;
+  }
+  kept.push_back(points.back());
+  return kept;
+}
+
 /// Where everything of one chart stands, and the canvas that it is drawn on.
 class Plot {
  public:
@@ -111,7 +148,7 @@ class Plot {
   void draw() {
     canvas_.fill({0.0, 0.0}, {canvas_.width(), canvas_.height()}, ink::page);
     drawGrid();
-    for (const Guide& guide : chart_.guides) drawGuide(guide);
+    drawGuides();
     for (const ChartCurve& curve : chart_.curves) drawLine(curve);
     for (std::size_t i = 0; i < chart_.curves.size(); ++i) drawMarks(i);
     drawLegend();
@@ -173,6 +210,31 @@ class Plot {
       canvas_.stroke({left_ - 6.0, y + 2.5}, {left_ + 6.0, y - 2.5}, 1.4, ink::secondary);
   }
 
+  // Upright ones without a name that would make a grey wall are told along the top alone, as one
+  // bar wherever they leave no gap that is seen.
+  void drawGuides() {
+    std::vector<double> nameless;  // [px] from left to right
+    for (const Guide& guide : chart_.guides)
+      if (!guide.upright || !guide.label.empty())
+        drawGuide(guide);
+      else if (x_.holds(guide.at))
+        nameless.push_back(x_.at(guide.at));
+    std::sort(nameless.begin(), nameless.end());
+    const auto first = nameless.begin(), last = nameless.end();
+    for (auto from = first; from != last;) {
+      const auto to =
+          std::adjacent_find(from, last, [](double a, double b) { return b - a > kSeenGap; });
+      const auto end = to == last ? last : to + 1;
+      const bool free = (from == first || *from - from[-1] > kCrowded) &&
+                        (end == last || *end - end[-1] > kCrowded);
+      if (free && end[-1] - *from < kSeenGap)
+        drawDashed({*from, bottom_}, {*from, top_}, ink::secondary, canvas_);
+      else
+        canvas_.fill({*from - 0.7, top_ - 8.0}, {end[-1] - *from + 1.4, 8.0}, ink::secondary);
+      from = end;
+    }
+  }
+
   void drawGuide(const Guide& guide) {
     const Scale& scale = guide.upright ? x_ : y_;
     if (!scale.holds(guide.at)) return;
@@ -189,37 +251,31 @@ class Plot {
   bool holds(const Vector2d& point) const { return x_.holds(point.x()) && y_.holds(point.y()); }
   Vector2d at(const Vector2d& point) const { return {x_.at(point.x()), y_.at(point.y())}; }
 
-  // Where the curve is straight, one stroke: many would show their ends as beads.
+  // Each stretch of points that have a place on the axes.
   void drawLine(const ChartCurve& curve) {
-    const std::vector<Vector2d>& points = curve.points;
-    for (std::size_t from = 0; from + 1 < points.size();) {
-      if (!holds(points[from])) {
-        ++from;
-        continue;
+    std::vector<Vector2d> stretch;  // [px]
+    for (const Vector2d& point : curve.points) {
+      if (holds(point)) {
+        stretch.push_back(at(point));
+      } else {
+        drawStretch(stretch, curve.colour);
+        stretch.clear();
       }
-      std::size_t to = from + 1;
-      while (to < points.size() && holds(points[to]) && straight(points, from, to)) ++to;
-      if (--to == from) {
-        ++from;
-        continue;
-      }
-      canvas_.stroke(at(points[from]), at(points[to]), 2.0, curve.colour);
-      from = to;
     }
+    drawStretch(stretch, curve.colour);
   }
 
-  // Whether the points between two lie on the line from one to the other, to a tenth of a pixel.
-  bool straight(const std::vector<Vector2d>& points, std::size_t from, std::size_t to) const {
-    constexpr double kOff = 0.1;
-    const Vector2d start = at(points[from]), along = at(points[to]) - start;
-    const double length = along.norm();
-    for (std::size_t i = from + 1; i < to; ++i) {
-      const Vector2d way = at(points[i]) - start;
-      const double off = std::abs(along.x() * way.y() - along.y() * way.x());
-      const double share = along.dot(way);
-      if (off > kOff * length || share < 0.0 || share > length * length) return false;
+  // Where it is straight, one stroke: many would show their ends as beads.
+  void drawStretch(const std::vector<Vector2d>& all, const Colour& colour) {
+    const std::vector<Vector2d> points =
+        static_cast<double>(all.size()) > right_ - left_ ? thinned(all) : all;
+    for (std::size_t from = 0; from + 1 < points.size();) {
+      std::size_t to = from + 1;
+      while (to < points.size() && straight(points, from, to)) ++to;
+      --to;
+      canvas_.stroke(points[from], points[to], kStroke, colour);
+      from = to;
     }
-    return true;
   }
 
   void drawMarks(std::size_t index) {
@@ -236,7 +292,7 @@ class Plot {
     for (std::size_t i = 0; i < chart_.curves.size(); ++i, y += step) {
       const ChartCurve& curve = chart_.curves[i];
       if (curve.label.empty()) continue;
-      canvas_.stroke({x - 12.0, y}, {x + 10.0, y}, 2.0, curve.colour);
+      canvas_.stroke({x - 12.0, y}, {x + 10.0, y}, kStroke, curve.colour);
       if (curve.marked) drawMark(i, {x - 1.0, y}, curve.colour, canvas_);
       canvas_.text({x + 18.0, y + 5.0}, curve.label, kLabel);
       canvas_.text({x + 18.0, y + std::min(22.0, 0.5 * step + 4.0)}, curve.note, kNote);

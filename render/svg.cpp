@@ -63,11 +63,10 @@ void SvgDrawing::stroke(const Vector2d& from, const Vector2d& to, double width,
   const std::string look = attribute("stroke", hex(colour)) +
                            attribute("stroke-width", number(width)) +
                            opacity("stroke-opacity", alpha) + attribute("fill", "none");
-  if (path_.empty() || look != look_ || from != end_) {
-    endPath();
-    path_ = "M" + point(from);
-    look_ = look;
-  }
+  // What lets something through is darker where it covers itself, but not within one path.
+  if (look != look_ || (alpha < 1.0 && from != end_)) endPath();
+  if (path_.empty() || from != end_) path_ += "M" + point(from);
+  look_ = look;
   path_ += "L" + point(to);
   end_ = to;
 }

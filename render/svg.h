@@ -19,7 +19,8 @@ class SvgDrawing : public Drawing {
             double alpha = 1.0) override;
   void ring(const Eigen::Vector2d& centre, double radius, double stroke,
             const Colour& colour) override;
-  /// Strokes that go on from each other become one path.
+  /// Strokes that follow each other and look alike become one path, unless they let something
+  /// through.
   void stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
               const Colour& colour, double alpha = 1.0) override;
   void triangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
