@@ -16,6 +16,7 @@
 #include "app/file/file.h"
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
+#include "app/present/joints.h"
 #include "app/present/present.h"
 
 namespace tumble {
@@ -31,6 +32,10 @@ double brief(double value) {
 
 Json list(const Vec3& v) {
   return {brief(v.x()), brief(v.y()), brief(v.z())};
+}
+
+Json rgb(const Colour& c) {
+  return {brief(c[0]), brief(c[1]), brief(c[2])};
 }
 
 void addFloat(std::string& bytes, float value) {
@@ -78,6 +83,7 @@ class Writer {
     findBounds();
     describe();
     addBodies();
+    addJoints();
     addPoses();
     addContacts();
     addEvents();
@@ -169,7 +175,6 @@ class Writer {
   Json jsonOf(const DrawnBody& drawn, const Instance& instance, int shape) const {
     const BodyDef& body = scene_.world.bodies[static_cast<std::size_t>(drawn.body)];
     const Colour& back = instance.back ? *instance.back : instance.colour;
-    const auto rgb = [](const Colour& c) { return Json{brief(c[0]), brief(c[1]), brief(c[2])}; };
     Json json = {{"name", body.name},
                  {"shape", shape},
                  {"half", list(instance.scale)},
@@ -184,6 +189,39 @@ class Writer {
     const Vec3& x = instance.position;
     json["pose"] = {brief(x.x()), brief(x.y()), brief(x.z()), q.w(), q.x(), q.y(), q.z()};
     return json;
+  }
+
+  // Each by its ends, which the page carries with the bodies: the number there, or −1 for what
+  // stays, and the anchor in the body's frame, or in the world's.
+  void addJoints() {
+    const BodySample* start = recording_.samples.front().bodies.data();
+    const JointLooks looks =
+        jointLooks(scene_, recording_.samples.front(), presenter_.image(0).radius);
+    const auto numberOf = [&](int body) {
+      const auto at = std::find_if(drawn_.begin(), drawn_.end(), [&](const DrawnBody& one) {
+        return one.body == body && one.moves;
+      });
+      return at == drawn_.end() ? -1 : static_cast<int>(at - drawn_.begin());
+    };
+    Json joints = Json::array();
+    for (const JointLook& look : looks.joints) {
+      const auto end = [&](int body, const Vec3& p) {
+        const int number = numberOf(body);
+        if (number >= 0 || body == kNoBody) return Json{number, list(p)};
+        return Json{-1, list(start[body].x + start[body].q * p)};
+      };
+      const bool turned = look.b != kNoBody && numberOf(look.b) < 0;
+      joints.push_back({{"kind", jointName(look.kind).name},
+                        {"a", end(look.a, look.pa)},
+                        {"b", end(look.b, look.pb)},
+                        {"axis", list(turned ? start[look.b].q * look.axis : look.axis)},
+                        {"half", brief(look.half)},
+                        {"levers", {look.leverToA, look.leverToB}}});
+    }
+    json_["joints"] = std::move(joints);
+    json_["pin"] = {brief(looks.pin), rgb(looks.pinColour)};
+    json_["rod"] = {brief(looks.rod), rgb(looks.rodColour)};
+    json_["rail"] = brief(looks.rail);
   }
 
   void addPoses() {

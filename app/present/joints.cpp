@@ -156,26 +156,37 @@ void addRod(const Vec3& p, const Vec3& q, double radius, Picture& picture) {
   if ((q - p).norm() > radius) picture.instances.push_back(rodFrom(p, q, radius, kRod));
 }
 
-// From a body that moves to an anchor outside it.
-void addLever(const Scene& scene, const Sample& sample, int body, const Vec3& anchor, double radius,
-              Picture& picture) {
+// Whether a rod leads from a body to an anchor: it moves, and the anchor is outside it.
+bool hasLever(const Scene& scene, const Sample& sample, int body, const Vec3& anchor) {
   constexpr double kOn = 1.0 + 1e-6;  // of the way to a surface
-  if (body == kNoBody || !moves(scene.world.bodies[body])) return;
-  const BodyDef& def = scene.world.bodies[body];
+  if (body == kNoBody || !moves(scene.world.bodies[body])) return false;
   const BodySample& at = sample.bodies[body];
   const Vec3 lever = anchor - at.x;
-  if (lever.norm() > kOn * reach(def.shape, at.q, lever.stableNormalized()))
-    addRod(wayOut(def, at, at.x, anchor), anchor, radius, picture);
+  return lever.norm() > kOn * reach(scene.world.bodies[body].shape, at.q, lever.stableNormalized());
+}
+
+void addLever(const Scene& scene, const Sample& sample, int body, const Vec3& anchor, double radius,
+              Picture& picture) {
+  if (!hasLever(scene, sample, body, anchor)) return;
+  const BodySample& at = sample.bodies[body];
+  addRod(wayOut(scene.world.bodies[body], at, at.x, anchor), anchor, radius, picture);
+}
+
+// Radii of pins and rods, and the length of a rail [m], in a picture of that size.
+constexpr double kPinRadius = 0.010, kRodRadius = 0.35 * kPinRadius, kRail = 1.0;
+
+// Whether its anchors are one point, which levers lead to.
+bool atOnePoint(JointKind kind) {
+  return kind != JointKind::Distance && kind != JointKind::Slider;
 }
 
 }  // namespace
 
 void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture) {
-  const double pin = 0.010 * size, thin = 0.35 * pin;
+  const double pin = kPinRadius * size, thin = kRodRadius * size, rail = 0.5 * kRail * size;
   for (const JointDef& def : scene.world.joints) {
     const Posed at = posed(scene, sample, def);
-    const bool atOnePoint = def.kind != JointKind::Distance && def.kind != JointKind::Slider;
-    if (atOnePoint)
+    if (atOnePoint(def.kind))
       for (const int body : {def.a, def.b}) addLever(scene, sample, body, at.pa, thin, picture);
     switch (def.kind) {
       case JointKind::Hinge: {
@@ -196,7 +207,7 @@ void addJoints(const Scene& scene, const Sample& sample, double size, Picture& p
       }
       case JointKind::Slider:
         picture.instances.push_back(
-            rodFrom(at.pb - 0.5 * size * at.axis, at.pb + 0.5 * size * at.axis, thin, kRod));
+            rodFrom(at.pb - rail * at.axis, at.pb + rail * at.axis, thin, kRod));
         picture.instances.push_back(ballAt(at.pa, pin, kPin));
         break;
       case JointKind::Ball:
@@ -204,6 +215,30 @@ void addJoints(const Scene& scene, const Sample& sample, double size, Picture& p
         picture.instances.push_back(ballAt(at.pa, pin, kPin));
     }
   }
+}
+
+JointLooks jointLooks(const Scene& scene, const Sample& start, double size) {
+  JointLooks looks{{}, kPinRadius * size, kRodRadius * size, kRail * size, kPin, kRod};
+  const auto inBody = [&](int body, const Vec3& p) {
+    const End end = endOf(scene, start, body);
+    return Vec3(end.now.q.conjugate() * (p - end.now.x));
+  };
+  for (const JointDef& def : scene.world.joints) {
+    const Posed at = posed(scene, start, def);
+    JointLook& look = looks.joints.emplace_back();
+    look.kind = def.kind;
+    look.a = def.a;
+    look.b = def.b;
+    look.pa = inBody(def.a, at.pa);
+    look.pb = inBody(def.b, at.pb);
+    look.axis = endOf(scene, start, def.b).now.q.conjugate() * at.axis;
+    if (def.kind == JointKind::Hinge)
+      look.half = throughBody(scene, start, def, at.axis, looks.pin);
+    if (!atOnePoint(def.kind)) continue;
+    look.leverToA = hasLever(scene, start, def.a, at.pa);
+    look.leverToB = hasLever(scene, start, def.b, at.pa);
+  }
+  return looks;
 }
 
 namespace {

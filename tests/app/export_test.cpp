@@ -177,3 +177,60 @@ TEST_CASE(
   CHECK(page.find("/*DATA*/") == std::string::npos);
   CHECK(page.find("box.y, max") != std::string::npos);
 }
+
+// Oracle: the scene's own numbers. What moves is carried with its body; what does not, stands.
+TEST_CASE("the page has each joint by its ends in the frames of the bodies that carry them") {
+  const Scene scene = parseScene(R"([world]
+duration = 0.2
+[[body]]
+name = "post"
+shape = { box = [0.1, 1, 0.1] }
+position = [0, 3, 0]
+fixed = true
+[[body]]
+name = "arm"
+shape = { box = [0.2, 0.2, 0.2] }
+mass = 1.0
+position = [1, 2, 0]
+orientation = { axis = [0, 0, 1], degrees = 90 }
+[[body]]
+name = "bob"
+shape = { sphere = 0.1 }
+mass = 1.0
+position = [2, 1, 0]
+[[joint]]
+kind = "hinge"
+a = "arm"
+b = "post"
+anchor = [0, 2, 0]
+axis = [0, 0, 2]
+[[joint]]
+kind = "distance"
+a = "bob"
+b = "arm"
+anchor = [2, 1, 0]
+anchor_b = [1.1, 2, 0]
+)",
+                                 "two");
+  const std::string page = pageHtml(scene, record(scene, 60.0));
+  const std::size_t at = page.find("\"joints\":");
+  REQUIRE(at != std::string::npos);
+  const std::string rest = page.substr(at + 9);
+  const auto joints = nlohmann::json::parse(rest.substr(0, rest.find(",\"pin\"")));
+  const auto vector = [](const nlohmann::json& list) {
+    return Vec3(list[0].get<double>(), list[1].get<double>(), list[2].get<double>());
+  };
+  REQUIRE(joints.size() == 2);
+  CHECK(joints[0]["kind"] == "hinge");
+  CHECK(joints[0]["a"][0] == 1);
+  CHECK((vector(joints[0]["a"][1]) - Vec3(0, 1, 0)).norm() < 1e-6);
+  CHECK(joints[0]["b"][0] == -1);
+  CHECK((vector(joints[0]["b"][1]) - Vec3(0, 2, 0)).norm() < 1e-6);
+  CHECK((vector(joints[0]["axis"]) - Vec3(0, 0, 1)).norm() < 1e-6);
+  CHECK(joints[0]["half"].get<double>() > 0.1);  // through the arm
+  CHECK(joints[0]["levers"] == nlohmann::json{true, false});
+  CHECK(joints[1]["kind"] == "distance");
+  CHECK((vector(joints[1]["a"][1]) - Vec3(0, 0, 0)).norm() < 1e-6);
+  CHECK((vector(joints[1]["b"][1]) - Vec3(0, -0.1, 0)).norm() < 1e-6);
+  CHECK(joints[1]["levers"] == nlohmann::json{false, false});
+}
