@@ -107,7 +107,8 @@ void drawPageShape(const PageShape& shape, Canvas& canvas) {
   }
 }
 
-// Title and subtitle, as large as the shorter side of the page asks, in as many lines as it takes.
+// Title, subtitle and remarks, as large as the shorter side of the page asks, each in as many lines
+// as it takes and below those before.
 void drawTitle(const Picture& picture, Canvas& canvas) {
   constexpr double kLeft = 32.0, kFirst = 46.0;
   const double small = std::min(1.0, canvas.width() / canvas.height());
@@ -122,6 +123,9 @@ void drawTitle(const Picture& picture, Canvas& canvas) {
   draw(picture.title, {22.0 * small, Face::Bold, Align::Left, ink::text}, 26.0);
   baseline = std::max(baseline - 2.0 * small, 70.0 * small);
   draw(picture.subtitle, {15.0 * small, Face::Regular, Align::Left, ink::secondary}, 19.0);
+  baseline = std::max(baseline + 11.0 * small, 100.0 * small);
+  for (const Remark& remark : picture.remarks)
+    draw(remark.text, {13.0 * small, Face::Regular, Align::Left, remark.colour}, 19.0);
 }
 
 }  // namespace

@@ -153,6 +153,12 @@ struct Floor {
   std::vector<Mark> marks = {};
 };
 
+/// A line of words below the title.
+struct Remark {
+  std::string text;
+  Colour colour = {0.36f, 0.39f, 0.44f};
+};
+
 struct Picture {
   Camera camera;
   std::vector<Instance> instances;
@@ -168,6 +174,7 @@ struct Picture {
       Eigen::Vector3d::Zero();  ///< [m] of what is to be lit, shadowed and framed
   double radius = 3.0;          ///< [m] about the centre
   std::string title, subtitle;
+  std::vector<Remark> remarks = {};  ///< below these, smaller
 };
 
 }  // namespace tumble

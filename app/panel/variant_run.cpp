@@ -1,5 +1,7 @@
 #include "app/panel/variant_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -77,6 +79,17 @@ void takeState(VariantRun& run) {
   };
 }
 
+// What stands below a panel: words of its own, then what its picture says below a title, which it
+// has not.
+std::string findingOf(const VariantRun& run, const Picture& picture) {
+  std::vector<std::string> words;
+  if (!run.subtitle.empty()) words.push_back(run.subtitle);
+  for (const Remark& remark : picture.remarks) words.push_back(remark.text);
+  const std::string told = run.scene.subtitle + run.title + run.subtitle;
+  if (const std::string dotted = legendOf(picture, told); !dotted.empty()) words.push_back(dotted);
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
 }  // namespace
 
 Scene sceneOf(const Scene& scene, const Variant& variant) {
@@ -121,7 +134,9 @@ std::vector<Panel> drawPanels(const std::deque<VariantRun>& runs, const Eigen::V
     Picture picture = run.picture(presenter);
     picture.title.clear();
     picture.subtitle.clear();
-    panels.push_back({draw(picture), run.title, run.subtitle});
+    const std::string finding = findingOf(run, picture);
+    picture.remarks.clear();
+    panels.push_back({draw(picture), run.title, finding});
     if (run.wrong) redden(panels.back().image);
   }
   return panels;

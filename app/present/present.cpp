@@ -32,8 +32,6 @@ namespace tumble {
 
 namespace {
 
-constexpr double kExpectTop = 100.0, kExpectLine = 19.0;  // [px] baselines of [[expect]]
-
 // From 0 to that.
 ColourBar barTo(const std::string& caption, std::span<const Colour> stops, double top) {
   ColourBar bar{caption, {stops.begin(), stops.end()}, 0.0, top, {}};
@@ -249,6 +247,8 @@ Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {
 // What is the same on every picture of the run.
 void Presenter::finish(Picture& picture) const {
   addExpectations(picture);
+  const std::string dotted = legendOf(picture, picture.subtitle);
+  if (!dotted.empty()) picture.subtitle += (picture.subtitle.empty() ? "" : "   ") + dotted;
   if (scene_.show.title) return;
   picture.title.clear();
   picture.subtitle.clear();
@@ -257,22 +257,17 @@ void Presenter::finish(Picture& picture) const {
 // Below the title, if it is shown, a line for each: what was measured, and what it should be. A
 // formula that is one coordinate gets a dotted line there, across or along the picture.
 void Presenter::addExpectations(Picture& picture) const {
-  double baseline = kExpectTop;
   for (const Expectation& one : expectations_) {
     if (one.place) picture.lines.push_back(expectedLine(one));
     if (!scene_.show.title) continue;
-    Label label;
-    label.offset = {32.0, baseline};
     // Beside 0, what is left is an error: its size tells, its digits do not.
     const std::string measured =
         fmt::format("{:.{}g}", one.row.measured, one.row.exact == 0.0 ? 2 : 6);
-    label.text = fmt::format("{}: {}, expected {}{:.6g}{}", one.row.label, measured,
-                             signOf(one.row.relation), one.row.exact,
-                             one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : "");
-    label.size = 13.0f;
-    label.colour = one.row.holds() ? colour::kQuiet : colour::kForce;
-    picture.labels.push_back(label);
-    baseline += kExpectLine;
+    picture.remarks.push_back(
+        {fmt::format("{}: {}, expected {}{:.6g}{}", one.row.label, measured,
+                     signOf(one.row.relation), one.row.exact,
+                     one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : ""),
+         one.row.holds() ? colour::kQuiet : colour::kForce});
   }
 }
 
@@ -334,9 +329,18 @@ void Presenter::addLessons(const Sample& sample, Picture& picture) const {
   if (show.diagram == "flow") addFlowDiagram(recording_, sample, framing_.page, picture);
 }
 
+std::string legendOf(const Picture& picture, const std::string& words) {
+  if (words.find("dot") != std::string::npos || words.find("Dot") != std::string::npos) return "";
+  const bool dotted =
+      std::any_of(picture.lines.begin(), picture.lines.end(),
+                  [](const Polyline& line) { return line.stroke == Stroke::Dotted; });
+  return dotted ? "dotted: what is expected" : "";
+}
+
 void stripForPanel(Picture& picture) {
   picture.title.clear();
   picture.subtitle.clear();
+  picture.remarks.clear();
   picture.marks.clear();
   picture.labels.clear();
   picture.pageShapes.clear();

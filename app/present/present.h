@@ -75,6 +75,10 @@ class Presenter {
   ArrowScale arrows_;
 };
 
+/// What the dotted lines of a picture are, if it has any and the words with it do not say so of
+/// dots; else "".
+std::string legendOf(const Picture& picture, const std::string& words);
+
 /// Takes off what is too small to read, or said by the page, when a picture becomes a panel of a
 /// sheet.
 void stripForPanel(Picture& picture);

@@ -195,8 +195,12 @@ TEST_CASE("an expectation is written below the title, and drawn where it is one 
   const Scene scene = parseScene(kThrow + expect, "throw");
   const Recording recording = record(scene, 20.0);
   const Picture picture = Presenter(scene, recording).image(0);
-  REQUIRE(picture.labels.size() == 1);
-  CHECK(picture.labels[0].text == "ball.3.y, max: 1.45, expected 1.45");
+  REQUIRE(picture.remarks.size() == 1);
+  CHECK(picture.remarks[0].text == "ball.3.y, max: 1.45, expected 1.45");
+  CHECK(picture.subtitle == "t = 0.00 s   dotted: what is expected");
+  // Unless its own words say so.
+  const Scene told = parseScene("subtitle = \"Dots: the apex.\"\n" + kThrow + expect, "throw");
+  CHECK(Presenter(told, recording).image(0).subtitle == "Dots: the apex.   t = 0.00 s");
   REQUIRE(picture.lines.size() == 1);
   CHECK(picture.lines[0].stroke == Stroke::Dotted);
   CHECK(picture.lines[0].points[0].y() == 1.45);

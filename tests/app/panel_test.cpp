@@ -1,8 +1,10 @@
 // Variants run side by side: pages of panels, and charts of errors.
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+
 #include <filesystem>
 
 #include "app/claim/verdict.h"
@@ -112,6 +114,31 @@ TEST_CASE("each panel runs its own variant, and what can be compared shares a ca
   REQUIRE(pictures[2].instances.size() == 1);
   // Oracle: closed form. Measured 4e-16 m, allowed 1e-12.
   CHECK(std::abs(pictures[2].instances[0].position.y() - (1.1 - 0.5 * 9.81 * 0.0625)) < 1e-12);
+}
+
+// A claim of one's own is about the scene as it stands, which a panel may change.
+TEST_CASE("a panel has claims in the words below it, and none on its picture") {
+  const Folder folder;
+  writeFile(folder / "bounce.toml",
+            std::string(kBounce) +
+                "[[expect]]\nvalue = \"ball.y\"\nover = \"max\"\nequals = 1.1\n"
+                "[[expect]]\nvalue = \"t\"\nequals = 9\n");
+  const Scene scene = readScene(folder / "bounce.toml");
+  const std::deque<VariantRun> runs = runPanels(scene, [] {});
+  std::vector<Picture> pictures;
+  const std::vector<Panel> panels = drawPanels(runs, {800.0, 450.0}, [&](const Picture& picture) {
+    pictures.push_back(picture);
+    return Image{1, 1, {0, 0, 0}};
+  });
+  const std::string end = fmt::format("{:g}", scene.world.duration);
+  CHECK(panels[0].finding == "ball.y, max: 1.1, expected 1.1; t, at the end: " + end +
+                                 ", expected 9; dotted: what is expected");
+  CHECK(panels[1].finding.starts_with("on the moon; ball.y, max: 1.1, expected 1.1; "));
+  for (const Picture& picture : pictures) {
+    CHECK(picture.remarks.empty());
+    for (const Label& label : picture.labels)
+      CHECK(label.text.find("expected") == std::string::npos);
+  }
 }
 
 // One ball falls 0.1 m, the other 10 m: the first alone would stand on lines 0.1 m apart.

@@ -2,6 +2,7 @@
 // Long: what is drawn beside bodies, labels and pages of panels among it, is measured by one set of
 // helpers.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -483,4 +484,38 @@ TEST_CASE("over any page a transparent image gives what is drawn on that page, t
     // Rounded where it is premultiplied, divided and put together again. Measured 2.1 levels.
     CHECK(worst < 4.0);
   }
+}
+
+TEST_CASE("remarks stand below title and subtitle, in however many lines these are") {
+  const std::string words = "words that go on and on and on and on and on and on and on and on ";
+  const auto linesOf = [](Picture picture) {  // of pixels that its remark alone covers
+    picture.floor.visible = false;
+    const Image without = studio().draw(picture, kFull);
+    picture.remarks = {{"a remark, which is short"}};
+    const Image with = studio().draw(picture, kFull);
+    int first = 720, last = 0, inked = 0;
+    for (int y = 0; y < 720; ++y)
+      for (int x = 0; x < 1280; ++x)
+        if (brightness(with, x, y) != brightness(without, x, y)) {
+          first = std::min(first, y);
+          last = std::max(last, y);
+        }
+    // What the title and the subtitle cover begins above and ends above.
+    const double page = brightness(without, 1270, 10);
+    for (int y = 0; y < 300; ++y)
+      for (int x = 32; x < 400; ++x)
+        if (std::abs(brightness(without, x, y) - page) > 60.0) inked = std::max(inked, y);
+    return std::array<int, 3>{inked, first, last};
+  };
+  Picture picture = stage();
+  picture.title = "A title";
+  picture.subtitle = "And what is below";
+  const auto [plain, first, last] = linesOf(picture);
+  CHECK(first > plain + 4);
+  CHECK(first >= 88);
+  CHECK(last <= 105);  // baseline 100
+  picture.subtitle = words + words + words + words;
+  const auto [lower, below, end] = linesOf(picture);
+  CHECK(lower > plain + 15);
+  CHECK(below > lower + 4);
 }
