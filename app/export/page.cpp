@@ -183,6 +183,7 @@ class Writer {
                  {"thickness", brief(thicknessOf(instance))},
                  {"banded", instance.banded ? 1 : 0},
                  {"free", moves(body)},
+                 {"pane", !moves(body) && instance.finish == Finish::Glass},
                  {"moves", drawn.moves}};
     if (drawn.moves) return json;
     const Quat& q = instance.orientation;

@@ -219,7 +219,9 @@ Instance Presenter::body(const Sample& sample, std::size_t i) const {
                  3.0 * framing_.radius, surfaceOf(i, sample.bodies[i]));
   instance.back = backOf(scene_, i);
   instance.banded = turns_[i];
-  if (scene_.show.glass && moves(def)) instance.finish = Finish::Glass;
+  // A half-space that is no floor is a pane: it reaches beyond all that moves on one side of it.
+  const bool pane = std::holds_alternative<HalfSpace>(def.shape);
+  if (pane || (scene_.show.glass && moves(def))) instance.finish = Finish::Glass;
   return instance;
 }
 

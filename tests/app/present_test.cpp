@@ -191,6 +191,30 @@ TEST_CASE("a pendulum is seen with its pivot and what leads there") {
   }
 }
 
+TEST_CASE("a half-space that is a wall is a pane, a floor none, and what moves is as it was") {
+  const Scene scene = parseScene(R"([world]
+duration = 0.1
+[[body]]
+name = "floor"
+shape = { plane = [0, 1, 0, 0] }
+[[body]]
+name = "wall"
+shape = { plane = [1, 0, 0, -1] }
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1.0
+position = [0, 1, 0]
+)",
+                                 "walled");
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).image(0);
+  REQUIRE(picture.instances.size() == 2);
+  CHECK(picture.instances[0].finish == Finish::Glass);
+  CHECK(picture.instances[1].finish == Finish::Solid);
+  CHECK(picture.floor.visible);
+}
+
 TEST_CASE("only what turns in the run has a band to see it by") {
   const char* const scene = R"(
 [world]
