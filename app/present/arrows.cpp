@@ -1,6 +1,7 @@
 #include "app/present/arrows.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "app/claim/free_body.h"
 #include "app/present/bodies.h"
@@ -13,23 +14,29 @@ namespace tumble {
 
 ArrowScale arrowScale(const Scene& scene, const Recording& recording, double fastest,
                       double radius) {
-  constexpr double kLargest = 0.6;  // of the radius
-  return {std::min(typicalHeight(scene), kLargest * radius), fastest,
-          largestContactForce(recording), largestJointForce(recording)};
+  constexpr double kLargest = 0.6, kJoint = 0.25;  // of the radius
+  double longest = std::min(typicalHeight(scene), kLargest * radius);
+  // Links that lie flat are not high, and what they pull by is to be seen.
+  if (scene.show.joint_forces) longest = std::max(longest, kJoint * radius);
+  return {longest, fastest, largestContactForce(recording), jointScale(recording)};
+}
+
+double ArrowScale::together(const ShowFlags& show) const {
+  return std::max(show.contact_forces ? contact : 0.0, show.joint_forces ? joint.longest : 0.0);
 }
 
 void addArrows(const Scene& scene, const Sample& sample, const ArrowScale& scale,
                Picture& picture) {
   const ShowFlags& show = scene.show;
   const double length = 0.88 * scale.longest;
-  // Contacts and joints that are shown together have one scale.
-  const double largest =
-      std::max(show.contact_forces ? scale.contact : 0.0, show.joint_forces ? scale.joint : 0.0);
+  const double largest = scale.together(show);
   const double metresPerNewton = show.force_scale > 0.0 ? show.force_scale
                                  : largest > 0.0        ? length / largest
                                                         : 1.0;
   if (show.joint_forces)
-    addJointForces(scene, sample, metresPerNewton, picture);
+    addJointForces(scene, sample, metresPerNewton,
+                   show.force_scale > 0.0 ? std::numeric_limits<double>::infinity() : largest,
+                   picture);
   else if (show.contact_forces)
     addContactForces(sample, scale.contact, metresPerNewton * scale.contact, picture);
   if (show.normals) addNormals(sample, length, picture);

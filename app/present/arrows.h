@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "app/present/joints.h"
 #include "app/record/recording.h"
 #include "render/picture.h"
 
@@ -11,14 +12,16 @@ namespace tumble {
 
 /// How long arrows are, the same in all pictures of a run.
 struct ArrowScale {
-  double longest = 1.0;  ///< [m] of a force of the scene
-  double fastest = 1.0;  ///< [m/s] of the longest velocity, twice as long
-  double contact = 1.0;  ///< [N] of the longest contact force
-  double joint = 0.0;    ///< [N] the largest that a joint exerts
+  double longest = 1.0;   ///< [m] of a force of the scene
+  double fastest = 1.0;   ///< [m/s] of the longest velocity, twice as long
+  double contact = 1.0;   ///< [N] of the longest contact force
+  JointScale joint = {};  ///< of what joints exert
+  /// [N] of the longest arrow of contacts and joints that are shown together
+  double together(const ShowFlags& show) const;
 };
 
 /// About as long as bodies are high, but no longer than a share of the motion's radius [m]: arrows
-/// as large as a picture would make bodies small.
+/// as large as a picture would make bodies small. With forces of joints at least a share of it.
 ArrowScale arrowScale(const Scene& scene, const Recording& recording, double fastest,
                       double radius);
 

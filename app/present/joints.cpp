@@ -122,14 +122,22 @@ std::vector<int> stepsFromWorld(const Scene& scene) {
   return steps;
 }
 
-// Of the two forces of a joint the one on the body further from the world; on a if neither is.
-std::vector<Vec3> forcesOutward(const Scene& scene, const Sample& sample) {
+// Of the two forces of a joint the one on the body further from the world, and where it acts on
+// that; on a if neither is.
+struct Outward {
+  Vec3 force, p;
+};
+
+std::vector<Outward> forcesOutward(const Scene& scene, const Sample& sample) {
   const std::vector<int> steps = stepsFromWorld(scene);
-  std::vector<Vec3> forces;
+  std::vector<Outward> forces;
   for (const JointForce& joint : sample.joints) {
     const JointDef& def = scene.world.joints[joint.joint];
     const bool turned = def.b != kNoBody && steps[def.b] > steps[def.a];
-    forces.push_back(turned ? Vec3(-joint.force) : joint.force);
+    if (turned)
+      forces.push_back({-joint.force, posed(scene, sample, def).pb});
+    else
+      forces.push_back({joint.force, joint.p});
   }
   return forces;
 }
@@ -275,35 +283,52 @@ void addPairForces(const Sample& sample, double metresPerNewton, Picture& pictur
 
 }  // namespace
 
-void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
+void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton, double most,
                     Picture& picture) {
-  const std::vector<Vec3> forces = forcesOutward(scene, sample);
+  const std::vector<Outward> forces = forcesOutward(scene, sample);
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    const JointForce& joint = sample.joints[k];
+    const Vec3& force = forces[k].force;
     // Along the pin of a hinge, towards the eye: there nothing stands before the arrow.
-    const JointDef& def = scene.world.joints[joint.joint];
-    Vec3 base = joint.p;
+    const JointDef& def = scene.world.joints[sample.joints[k].joint];
+    Vec3 base = forces[k].p;
     if (def.kind == JointKind::Hinge) {
       Vec3 axis = posed(scene, sample, def).axis;
       if (axis.dot(picture.camera.eye - base) < 0.0) axis = -axis;
       base += throughBody(scene, sample, def, axis, 0.0) * 1.1 * axis;
     }
-    const double size = forces[k].norm();
-    const bool up = forces[k].y() >= -kMostly * size, none = size < kNothing;
+    const double size = force.norm();
+    const bool up = force.y() >= -kMostly * size, none = size < kNothing;
     const Colour colour = none ? colour::kInk : up ? kUp : kDown;
-    const Vec3 tip = base + metresPerNewton * forces[k];
+    const Vec3 tip =
+        none ? base : Vec3(base + metresPerNewton * std::min(1.0, most / size) * force);
     if (!none) picture.arrows.push_back({base, tip, colour, 2.6f});
     const double shown = none ? 0.0 : up ? size : -size;
-    addLabel(tip, {-16.0, up ? -6.0 : 6.0}, Align::Right, newtons(shown), colour, picture);
+    // At its foot: where it ends may be another body.
+    addLabel(base, {-16.0, 5.0}, Align::Right, newtons(shown), colour, picture);
   }
   if (scene.show.contact_forces) addPairForces(sample, metresPerNewton, picture);
 }
 
-double largestJointForce(const Recording& recording) {
-  double largest = 0.0;
+JointScale jointScale(const Recording& recording) {
+  constexpr double kSpike = 3.0;
+  JointScale scale;
+  std::vector<double> forces;
   for (const Sample& sample : recording.samples)
-    for (const JointForce& joint : sample.joints) largest = std::max(largest, joint.force.norm());
-  return largest;
+    for (const JointForce& joint : sample.joints) {
+      const double size = joint.force.norm();
+      if (size >= kNothing) forces.push_back(size);
+      if (size > scale.largest) {
+        scale.largest = size;
+        scale.at = sample.t;
+      }
+    }
+  scale.longest = scale.largest;
+  if (forces.empty()) return scale;
+  const std::size_t index = forces.size() - 1 - forces.size() / 50;
+  std::nth_element(forces.begin(), forces.begin() + static_cast<std::ptrdiff_t>(index),
+                   forces.end());
+  if (scale.largest > kSpike * forces[index]) scale.longest = forces[index];
+  return scale;
 }
 
 }  // namespace tumble

@@ -30,14 +30,20 @@ struct JointLooks {
 JointLooks jointLooks(const Scene& scene, const Sample& start, double size);
 
 /// Arrows of the force that each joint exerts on the one of its bodies that more joints part from
-/// the world, on a where that is none; red if it points within 60 degrees of straight down, else
-/// green, with its number beside it, negative where it is red; the same of contacts, one arrow a
-/// pair, if these are shown.
+/// the world, at its anchor there, on a where that is none; red if it points within 60 degrees of
+/// straight down, else green, with its number beside it, negative where it is red; the same of
+/// contacts, one arrow a pair, if these are shown.
 /// @param metresPerNewton  of an arrow
-void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton,
+/// @param most  [N] larger ones of joints are as long as that
+void addJointForces(const Scene& scene, const Sample& sample, double metresPerNewton, double most,
                     Picture& picture);
 
-/// The largest force [N] of a joint in a run.
-double largestJointForce(const Recording& recording);
+/// The force [N] of a joint whose arrow is longest: the largest of the run, unless that is a spike,
+/// more than three times what 98 of 100 forces that joints exert stay below.
+struct JointScale {
+  double longest = 0.0;            ///< [N]; 0 without joints
+  double largest = 0.0, at = 0.0;  ///< [N] of the run, [s]
+};
+JointScale jointScale(const Recording& recording);
 
 }  // namespace tumble

@@ -249,6 +249,7 @@ Colour Presenter::colourOf(const Sample& sample, std::size_t i) const {
 // What is the same on every picture of the run.
 void Presenter::finish(Picture& picture) const {
   addExpectations(picture);
+  addSpike(picture);
   const std::string dotted = legendOf(picture, picture.subtitle);
   if (!dotted.empty()) picture.subtitle += (picture.subtitle.empty() ? "" : "   ") + dotted;
   if (scene_.show.title) return;
@@ -271,6 +272,18 @@ void Presenter::addExpectations(Picture& picture) const {
                      one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : ""),
          one.row.holds() ? colour::kQuiet : colour::kForce});
   }
+}
+
+// Where the longest arrow of joints is not that of the largest force: what this is, and when.
+void Presenter::addSpike(Picture& picture) const {
+  const ShowFlags& show = scene_.show;
+  if (!show.title || !show.joint_forces || show.force_scale > 0.0) return;
+  const double longest = arrows_.together(show);
+  if (arrows_.joint.largest > longest)
+    picture.remarks.push_back(
+        {fmt::format("arrows of joints end at {} N; the largest is {} N, at {:.4g} s",
+                     fourDigits(longest), fourDigits(arrows_.joint.largest), arrows_.joint.at),
+         colour::kQuiet});
 }
 
 Polyline Presenter::expectedLine(const Expectation& one) const {

@@ -46,6 +46,7 @@ class Presenter {
   Framing framingAt(const Sample& sample) const;
   std::vector<std::size_t> ghosts() const;
   void addExpectations(Picture& picture) const;
+  void addSpike(Picture& picture) const;
   Polyline expectedLine(const Expectation& one) const;
   void finish(Picture& picture) const;
   std::shared_ptr<const Facets> surfaceOf(std::size_t i, const BodySample& body) const;
