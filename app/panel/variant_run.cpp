@@ -42,7 +42,10 @@ Framing sharedFraming(const std::deque<VariantRun>& runs, const VariantRun& run)
     if (other.scene.show.strain)
       strained = std::max(strained, usualStrain(other.scene, other.recording));
   }
-  Framing framing = framingOf(run.scene, seen);
+  // Claims stand below the panel and need no room above.
+  Scene plain = run.scene;
+  plain.expects.clear();
+  Framing framing = framingOf(plain, seen);
   framing.strained = strained;
   return framing;
 }

@@ -126,10 +126,12 @@ TEST_CASE("a panel has claims in the words below it, and none on its picture") {
   const Scene scene = readScene(folder / "bounce.toml");
   const std::deque<VariantRun> runs = runPanels(scene, [] {});
   std::vector<Picture> pictures;
-  const std::vector<Panel> panels = drawPanels(runs, {800.0, 450.0}, [&](const Picture& picture) {
+  const auto draw = [&](const Picture& picture) {
     pictures.push_back(picture);
     return Image{1, 1, {0, 0, 0}};
-  });
+  };
+  const std::vector<Panel> panels = drawPanels(runs, {800.0, 450.0}, draw);
+  const Vec3 claimed = pictures.at(0).camera.eye;
   const std::string end = fmt::format("{:g}", scene.world.duration);
   CHECK(panels[0].finding == "ball.y, max: 1.1, expected 1.1; t, at the end: " + end +
                                  ", expected 9; dotted: what is expected");
@@ -139,6 +141,13 @@ TEST_CASE("a panel has claims in the words below it, and none on its picture") {
     for (const Label& label : picture.labels)
       CHECK(label.text.find("expected") == std::string::npos);
   }
+
+  // Nor do they take room on it.
+  writeFile(folder / "bounce.toml", kBounce);
+  pictures.clear();
+  drawPanels(runPanels(readScene(folder / "bounce.toml"), [] {}), {800.0, 450.0}, draw);
+  REQUIRE(pictures.size() == 3);
+  CHECK(pictures[0].camera.eye == claimed);
 }
 
 // One ball falls 0.1 m, the other 10 m: the first alone would stand on lines 0.1 m apart.
