@@ -117,6 +117,8 @@ void Stepping::addPair(Island& island, std::vector<Touch>& touches, double h) {
                           : Stance{&touch, c.point, state_.bodies[c.a].x, state_.bodies[c.b].x});
   }
   level(island);
+  if (island.follows())
+    for (Stance& stance : stances) stance.closes = closing(touches, h);
   for (const Stance& stance : stances) addTouch(island, stance, allClosed, h);
 }
 
@@ -137,6 +139,7 @@ void Stepping::addTouch(Island& island, const Stance& at, bool allClosed, double
   const double vrel = rowSpeed(normal, work_.before[contact.a], work_.before[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
   normal.bias = gapRate(touch, allClosed, h);
+  if (island.follows()) normal.bias += wanders(at) + at.closes;
   if (reboundsInStep() && !isAside(touch)) rebound(touch, vrel, h, normal);
   const Vec3 lead = carried(contact, h);
   if (model_.fixed(contact.a) || model_.fixed(contact.b)) normal.bias += c.n.dot(lead);

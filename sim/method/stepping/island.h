@@ -67,7 +67,8 @@ struct Touch;
 struct Stance {
   Touch* touch;
   ContactPoint point;
-  Vec3 a, b;  ///< [m] places of its bodies
+  Vec3 a, b;            ///< [m] places of its bodies
+  double closes = 0.0;  ///< [m/s] how fast it closes what a smooth step left of its gap
 };
 
 /// An island at hand. Its storage serves one island after the other.
@@ -76,6 +77,8 @@ struct Island {
   IslandMemory* memory = nullptr;
   std::vector<int> movers;  ///< its bodies that move
   bool smooth = false;      ///< no contact of it changes its mode
+  /// Whether it is one body on what is fixed, besides: its points are followed through the step.
+  bool follows() const { return smooth && movers.size() == 1; }
 
   Problem problem;
   std::vector<int> local, bodies;  ///< per body of the world: its number in the problem, or < 0;

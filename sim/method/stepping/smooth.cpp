@@ -11,9 +11,45 @@
 
 namespace tumble {
 
-/// Whether a touch is closed, and by the velocity [m/s] of its bodies stays so.
-bool Stepping::lasts(const Touch& touch, const Vec3& rate) const {
-  return closed(touch) && std::abs(touch.contact.point.n.dot(rate)) <= tolerance_.rest;
+/// How fast [m/s] a touch may part or approach as a smooth step begins: as its point went on in a
+/// step that was not, by h J̇ v, or as a gap closes; not into an overlap.
+double Stepping::leftOver(const Touch& touch, double h) const {
+  const Contact& c = touch.contact;
+  const double way = 0.5 * h * c.point.n.dot(rateAt(c, work_.before));
+  if (c.point.separation + way < -tolerance_.root) return 0.0;
+  return h * std::abs(normalAccelerationBias(state_.bodies[c.a], state_.bodies[c.b], c.point)) +
+         tolerance_.touch / model_.def.stepping.step;
+}
+
+/// How fast [m/s] the points of a pair close in a smooth step what those before left of their gaps,
+/// all alike. What dates no collision is rounding.
+double Stepping::closing(std::span<const Touch> touches, double h) const {
+  double least = tolerance_.touch;
+  for (const Touch& touch : touches) least = std::min(least, touch.contact.point.separation);
+  if (least <= tolerance_.root || !areClosed(touches)) return 0.0;
+  return least / std::max(h, model_.def.stepping.step);
+}
+
+/// The rate of a touch at the end of a smooth step, to second order, where its velocities are those
+/// of the end: J½ v1 + (J½ − J0) v0, along the normal.
+Vec3 Stepping::rateAtEnd(const Stance& at) const {
+  const Vec3 rate = rateIn(at, work_.after);
+  const double normal = at.point.n.dot(rate) + wanders(at);
+  return rate + (normal - at.touch->contact.point.n.dot(rate)) * at.touch->contact.point.n;
+}
+
+/// What the rate of a touch along its normal [m/s] gains from the start of a smooth step to its
+/// middle because its point wanders: (J½ − J0) v0; as much again until its end.
+double Stepping::wanders(const Stance& at) const {
+  const Contact& c = at.touch->contact;
+  return at.point.n.dot(rateIn(at, work_.before)) - c.point.n.dot(rateAt(c, work_.before));
+}
+
+Vec3 Stepping::rateIn(const Stance& at, std::span<const Vec6> twists) const {
+  const auto of = [&](int i, const Vec3& x) {
+    return Vec3(twists[i].head<3>() + twists[i].tail<3>().cross(at.point.p - x));
+  };
+  return of(at.touch->contact.a, at.a) - of(at.touch->contact.b, at.b);
 }
 
 /// Whether a touch slips on forwards between these velocities at the two ends of a step, or sticks
@@ -51,8 +87,9 @@ bool Stepping::foreseesSmooth(Island& island, double h) {
       const Contact& c = touch.contact;
       const Vec3 first = rateAt(c, work_.before), last = rateAt(c, work_.after);
       const bool slows = 2.0 * first.dot(last) < first.squaredNorm();  // it may come to a halt
-      if (!lasts(touch, first) || !keepsMode(touch, first, last) || slows || goesRound(touch, h))
-        return false;
+      const double left = island.movers.size() == 1 ? leftOver(touch, h) : 0.0;
+      const bool stays = std::abs(c.point.n.dot(first)) <= tolerance_.rest + left;
+      if (!stays || !keepsMode(touch, first, last) || slows || goesRound(touch, h)) return false;
     }
   }
   return true;
@@ -68,16 +105,23 @@ bool Stepping::isSmooth(const Island& island, double h) const {
       std::any_of(island.movers.begin(), island.movers.end(), isDrivenBody))
     return false;
   for (const Link link : island.links) {
-    for (const Touch& touch : memory_.pairs[link].touches) {
+    std::vector<Touch>& touches = memory_.pairs[link].touches;
+    const double closes = island.follows() ? closing(touches, h) : 0.0;
+    for (Touch& touch : touches) {
       const Contact& c = touch.contact;
-      const Vec3 first = rateAt(c, work_.before), last = rateAt(c, work_.after);
+      const Vec3 first = rateAt(c, work_.before),
+                 last = island.follows() ? rateAtEnd(inMiddle(touch, h)) : rateAt(c, work_.after);
+      const double left = island.follows() ? leftOver(touch, h) : 0.0;
+      const auto lasts = [&](const Vec3& rate, double more) {
+        return closed(touch) && std::abs(c.point.n.dot(rate)) <= tolerance_.rest + more;
+      };
       const bool pushes = !touch.impulse.isZero(0.0);
       if (pushes && !island.smooth && !model_.fixed(c.a) && !model_.fixed(c.b)) return false;
       const double gap = closed(touch) ? 0.0 : c.point.separation,
                    parts = 0.5 * c.point.n.dot(first + last);
-      if (pushes ? !lasts(touch, first) || !lasts(touch, last)
-                 : gap + h * parts < -h * tolerance_.rest)
-        return false;
+      const bool stays =
+          lasts(first, left) && (lasts(last, 0.0) || lasts(last + closes * c.point.n, 0.0));
+      if (pushes ? !stays : gap + h * parts < -h * tolerance_.rest) return false;
       if (island.smooth ? !keepsMode(touch, first, last) : !carried(c, h).isZero(0.0)) return false;
     }
   }

@@ -313,7 +313,11 @@ class Stepping {
   bool foreseesSmooth(Island& island, double h);
   bool isSmooth(const Island& island, double h) const;
   void gripAnew(Island& island, double h);
-  bool lasts(const Touch& touch, const Vec3& rate) const;
+  double leftOver(const Touch& touch, double h) const;
+  double closing(std::span<const Touch> touches, double h) const;
+  Vec3 rateAtEnd(const Stance& at) const;
+  double wanders(const Stance& at) const;
+  Vec3 rateIn(const Stance& at, std::span<const Vec6> twists) const;
   bool goesRound(const Touch& touch, double h) const;
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
   void bookLanding(Island& island, double h) const;
