@@ -123,9 +123,14 @@ Rolling rollingOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c)
 
 }  // namespace
 
+double ContactTolerance::scaleOf(double size) {
+  constexpr double kSmall = 5e-2;  // [m]
+  return std::max(size, std::min(1.0, size / kSmall));
+}
+
 ContactTolerance ContactTolerance::forSize(double size) {
   ContactTolerance t;
-  const double s = std::max(1.0, size);
+  const double s = scaleOf(size);
   t.touch *= s;
   t.root *= s;
   t.drift *= s;

@@ -23,6 +23,9 @@ struct ContactTolerance {
   double keep = 1e-6;    ///< [m/s] |vrel| up to which a lasting contact stays lasting
   double stick = 1e-9;   ///< [m/s] slip of a sticking contact
 
+  /// What lengths and speeds are multiplied by, in a world of this size [m]: the size of what is
+  /// large, 1 from 5 cm to 1 m, and less where all is small.
+  static double scaleOf(double size);
   static ContactTolerance forSize(double size);
 };
 
@@ -39,6 +42,7 @@ struct Contact {
   ContactPoint point;  ///< as found, or as last followed
   Anchor anchor;
   double restitution = 0.0, friction = 0.0;
+  double scale = 1.0;            ///< [m/s] of speeds of which slips are told from none; ≤ 1
   double granted = 0.0;          ///< [m] overlap that the pull of a lasting contact leaves alone
   double pull = 0.0;             ///< [m/s²] along −n, towards no approach and that overlap
   Vec3 slipPull = Vec3::Zero();  ///< [m/s²] against the slip, while it sticks

@@ -12,7 +12,8 @@
 namespace tumble {
 namespace {
 
-/// [m/s] Slower slips have no direction but the one in which they began.
+/// [m/s], times the scale of a contact: slower slips have no direction but the one in which they
+/// began.
 constexpr double kStill = 1e-10;
 /// [1] A slip across the line of its start, below these parts of the slip and of the speeds, is
 /// left alone: friction against it would be right, but is stiff where the slip is slow.
@@ -37,8 +38,8 @@ Vec3 slipDirectionOf(const RigidBody& a, const RigidBody& b, const Contact& cont
   tangents(contact.point.n, contact.slipDirection, t1, t2);
   const double along = slip.dot(t1), across = std::abs(slip.dot(t2)), size = slip.norm();
   const double speed = pointVelocity(a, contact.point.p).norm();
-  if (contact.creeping || size <= kStill || across <= kStraight * size ||
-      across <= kNoise * (1.0 + speed) || std::abs(along) < 0.5 * size)
+  if (contact.creeping || size <= kStill * contact.scale || across <= kStraight * size ||
+      across <= kNoise * (contact.scale + speed) || std::abs(along) < 0.5 * size)
     return t1;
   return along > 0.0 ? Vec3(slip / size) : Vec3(-slip / size);
 }

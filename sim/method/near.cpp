@@ -28,6 +28,7 @@ void addContacts(const Model& model, std::pair<int, int> pair, const Manifold& p
     c.b = b;
     c.point = point;
     c.restitution = surface.restitution;
+    c.scale = std::min(1.0, ContactTolerance::scaleOf(model.size));
     c.friction = surface.friction;
   }
 }

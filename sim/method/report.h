@@ -43,7 +43,7 @@ struct Certificate {
   long islands_solved = 0;         ///< island-steps solved to the tolerance asked for,
   long islands_rough = 0;          ///< and those of crowds in motion, solved as far as is planned
   long islands_kept = 0;           ///< and those that asked nothing new: their answer stayed
-  double max_closed_height = 0.0;  ///< [m] of bounces that were left out at the end of a row
+  double max_closed_height = 0.0;  ///< [m] of bounces that were left out
   double max_complementarity = 0.0;  ///< worst natural-map residual of a contact problem, relative
   double energy_start = 0.0, energy_end = 0.0;                  ///< [J]
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]

@@ -122,3 +122,42 @@ TEST_CASE("a box that is pushed against a wall by a fixed one is crushed, and th
   CHECK(report.certificate.max_penetration < 1e-9);
   CHECK(report.certificate.steps < 10000);
 }
+
+// Oracle: units. A box, a capsule and a ball, thrown side by side, in metres and with all lengths a
+// thousandth and a millionth of them. Measured: at most 7e-7 of a metre's scene apart (by rounding
+// of ten metres' scene: 2e-8); with tolerances of metres 1e-5 and 1e-2.
+TEST_CASE("what is thrown goes alike in metres, millimetres and micrometres") {
+  const auto thrown = [](double scale) {
+    WorldDef def = worldOf("exact", 0.75, {ground(0.4, 0.4)});
+    def.gravity *= scale;
+    def.bodies.push_back(box("box", {0.3, 0.4, 0.25}, {0.0, 0.6, 0.0}));
+    def.bodies.push_back(ball("capsule", 0.12, {1.0, 0.5, 0.0}));
+    def.bodies.push_back(ball("ball", 0.15, {2.0, 0.7, 0.0}));
+    def.bodies[1].shape = Box{scale * Vec3(0.15, 0.2, 0.125)};
+    def.bodies[2].shape = Capsule{scale * 0.12, scale * 0.3};
+    def.bodies[3].shape = Sphere{scale * 0.15};
+    def.bodies[1].orientation = fromAxisAngle(Vec3(1.0, 2.0, -1.0).normalized(), 1.2);
+    def.bodies[2].orientation = fromAxisAngle(Vec3(-1.0, 0.5, 2.0).normalized(), 0.9);
+    const Vec3 velocity[] = {{0.3, -0.2, 0.5}, {-0.4, 0.1, 0.6}, {0.7, 0.3, -0.2}};
+    for (std::size_t i = 1; i < def.bodies.size(); ++i) {
+      BodyDef& body = def.bodies[i];
+      body.density.reset();
+      body.mass = 1.0;
+      body.restitution = body.friction = 0.4;
+      body.position *= scale;
+      body.velocity = scale * velocity[i - 1];
+    }
+    World world(def);
+    world.advance(def.duration);
+    CHECK_FALSE(world.report().stopped);
+    return world.sample(def.duration).bodies;
+  };
+  const auto metres = thrown(1.0);
+  for (const double scale : {1e-3, 1e-6}) {
+    const auto small = thrown(scale);
+    for (std::size_t i = 1; i < small.size(); ++i) {
+      CAPTURE(scale, i);
+      CHECK((small[i].x / scale - metres[i].x).norm() < 3e-6);
+    }
+  }
+}

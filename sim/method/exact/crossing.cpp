@@ -192,7 +192,7 @@ void Crossing::drift() {
 }
 
 bool Crossing::bendsIn() {
-  const double off = kOff * std::max(1.0, model_.size);
+  const double off = kOff * ContactTolerance::scaleOf(model_.size);
   bool any = false;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (!active_[k]) continue;
@@ -207,7 +207,7 @@ bool Crossing::bendsIn() {
 }
 
 bool Crossing::absorb(double& first) {
-  const double off = kOff * std::max(1.0, model_.size);
+  const double off = kOff * ContactTolerance::scaleOf(model_.size);
   bool any = false;
   first = h;
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -280,7 +280,7 @@ void Crossing::take(double most) {
       constexpr double kShortest = 1e-3;  // of a crossing
       h = std::max(first, kShortest * h);
     } else if (const double deep = overlap();
-               deep > kDeep * std::max(1.0, model_.size) && deep < kEases * before) {
+               deep > kDeep * ContactTolerance::scaleOf(model_.size) && deep < kEases * before) {
       before = deep;
       touches = false;
       h *= kShorter;

@@ -20,7 +20,7 @@ constexpr double kNear = 1e-6;
 /// [m] of the pairs that are near, at the end.
 double Crossing::overlap() {
   found_.clear();
-  const double near = kNear * std::max(1.0, model_.size);
+  const double near = kNear * ContactTolerance::scaleOf(model_.size);
   for (const Pair& pair : pairs_) findContacts(model_, end_, {pair.b, pair.a}, near, found_);
   double least = 0.0;
   for (const Contact& c : found_) least = std::min(least, c.point.separation);
@@ -29,7 +29,7 @@ double Crossing::overlap() {
 
 // The least way, weighed by mass, that takes all points apart.
 void Crossing::mend() {
-  const double off = kOff * std::max(1.0, model_.size);
+  const double off = kOff * ContactTolerance::scaleOf(model_.size);
   const auto energy = [&] {
     return kineticEnergy(end_) + potentialEnergy(model_.def.gravity, model_.def.forces, end_);
   };

@@ -96,7 +96,7 @@ void Sustained::findNear(double h) {
     pair.now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
                           state_.bodies[b].pose());
     if (!pair.lasts && pair.now > pair.speed * h) continue;
-    const double slack = kOff * std::max(1.0, model_.size);
+    const double slack = kOff * ContactTolerance::scaleOf(model_.size);
     pair.floor = pair.now < tolerance_.touch ? std::min(-slack, pair.now - 0.1 * slack) : 0.0;
     near_.push_back(pair);
     if (!pair.lasts) continue;
@@ -113,7 +113,7 @@ void Sustained::findNear(double h) {
 
 // Those that have sunk below have left the face that they would have touched.
 double Sustained::lowestWatched() const {
-  const double close = kOff * std::max(1.0, model_.size);
+  const double close = kOff * ContactTolerance::scaleOf(model_.size);
   double least = std::numeric_limits<double>::infinity();
   for (Contact point : watched_) {
     follow(trial_[point.a], trial_[point.b], point);

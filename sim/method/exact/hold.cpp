@@ -124,7 +124,7 @@ double Exact::solveForces(std::vector<Contact>& resting) {
 bool Exact::steady(const Contact& c) const {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const Vec3 n = c.point.n;
-  const double size = std::max(1.0, model_.size), still = tolerance_.rest / size;
+  const double size = ContactTolerance::scaleOf(model_.size), still = tolerance_.rest / size;
   const auto turnsAlong = [&](const RigidBody& body) {  // steadily about n, or not at all
     if (body.particle) return true;
     if (body.omega.cross(n).norm() > still) return false;

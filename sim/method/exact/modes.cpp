@@ -90,7 +90,7 @@ void Sustained::chooseModes() {
 // Where two begin to slip at once, their directions depend on each other: these are left alone.
 void Sustained::markOnset() {
   Contact* begins = nullptr;
-  const double onset = kOnset * std::max(1.0, model_.size);
+  const double onset = kOnset * ContactTolerance::scaleOf(model_.size);
   for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
     Contact& c = state_.lasting[k];
     if (!c.sliding || c.idle || c.friction <= 0.0 || c.creeping || slip_[k] >= onset) continue;

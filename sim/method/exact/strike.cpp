@@ -104,7 +104,7 @@ bool Exact::collides(const Cluster& cluster) const {
 }
 
 double Exact::lowest() const {
-  return kLowest * state_.exact.pace.coarseness() * std::max(1.0, model_.size);
+  return kLowest * state_.exact.pace.coarseness() * ContactTolerance::scaleOf(model_.size);
 }
 
 // Forces that a body would carry without the contacts of this pair.

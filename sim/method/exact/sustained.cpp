@@ -87,7 +87,8 @@ void Sustained::next() {
   bool event = findEvent(h);
   allowance(h);
   // What contacts keep from one try to the next may lead a motion astray: it is cut short.
-  for (; overlap_ > kAstray * std::max(1.0, model_.size) && h > kInstant; allowance(h)) {
+  for (; overlap_ > kAstray * ContactTolerance::scaleOf(model_.size) && h > kInstant;
+       allowance(h)) {
     h *= 0.5;
     event = false;
   }
@@ -213,7 +214,7 @@ void Sustained::cross(double most) {
   before_ = system_.evaluations();
   keepPace(step.touches || state_.exact.lawless);
   state_.exact.lawless = false;
-  if (step.left > kCrushed * std::max(1.0, model_.size)) {
+  if (step.left > kCrushed * ContactTolerance::scaleOf(model_.size)) {
     report_.stopped = true;
     const auto driven = [&](const RigidBody& body) {
       return drives(model_, body, static_cast<int>(&body - state_.bodies.data()));
@@ -222,7 +223,7 @@ void Sustained::cross(double most) {
                          ? crushedAt(model_, step.worst, state_.t)
                          : crowdedAt(state_.t);
   }
-  if (!report_.stopped && step.deepest > kUnheld * std::max(1.0, model_.size)) {
+  if (!report_.stopped && step.deepest > kUnheld * ContactTolerance::scaleOf(model_.size)) {
     report_.stopped = true;
     report_.reason = unheldAt(model_, step.worst, state_.t, step.deepest);
   }
@@ -278,7 +279,7 @@ double Sustained::ambiguity(const Contact& c) const {
 double Sustained::featureAllowance() const {
   double least = kInfinity;
   std::vector<Contact> found;
-  const double close = kOff * std::max(1.0, model_.size);
+  const double close = kOff * ContactTolerance::scaleOf(model_.size);
   for (const Near& pair : near_) {
     if (!pair.lasts) continue;
     const auto ofPair = [&](const Contact& c) { return c.a == pair.a && c.b == pair.b; };

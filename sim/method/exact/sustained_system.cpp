@@ -13,20 +13,22 @@ std::span<Number> bodiesOf(std::span<Number> y, int books) {
   return y.first(y.size() - static_cast<std::size_t>(books));
 }
 
-/// One for lengths and quaternions, mass for P, the largest moment of inertia for L; for the books
-/// the mass of all.
-std::vector<double> unitsOf(std::span<const RigidBody> bodies, int books) {
+/// For quaternions one, for lengths too but where all is small, mass times that for P, the largest
+/// moment of inertia for L; for the books the mass of all, times its square: energies.
+std::vector<double> unitsOf(double size, std::span<const RigidBody> bodies, int books) {
+  const double length = std::min(1.0, ContactTolerance::scaleOf(size));
   std::vector<double> unit;
   double all = 0.0;
   for (const RigidBody& body : bodies) {
     const double mass = body.fixed() ? 1.0 : body.M;
     const double inertia = body.fixed() ? 1.0 : body.Ibody.diagonal().maxCoeff();
     if (!body.fixed()) all += mass;
-    unit.insert(unit.end(), body.particle ? 3 : 7, 1.0);
-    unit.insert(unit.end(), 3, mass);
+    unit.insert(unit.end(), 3, length);
+    if (!body.particle) unit.insert(unit.end(), 4, 1.0);
+    unit.insert(unit.end(), 3, length * mass);
     if (!body.particle) unit.insert(unit.end(), 3, inertia);
   }
-  unit.insert(unit.end(), static_cast<std::size_t>(books), all);
+  unit.insert(unit.end(), static_cast<std::size_t>(books), length * length * all);
   return unit;
 }
 
@@ -50,7 +52,7 @@ Quat turned(const Vec3& spin, const Vec3& rate, double t) {
 SustainedSystem::SustainedSystem(const Model& model, std::span<const RigidBody> bodies)
     : model_(model),
       bodies_(model.def.gravity, model.def.forces, {bodies.begin(), bodies.end()}, model.pivots),
-      unit_(unitsOf(bodies, kBooks)),
+      unit_(unitsOf(model.size, bodies, kBooks)),
       work_(bodies.begin(), bodies.end()),
       moving_(countMoving(bodies)),
       plain_(unit_.size()) {

@@ -1,5 +1,6 @@
 // What a step has to tell: impacts, contacts that begin or end to last, slip and stick.
 #include <algorithm>
+#include <limits>
 
 #include "sim/method/stepping/stepping.h"
 
@@ -14,6 +15,25 @@ bool sooner(const LastingPair& p, const LastingPair& q) {
 
 bool Stepping::arrives(const Touch& touch) const {
   return touch.contact.point.separation > tolerance_.touch;
+}
+
+/// What comes to rest at once, and would have bounced for less than a step. Of bodies that are
+/// small against what a step of free fall goes, that is much.
+void Stepping::bookLeftOut(const Touch& touch) {
+  constexpr double kMuch = 1e-2;  // of the radius of the smaller body that moves
+  const Contact& c = touch.contact;
+  const double v = c.restitution * touch.approach;
+  if (!(v > 0.0) || touch.rebounds || gravity_ == 0.0) return;
+  const double height = v * v / (2.0 * gravity_);
+  double& most = report_.certificate.max_closed_height;
+  most = std::max(most, height);
+  double size = std::numeric_limits<double>::infinity();
+  for (const int i : {c.a, c.b})
+    if (!model_.fixed(i)) size = std::min(size, model_.radius[i]);
+  if (height > kMuch * size)
+    report_.note(
+        "bounces shorter than a step were left out, and some are high for bodies so small: "
+        "a smaller stepping.step follows them");
 }
 
 /// What began as an arrival is told when it has arrived, with all that it got.
@@ -63,6 +83,7 @@ void Stepping::recordEvents(double t) {
       const bool arriving = j > 0.0 && arrives(touch);
       touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
       touch.arrivalSpeed = arriving ? touch.approach : 0.0;
+      if (arriving) bookLeftOut(touch);
     }
     if (lasting && tells) work_.lasting.push_back(lastingPair(*lasting));
   }

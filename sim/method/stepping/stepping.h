@@ -493,6 +493,7 @@ class Stepping {
   bool arrives(const Touch& touch) const;
   /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
   double landingSpeed() const;
+  void bookLeftOut(const Touch& touch);
 
   const Model& model_;
   State& state_;
