@@ -113,7 +113,7 @@ TEST_CASE("a heavy ball, a light ball and a wall count the digits of pi", "[figu
   }
 }
 
-TEST_CASE("they count five and six digits, too", "[long][figures]") {
+TEST_CASE("they count five and six digits, too", "[figures]") {
   const int expected[] = {31415, 314159};
   double mass = 1e8;
   for (const int count : expected) {
