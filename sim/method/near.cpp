@@ -1,4 +1,6 @@
 // Which bodies are near, and where they touch: the front half of every method's step.
+#include <algorithm>
+
 #include "sim/collide/collide.h"
 #include "sim/method/method.h"
 
