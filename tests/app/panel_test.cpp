@@ -1,4 +1,5 @@
 // Variants run side by side: pages of panels, and charts of errors.
+// Long: pages, charts and graphs are drawn from the scenes of one folder.
 #include <unistd.h>
 
 #include <fmt/format.h>

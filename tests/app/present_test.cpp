@@ -1,4 +1,5 @@
 // Pictures say what the recording says.
+// Long: what one presenter makes of bodies, joints, forces and labels, each by a few lines.
 #include <algorithm>
 #include <cmath>
 
