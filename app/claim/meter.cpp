@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "app/scene/findings.h"
+#include "app/scene/node.h"
 
 namespace tumble {
 
@@ -23,16 +24,6 @@ double valueOf(const CertificateField& field, const Certificate& certificate) {
 std::optional<double> settingOf(const Scene& scene, const std::string& name) {
   const auto known = scene.numbers.find(name);
   return known == scene.numbers.end() ? std::nullopt : std::optional(known->second);
-}
-
-std::vector<std::string> partsOf(const std::string& path) {
-  std::vector<std::string> parts(1);
-  for (const char letter : path)
-    if (letter == '.')
-      parts.emplace_back();
-    else
-      parts.back() += letter;
-  return parts;
 }
 
 // Whether each part of a path is near that of another: two keys of one long body are not.

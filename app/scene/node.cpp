@@ -149,4 +149,13 @@ std::string plain(std::string_view key) {
   return isName(key) ? std::string(key) : inQuotes(key);
 }
 
+std::vector<std::string> partsOf(const std::string& key) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t dot; (dot = key.find('.', begin)) != std::string::npos; begin = dot + 1)
+    parts.push_back(key.substr(begin, dot - begin));
+  parts.push_back(key.substr(begin));
+  return parts;
+}
+
 }  // namespace tumble

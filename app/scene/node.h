@@ -74,4 +74,7 @@ std::string pathOf(std::string_view kind, const Node& node, std::size_t number);
 /// A key for a message: as it stands if it is a name, else quoted.
 std::string plain(std::string_view key);
 
+/// What stands between the dots of a key.
+std::vector<std::string> partsOf(const std::string& key);
+
 }  // namespace tumble

@@ -18,21 +18,12 @@ std::optional<std::vector<double>> numbersOf(const Node& node) {
   return numbers;
 }
 
-std::vector<std::string> split(const std::string& key) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t dot; (dot = key.find('.', begin)) != std::string::npos; begin = dot + 1)
-    parts.push_back(key.substr(begin, dot - begin));
-  parts.push_back(key.substr(begin));
-  return parts;
-}
-
 // Appends one variation for each pair in the table and the tables in it.
 void collect(const Table& table, const std::vector<std::string>& above, const std::string& path,
              Findings& findings, std::vector<Variation>& variations) {
   for (const Entry& entry : table.entries) {
     std::vector<std::string> key = above;
-    for (std::string& part : split(entry.key)) key.push_back(std::move(part));
+    for (std::string& part : partsOf(entry.key)) key.push_back(std::move(part));
     const std::string name = path + "." + plain(entry.key);
     if (key.size() > kDeepest) {
       findings.complain(entry.spot, name, "no key of a body has so many parts");
