@@ -219,7 +219,7 @@ void addBending(Model& model) {
 /// Where a scene stands, and what stands far off in it, tells nothing of its contacts until
 /// rounding of places does.
 double sizeOf(const Model& model) {
-  constexpr double kFar = 1e-2, kSmall = 5e-2;  // [1], [m]
+  constexpr double kFar = 1e-2;
   double size = 0.0, way = 0.0;
   for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
     const BodyDef& body = model.def.bodies[i];
@@ -228,7 +228,7 @@ double sizeOf(const Model& model) {
     way = std::max(way, t * (body.velocity.norm() + 0.5 * t * model.def.gravity.norm()));
   }
   // Places that small bodies may fall to are rounded as those of larger ones are.
-  size = std::max(size, std::min(kSmall, kFar * way));
+  size = std::max(size, std::min(ContactTolerance::kSmall, kFar * way));
   return size > 0.0 ? size : 1.0;
 }
 

@@ -124,7 +124,6 @@ Rolling rollingOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c)
 }  // namespace
 
 double ContactTolerance::scaleOf(double size) {
-  constexpr double kSmall = 5e-2;  // [m]
   return std::max(size, std::min(1.0, size / kSmall));
 }
 

@@ -23,8 +23,10 @@ struct ContactTolerance {
   double keep = 1e-6;    ///< [m/s] |vrel| up to which a lasting contact stays lasting
   double stick = 1e-9;   ///< [m/s] slip of a sticking contact
 
+  /// [m] Worlds below this size have tolerances that shrink with it.
+  static constexpr double kSmall = 5e-2;
   /// What lengths and speeds are multiplied by, in a world of this size [m]: the size of what is
-  /// large, 1 from 5 cm to 1 m, and less where all is small.
+  /// large, 1 from kSmall to 1 m, and less where all is small.
   static double scaleOf(double size);
   static ContactTolerance forSize(double size);
 };

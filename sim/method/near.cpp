@@ -24,13 +24,14 @@ void addContacts(const Model& model, std::pair<int, int> pair, const Manifold& p
   if (points.empty()) return;
   const auto [b, a] = pair;
   const Surface surface = model.surface(a, b);
+  const double scale = std::min(1.0, ContactTolerance::scaleOf(model.size));
   for (const ContactPoint& point : points) {
     Contact& c = contacts.emplace_back();
     c.a = a;
     c.b = b;
     c.point = point;
     c.restitution = surface.restitution;
-    c.scale = std::min(1.0, ContactTolerance::scaleOf(model.size));
+    c.scale = scale;
     c.friction = surface.friction;
   }
 }
