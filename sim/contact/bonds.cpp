@@ -78,6 +78,16 @@ double bondVelocity(const Row& row, std::span<const RigidBody> bodies) {
   return u - row.linear.dot(b.v) + row.angularB.dot(b.omega);
 }
 
+double bondAcceleration(const Row& row, std::span<const RigidBody> bodies) {
+  const auto part = [&](const RigidBody& body, const Vec3& linear, const Vec3& angular) {
+    if (body.fixed()) return 0.0;
+    return linear.dot(body.invM * body.force) +
+           angular.dot(body.Iinv * (body.torque - body.omega.cross(body.L)));
+  };
+  const double a = part(bodies[row.a], row.linear, row.angularA) + row.bias;
+  return isWorld(row.b, bodies) ? a : a + part(bodies[row.b], -row.linear, row.angularB);
+}
+
 OuterBonds outerBonds(const Bonds& bonds, std::span<const RigidBody> bodies) {
   OuterBonds sum;
   for (std::size_t i = 0; i < bonds.rows.size(); ++i) {

@@ -40,6 +40,9 @@ void addBondImpulses(const Bonds& bonds, std::span<RigidBody> bodies);
 /// u of one row at the velocities that the bodies have, without bias.
 double bondVelocity(const Row& row, std::span<const RigidBody> bodies);
 
+/// Its rate under the forces and torques that the bodies carry, with the row's bias, J̇ v.
+double bondAcceleration(const Row& row, std::span<const RigidBody> bodies);
+
 /// What comes from fixed partners, of λ as they stand: force [N] or impulse on bodies that move,
 /// and its power [W] or work at the velocities that the fixed ones have.
 struct OuterBonds {

@@ -80,8 +80,11 @@ class Course {
   /// What joints gave to bodies from outside in an impact.
   void recordBonds(const Bonds& bonds);
   /// One event for each pair and normal; per contact: vrel [m/s] before, impulse [N·s] on a.
-  void recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse);
+  void recordImpacts(std::span<const Contact> contacts, std::span<const double> vrel,
+                     std::span<const Vec3> impulse);
   void settleCreep(std::span<Contact> lasting);
+  /// Gives contacts that last, but have no forces, impulses that end a slip. @return whether it did
+  bool endJam();
   void chooseLasting();
   /// The contacts that are springs now; tells when they began and ended.
   void chooseSprings();
@@ -130,6 +133,7 @@ class Course {
   CourseSystem system_;
   CourseSteppers steppers_;
   long counted_ = 0;  ///< evaluations of system_ that are in the certificate
+  int jams_ = 0;      ///< that ended at this instant
   const Plan& plan_;
   const ContactModel& contact_;
   RestForces rest_;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/collide/collide.h"
+#include "sim/contact/jam.h"
 #include "sim/joint/joint_rows.h"
 #include "sim/math/root.h"
 #include "sim/method/course/course.h"
@@ -73,6 +74,12 @@ void Course::move() {
     state_.effort.done = system_.effort.done;
     state_.trail.pop_back();
     return move();
+  }
+  // Where lasting contacts have no forces, an impulse ends a slip, and all begins anew.
+  if (system_.residual() > kNoForces && endJam()) {
+    state_.effort.done = system_.effort.done;
+    state_.trail.pop_back();
+    return;
   }
   commit(h < span ? state_.t + h : grid);
 }
@@ -193,6 +200,7 @@ void Course::commit(double t1) {
   state_.trail.back().t1 = t1;
   state_.trail.back().end = state_.bodies;
   state_.t = t1;
+  jams_ = 0;
   ++books.steps;
   books.evaluations += system_.evaluations() - counted_;
   counted_ = system_.evaluations();

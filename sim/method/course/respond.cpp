@@ -1,8 +1,9 @@
 // The events of one instant: impulses on colliding contacts, and the list of those that last.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "sim/contact/impact.h"
+#include "sim/contact/jam.h"
 #include "sim/joint/joint_bonds.h"
 #include "sim/math/rotation.h"
 #include "sim/method/course/course.h"
@@ -78,7 +79,7 @@ void Course::respond() {
                                            .tolerance = tolerance_,
                                            .bonds = &bonds});
   bookImpact(impact, report_);
-  recordImpacts(vrel, impulse);
+  recordImpacts(touching_, vrel, impulse);
   recordBonds(bonds);
 }
 
@@ -86,9 +87,10 @@ void Course::recordBonds(const Bonds& bonds) {
   if (!bonds.empty()) state_.externalImpulse += outerBonds(bonds, state_.bodies).force;
 }
 
-void Course::recordImpacts(std::span<const double> vrel, std::span<const Vec3> impulse) {
+void Course::recordImpacts(std::span<const Contact> contacts, std::span<const double> vrel,
+                           std::span<const Vec3> impulse) {
   std::pair<int, int> hit{-1, -1};
-  for (const Event& event : impactEvents(model_, state_, state_.t, touching_, vrel, impulse)) {
+  for (const Event& event : impactEvents(model_, state_, state_.t, contacts, vrel, impulse)) {
     if (wasLasting(event.a, event.b) && leansOn(event, state_.bodies, tolerance_.keep)) continue;
     report_.events.push_back(event);
     const std::pair<int, int> pair(event.a, event.b);
@@ -151,6 +153,32 @@ void Course::chooseLasting() {
   settleCreep(lasting);
   std::swap(state_.lasting, lasting);
   recordChanges(lasting, state_.lasting, state_.bodies, state_.t, report_);
+}
+
+bool Course::endJam() {
+  if (!contact_.impulses || jams_ >= kJams) return false;
+  std::vector<RigidBody> bodies = state_.bodies;
+  sumForces(model_.def.gravity, model_.def.forces, bodies);
+  Bonds bonds;
+  restBonds(bodies, model_.joints, state_.limits, std::numeric_limits<double>::infinity(), bonds);
+  std::vector<RigidBody> held = bodies;
+  std::vector<Contact> lasting = state_.lasting;
+  if (!jams(bodies, lasting) && RestForces(true).apply(held, lasting, &bonds).residual < kNoForces)
+    return false;
+
+  std::vector<double> rest(lasting.size(), 0.0);
+  std::vector<Vec3> impulse(lasting.size(), Vec3::Zero());
+  ImpulseEnergy energy;
+  const Impact impact{bodies, lasting, rest, impulse, tolerance_, &bonds};
+  if (!tumble::endJam(impact, state_.kineticMax, energy)) return false;
+  ++jams_;
+  state_.bodies = bodies;
+  report_.certificate.energy_lost_friction += energy.lost;
+  report_.certificate.work_of_forces += energy.work;
+  recordImpacts(lasting, rest, impulse);
+  recordBonds(bonds);
+  report_.note(kJamNote);
+  return true;
 }
 
 }  // namespace tumble

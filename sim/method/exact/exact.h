@@ -106,8 +106,6 @@ class Exact {
   std::vector<Contact> changeHolds(double t, const Cluster& cluster,
                                    const std::vector<Contact>& now);
   bool lasts(int i, int j) const;
-  /// Whether a contact, alone between its bodies, slides in a manner that no force goes with.
-  bool jams(const Contact& contact, const std::vector<Contact>& resting) const;
   /// Gives contacts that have no forces, or jam, impulses that end a slip. @return whether it did
   bool endJam(double t, const Cluster& cluster, const std::vector<Contact>& resting,
               double residual);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/contact/jam.h"
 #include "sim/contact/modes.h"
 #include "sim/contact/rest.h"
 #include "sim/method/exact/exact.h"
@@ -21,8 +22,6 @@ constexpr double kLeft = 100.0;
 constexpr double kSlow = 1e-4;
 /// Residual of contact forces that are no solution.
 constexpr double kLawless = 1e-6;
-/// Jams of one instant: slips that end in turns shrink from one to the next.
-constexpr int kJams = 100;
 /// Stretches before closed forms are tried again: the first time, and at most.
 constexpr int kFirst = 1, kMost = 64;
 
