@@ -184,7 +184,7 @@ bool Stepping::rests(const Island& island, double h) const {
 /// stands, where that would bring one of them to another pose: it was no motion. In a crowd it
 /// stands as soon as all of them are at rest.
 void Stepping::stand(Island& island, bool crowd, double h) const {
-  constexpr double kLeft = 10.0;  // of the residual
+  constexpr double kLeft = 100.0;  // of the residual: a jam of blocks answers with 40 times as much
   const double left = kLeft * island.memory->residual * island.memory->scale;
   const double still = crowd ? tolerance_.rest : std::min(left, tolerance_.rest);
   const auto stands = [&](int body, const Vec6& twist) {
