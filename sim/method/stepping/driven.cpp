@@ -11,6 +11,7 @@
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
 #include "sim/math/frames.h"
+#include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -120,7 +121,7 @@ void Stepping::addSprings(double h) {
 
 /// What the length of a spring gains per second squared while its ends go on as they do:
 ///   |ṗ⊥|²/l + n·(ω × (ω × r))  of one end against the other.
-double Stepping::bend(const Spring& spring, const Vec3& pa, const Vec3& pb) const {
+double Stepping::bend(const Spring& spring, const SpringEnds& at) const {
   struct Way {
     Vec3 v = Vec3::Zero(), turn = Vec3::Zero();
   };
@@ -129,46 +130,67 @@ double Stepping::bend(const Spring& spring, const Vec3& pa, const Vec3& pb) cons
     const RigidBody& body = state_.bodies[i];
     return Way{pointVelocity(body, p), body.omega.cross(body.omega.cross(p - body.x))};
   };
-  const Way a = wayOf(spring.a, pa), b = wayOf(spring.b, pb);
-  const Vec3 n = (pa - pb).normalized(), v = a.v - b.v;
-  return (v - n.dot(v) * n).squaredNorm() / (pa - pb).norm() + n.dot(a.turn - b.turn);
+  const Way a = wayOf(spring.a, at.pa), b = wayOf(spring.b, at.pb);
+  const Vec3 n = (at.pa - at.pb).normalized(), v = a.v - b.v;
+  return (v - n.dot(v) * n).squaredNorm() / (at.pa - at.pb).norm() + n.dot(a.turn - b.turn);
+}
+
+Stepping::SpringEnds Stepping::endsOf(const Spring& spring, double ahead) const {
+  const auto end = [&](int i, const Vec3& anchor_B, Vec3& x, Vec3& p) {
+    p = anchor_B;
+    if (i == kNoBody) return;
+    const RigidBody& body = state_.bodies[i];
+    Pose pose = body.pose();
+    if (ahead > 0.0) {
+      pose.x += ahead * body.v;
+      pose.q = rotated(pose.q, ahead * body.omega).normalized();
+    }
+    x = pose.x;
+    p = toWorld(pose, anchor_B);
+  };
+  SpringEnds at;
+  end(spring.a, spring.anchorA_B, at.xa, at.pa);
+  end(spring.b, spring.anchorB_B, at.xb, at.pb);
+  return at;
+}
+
+Row Stepping::springRow(const Spring& spring, const SpringEnds& at, const Vec3& d) const {
+  const int world = static_cast<int>(state_.bodies.size());
+  Row row{.a = spring.a,
+          .b = spring.b == kNoBody ? world : spring.b,
+          .linear = d,
+          .angularA = turnAbout(at.xa, at.pa, d)};
+  if (row.b != world) row.angularB = -turnAbout(at.xb, at.pb, d);
+  return row;
 }
 
 /// Along the spring, and, where it pulls, across it: tension over length is what it resists there.
 void Stepping::addSpring(const Spring& spring, bool stiff, double h) {
-  const auto end = [&](int body, const Vec3& anchor_B) {
-    return body == kNoBody ? anchor_B : toWorld(state_.bodies[body].pose(), anchor_B);
-  };
-  const int world = static_cast<int>(state_.bodies.size());
-  const Vec3 pa = end(spring.a, spring.anchorA_B), pb = end(spring.b, spring.anchorB_B);
-  const int a = spring.a, b = spring.b == kNoBody ? world : spring.b;
-  const auto row = [&](const Vec3& d) {
-    Row made{.a = a, .b = b, .linear = d, .angularA = turnAbout(state_.bodies[a].x, pa, d)};
-    if (b != world) made.angularB = -turnAbout(state_.bodies[b].x, pb, d);
-    return made;
-  };
-  const auto add = [&](const Vec3& d, const SpringLaw& law) {
+  const SpringEnds at = endsOf(spring, 0.0);
+  const auto add = [&](const Vec3& d, const SpringLaw& law, int across) {
     const int bond = static_cast<int>(work_.bonds.rows.size());
-    work_.springs.push_back({.bond = bond, .law = law, .stiff = stiff});
-    addSpringRow(row(d), law, h);
+    SpringRow made{.bond = bond, .spring = &spring, .across = across, .law = law, .stiff = stiff};
+    Row row = springRow(spring, at, d);
+    if (!setSpringRow(made, law, h, row)) return;
+    work_.springs.push_back(made);
+    work_.bonds.add(row, ConeKind::Equality, -1, 0);
   };
-  const double length = (pa - pb).norm(), stretch = length - spring.rest;
+  const double length = (at.pa - at.pb).norm(), stretch = length - spring.rest;
   if (length == 0.0) {  // no direction: it pulls alike along all, or at nothing
     if (spring.rest == 0.0)
-      for (int k = 0; k < 3; ++k) add(Vec3::Unit(k), {spring.stiffness, 0.0, 0.0});
+      for (int k = 0; k < 3; ++k) add(Vec3::Unit(k), {spring.stiffness, 0.0, 0.0}, 3);
     return;
   }
-  const Vec3 along = (pa - pb) / length;
-  add(along, {spring.stiffness, spring.damping, stretch, 0.5 * h * h * bend(spring, pa, pb)});
+  const Vec3 along = (at.pa - at.pb) / length;
+  add(along, {spring.stiffness, spring.damping, stretch, 0.5 * h * h * bend(spring, at)}, 0);
   const double across = spring.stiffness * stretch / length;
   if (across <= 0.0) return;
   const Vec3 t1 = along.unitOrthogonal(), t2 = along.cross(t1);
-  for (const Vec3& t : {t1, t2}) add(t, {across, 0.0, 0.0});
+  add(t1, {across, 0.0, 0.0}, 1);
+  add(t2, {across, 0.0, 0.0}, 2);
 }
 
-void Stepping::addSpringRow(const Row& made, const SpringLaw& law, double h) {
-  SpringRow& spring = work_.springs.back();
-  Row row = made;
+bool Stepping::setSpringRow(SpringRow& spring, const SpringLaw& law, double h, Row& row) const {
   const auto mobility = [&](int i, const Vec3& turn) {
     if (i == static_cast<int>(state_.bodies.size()) || model_.fixed(i)) return 0.0;
     return state_.bodies[i].invM + turn.dot(state_.bodies[i].Iinv * turn);
@@ -182,15 +204,51 @@ void Stepping::addSpringRow(const Row& made, const SpringLaw& law, double h) {
   spring.theta = 0.5 + 0.5 * damped;
   spring.before = rowSpeed(row, work_.before[row.a], work_.before[row.b]);
   const double yields = h * (h * law.stiffness * spring.a + law.damping * spring.theta);
-  if (yields <= 0.0) {
-    work_.springs.pop_back();
-    return;
-  }
+  if (yields <= 0.0) return false;
   const double slow = h * law.stiffness * spring.b - law.damping * (1.0 - spring.theta);
   row.compliance = 1.0 / yields;
   const double stretch = law.stretch + swift * law.bend;
   row.bias = h * (law.stiffness * stretch - slow * spring.before) / yields;
-  work_.bonds.add(row, ConeKind::Equality, -1, 0);
+  return true;
+}
+
+bool Stepping::isSprung(int body) const {
+  const int group = memory_.drives->groupOf[body];
+  if (group < 0) return false;
+  const DrivenGroup& driven = memory_.drives->groups[group];
+  return driven.plain && memory_.drives->chains[driven.chain].soft;
+}
+
+bool Stepping::isSprung(const Island& island) const {
+  bool touches = false;
+  for (const Link link : island.links) {
+    touches = touches || isPair(link);
+    if (isPair(link)) continue;
+    const SpringRow* spring = springOf(link);
+    if (!spring || spring->across > 2 || !isSprung(spring->spring->a)) return false;
+  }
+  return touches;
+}
+
+/// In a smooth step a spring is taken where its ends come to in its middle, as they go on; λ holds
+/// what differs from that: h²/4 of what its ends gain in speed.
+void Stepping::springAnew(Island& island, double h) {
+  for (const Link link : island.links) {
+    if (isPair(link)) continue;
+    SpringRow& spring = *springOf(link);
+    const SpringEnds at = endsOf(*spring.spring, island.smooth ? 0.5 * h : 0.0);
+    const double length = (at.pa - at.pb).norm();
+    const Vec3 along = (at.pa - at.pb) / length, t1 = along.unitOrthogonal();
+    SpringLaw law = spring.law;
+    if (island.smooth && spring.across == 0) {
+      law.stretch = length - spring.spring->rest;
+      law.bend = 0.0;
+    }
+    const Vec3 d = spring.across == 0 ? along : spring.across == 1 ? t1 : along.cross(t1);
+    Row& row = bondOf(link);
+    row = springRow(*spring.spring, at, d);
+    setSpringRow(spring, law, h, row);
+  }
 }
 
 /// Of soft springs, what the damper takes and what the row damps; of stiff ones, all that goes.

@@ -142,6 +142,10 @@ void prepare(const Model& model, std::span<const RigidBody> bodies, DrivenGroup&
   group.steady = std::all_of(group.forces.begin(), group.forces.end(), [](const Force& force) {
     return std::holds_alternative<UniformWind>(force) || std::holds_alternative<PointForce>(force);
   });
+  group.plain = !group.springs.empty() &&
+                std::all_of(group.others.begin(), group.others.end(), [](const Force& force) {
+                  return std::holds_alternative<UniformWind>(force);
+                });
   for (const int i : group.bodies) group.moved.push_back(bodies[i]);
   group.system = std::make_shared<DrivenSystem>(model.def.gravity, group.forces, group.moved);
   group.stepper = findIntegrator("dopri5")->make(group.system->size(), {.tolerance = kTolerance});

@@ -50,6 +50,7 @@ struct DrivenGroup {
   std::vector<Spring> springs;  ///< by bodies of the world
   std::vector<Force> stores;    ///< the same
   bool steady = false;          ///< winds and point forces alone: one body, which they turn with
+  bool plain = false;           ///< springs, and winds, alone: no field, drag or grip
   bool stiff = false;           ///< faster than a step can follow
   bool bound = false;           ///< something holds it in this step
   bool halved = false;          ///< and forces on it act in halves; else its springs are rows
@@ -75,7 +76,9 @@ struct SpringLaw {
 /// Numerical Integration, §XIII). Where it is large, a = θ = 1, b = 0: what is faster than the step
 /// is damped (implicit Euler).
 struct SpringRow {
-  int bond = 0;  ///< its row
+  int bond = 0;                    ///< its row
+  const Spring* spring = nullptr;  ///< whose it is
+  int across = 0;                  ///< 0: along the spring; 1, 2: across it; 3: it has no length
   SpringLaw law;
   double a = 0.25, b = 0.25, theta = 0.5;
   double before = 0.0;  ///< [m/s] u⁻

@@ -215,7 +215,8 @@ void Stepping::fallAsOne(Island& island, double h) {
   if (pushed) fallAsOne(island, h);
   IslandMemory& memory = memory_.islands[answer.head];
   island.memory = &memory;
-  island.smooth = pushed && foreseesSmooth(island, h);
+  const bool sprung = bonded && isSprung(island);
+  island.smooth = (pushed || sprung) && foreseesSmooth(island, h);
   if (island.smooth) gripAnew(island, h);
   const bool stretches = !bent && rests(island, h);
   memory.kept = stretches || (!bent && (keeps(island, h) || pushesAlike(island, h)));
@@ -262,7 +263,7 @@ void Stepping::fallAsOne(Island& island, double h) {
         touched || model_.bends(island.movers[i]) || isHalved(island.movers[i]);
   }
   if (bent && solves) bookWays(island, h);  // of the solids in it
-  if (!pushed) return;
+  if (!pushed && !island.smooth) return;
   if (isSmooth(island, h))
     for (const int i : island.movers) work_.smooth[i] = 1;
   else

@@ -82,6 +82,7 @@ bool Stepping::foreseesSmooth(Island& island, double h) {
     work_.after[i].tail<3>() = body.omega + part * body.Iinv * (last.L1 - last.L0);
   }
   for (const Link link : island.links) {
+    if (!isPair(link)) continue;
     for (const Touch& touch : memory_.pairs[link].touches) {
       if (!closed(touch)) continue;  // one that closes ends what is smooth
       const Contact& c = touch.contact;
@@ -100,11 +101,12 @@ bool Stepping::foreseesSmooth(Island& island, double h) {
 /// as much as they turn the other back only if bodies move with the velocities of its end.
 bool Stepping::isSmooth(const Island& island, double h) const {
   const auto moves = [&](int i) { return work_.after[i] != work_.before[i]; };
-  const auto isDrivenBody = [&](int i) { return isDriven(i) && !isGripped(i); };
+  const auto isDrivenBody = [&](int i) { return isDriven(i) && !isGripped(i) && !isSprung(i); };
   if (std::none_of(island.movers.begin(), island.movers.end(), moves) ||
       std::any_of(island.movers.begin(), island.movers.end(), isDrivenBody))
     return false;
   for (const Link link : island.links) {
+    if (!isPair(link)) continue;
     std::vector<Touch>& touches = memory_.pairs[link].touches;
     const double closes = island.follows() ? closing(touches, h) : 0.0;
     for (Touch& touch : touches) {
@@ -129,7 +131,7 @@ bool Stepping::isSmooth(const Island& island, double h) const {
 }
 
 /// Point forces turn a body as where it stands in the middle of a smooth step, in any other one as
-/// where it stands at the start.
+/// where it stands at the start; and so do springs.
 void Stepping::gripAnew(Island& island, double h) {
   for (const int i : island.movers) {
     if (!isGripped(i)) continue;
@@ -142,6 +144,7 @@ void Stepping::gripAnew(Island& island, double h) {
     body.torque = at.torque;
     work_.star[i].tail<3>() = body.Iinv * (body.L + h * body.torque);
   }
+  if (isBonded(island)) springAnew(island, h);
 }
 
 /// What lands within a step is booked in its impact.

@@ -393,8 +393,27 @@ class Stepping {
   /// Rows of the springs of bound groups.
   void addSprings(double h);
   void addSpring(const Spring& spring, bool stiff, double h);
-  double bend(const Spring& spring, const Vec3& pa, const Vec3& pb) const;
-  void addSpringRow(const Row& row, const SpringLaw& law, double h);
+  /// Where the ends of a spring and the centres of its bodies are [m].
+  struct SpringEnds {
+    Vec3 pa, pb, xa = Vec3::Zero(), xb = Vec3::Zero();
+  };
+  /// After so many seconds, as the bodies go on.
+  SpringEnds endsOf(const Spring& spring, double ahead) const;
+  double bend(const Spring& spring, const SpringEnds& at) const;
+  Row springRow(const Spring& spring, const SpringEnds& at, const Vec3& d) const;
+  /// Gives a row the law of its spring. @return whether that yields to anything
+  bool setSpringRow(SpringRow& spring, const SpringLaw& law, double h, Row& row) const;
+  /// Whether soft springs alone drive a body, beside what is constant.
+  bool isSprung(int body) const;
+  /// Whether such springs alone join the bodies of an island, beside contacts.
+  bool isSprung(const Island& island) const;
+  /// The spring of a link; null if it is a row of a joint.
+  SpringRow* springOf(Link link) const {
+    const int bond = link - static_cast<int>(state_.near.size());
+    const int first = work_.springs.empty() ? bond + 1 : work_.springs.front().bond;
+    return bond < first ? nullptr : &work_.springs[bond - first];
+  }
+  void springAnew(Island& island, double h);
   void applyDragged(int body, double h);
   double steadyPower() const;
   /// What springs and dampers take that the step treats as rows.
