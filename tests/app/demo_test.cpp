@@ -297,8 +297,8 @@ TEST_CASE("every demo writes the same trajectory twice, to its end", "[long]") {
   rerun(std::numeric_limits<double>::infinity());
 }
 
-// Oracle: definition. What rests has left its last bit alone: some blocks of this heap are jammed so
-// that velocities answer 40 times as much as the solver leaves.
+// Oracle: definition. What rests has left its last bit alone: some blocks of this heap are jammed
+// so that velocities answer 40 times as much as the solver leaves.
 TEST_CASE("the heap of pile comes to stand to the last bit") {
   Scene scene = demo("pile");
   scene.world.duration = 4.5;

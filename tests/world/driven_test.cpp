@@ -122,6 +122,23 @@ TEST_CASE("drag of any strength is the exponential") {
   }
 }
 
+// Oracle: energy. What drag brakes lands within a step, askew and flat: the way on which its weight
+// works beyond what the step gave it is booked. Measured 6.3e-9 and 4.9e-16.
+TEST_CASE("drag and landings share no energy that nothing books") {
+  for (const Vec3& axis : {Vec3(0.3, 0.2, 1.0), Vec3(0.0, 1.0, 0.0)}) {
+    WorldDef def = steps(0.6);
+    def.bodies = {ground(0.0, 0.5), box("box", {0.2, 0.3, 0.4}, {0.0, 0.6, 0.0}, 0.0, 0.5)};
+    def.bodies[1].orientation = fromAxisAngle(axis.normalized(), 0.5);
+    def.bodies[1].velocity = {1.0, -1.0, 0.3};
+    def.forces = {LinearDrag{.body = 1, .linear = 6.0, .angular = 0.05}};
+    World world(def);
+    run(world);
+    const Certificate& books = world.report().certificate;
+    CAPTURE(books.energy_balance_error, books.energy_lost_impact);
+    CHECK(books.energy_balance_error < 1e-7);
+  }
+}
+
 // Oracle: equilibrium. Under a stiff spring a box presses with m g + k s, whatever k h²/m, and
 // stays. Measured 3e-13 relative.
 TEST_CASE("a spring that presses a box on the floor adds its force to the weight") {

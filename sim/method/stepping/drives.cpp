@@ -144,7 +144,8 @@ void prepare(const Model& model, std::span<const RigidBody> bodies, DrivenGroup&
   });
   group.plain = !group.springs.empty() &&
                 std::all_of(group.others.begin(), group.others.end(), [](const Force& force) {
-                  return std::holds_alternative<UniformWind>(force);
+                  return std::holds_alternative<UniformWind>(force) ||
+                         std::holds_alternative<LinearDrag>(force);
                 });
   for (const int i : group.bodies) group.moved.push_back(bodies[i]);
   group.system = std::make_shared<DrivenSystem>(model.def.gravity, group.forces, group.moved);

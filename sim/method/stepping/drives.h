@@ -50,7 +50,7 @@ struct DrivenGroup {
   std::vector<Spring> springs;  ///< by bodies of the world
   std::vector<Force> stores;    ///< the same
   bool steady = false;          ///< winds and point forces alone: one body, which they turn with
-  bool plain = false;           ///< springs, and winds, alone: no field, drag or grip
+  bool plain = false;           ///< springs, with winds and drag: no field, no grip
   bool stiff = false;           ///< faster than a step can follow
   bool bound = false;           ///< something holds it in this step
   bool halved = false;          ///< and forces on it act in halves; else its springs are rows

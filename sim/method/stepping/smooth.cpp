@@ -101,9 +101,9 @@ bool Stepping::foreseesSmooth(Island& island, double h) {
 /// as much as they turn the other back only if bodies move with the velocities of its end.
 bool Stepping::isSmooth(const Island& island, double h) const {
   const auto moves = [&](int i) { return work_.after[i] != work_.before[i]; };
-  const auto isDrivenBody = [&](int i) { return isDriven(i) && !isGripped(i) && !isSprung(i); };
   if (std::none_of(island.movers.begin(), island.movers.end(), moves) ||
-      std::any_of(island.movers.begin(), island.movers.end(), isDrivenBody))
+      std::any_of(island.movers.begin(), island.movers.end(),
+                  [&](int i) { return isMovedByGroup(i); }))
     return false;
   for (const Link link : island.links) {
     if (!isPair(link)) continue;
@@ -167,14 +167,19 @@ void Stepping::bookLanding(Island& island, double h) const {
 void Stepping::bookWays(Island& island, double h) const {
   IslandBooks& books = island.memory->books;
   for (const int i : island.movers) {
-    if (!work_.touched[i] || work_.later[i] > 0.0 || (isDriven(i) && !isGripped(i)) ||
-        isHalved(i) || model_.bends(i))
+    if (!work_.touched[i] || work_.later[i] > 0.0 || isMovedByGroup(i) || isHalved(i) ||
+        model_.bends(i))
       continue;
     const RigidBody& body = state_.bodies[i];
     const Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);
-    const double turning = body.torque.dot(change.tail<3>());
-    books.lostImpact += body.force.dot(change.head<3>()) + turning;
-    books.work += (body.force - body.M * model_.def.gravity).dot(change.head<3>()) + turning;
+    Vec3 force = body.force, torque = body.torque;
+    if (const int drag = memory_.drives->dragOf[i]; drag >= 0) {  // has its own books
+      force += memory_.drives->drags[drag].linear * body.v;
+      torque += memory_.drives->drags[drag].angular * body.omega;
+    }
+    const double turning = torque.dot(change.tail<3>());
+    books.lostImpact += force.dot(change.head<3>()) + turning;
+    books.work += (force - body.M * model_.def.gravity).dot(change.head<3>()) + turning;
   }
 }
 

@@ -403,8 +403,12 @@ class Stepping {
   Row springRow(const Spring& spring, const SpringEnds& at, const Vec3& d) const;
   /// Gives a row the law of its spring. @return whether that yields to anything
   bool setSpringRow(SpringRow& spring, const SpringLaw& law, double h, Row& row) const;
-  /// Whether soft springs alone drive a body, beside what is constant.
+  /// Whether soft springs drive a body, and no field or point of grip.
   bool isSprung(int body) const;
+  /// Whether fields, or springs that are not soft, drive a body.
+  bool isMovedByGroup(int body) const {
+    return memory_.drives->groupOf[body] >= 0 && !isGripped(body) && !isSprung(body);
+  }
   /// Whether such springs alone join the bodies of an island, beside contacts.
   bool isSprung(const Island& island) const;
   /// The spring of a link; null if it is a row of a joint.
