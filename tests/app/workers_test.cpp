@@ -11,13 +11,8 @@ using namespace tumble;
 
 namespace {
 
-struct ThreadsInUse {
-  explicit ThreadsInUse(int count) { useThreads(count); }
-  ~ThreadsInUse() { useThreads(1); }
-};
-
 RunHashes hashesBy(int threads, const Scene& scene) {
-  const ThreadsInUse use(threads);
+  const test::ThreadsInUse use(threads);
   return test::hashesOf(scene, scene.image.rate);
 }
 

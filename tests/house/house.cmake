@@ -16,8 +16,6 @@ if(TUMBLE_APP)
                $<TARGET_FILE:tumble> golden -o ${PROJECT_BINARY_DIR}/golden)
     # By far the longest of the quick ones: begun first, it leaves no core idle at the end.
     set_tests_properties("house: every demo gives its approved images and numbers" PROPERTIES COST 100)
-    house_test("every demo has the bits of its hashes" quick 600
-               ${house}/bits.sh $<TARGET_FILE:tumble>)
   endif()
   house_test("the programs of API.md find the installed package and run" quick 600
              ${house}/consumer.sh ${PROJECT_BINARY_DIR})
