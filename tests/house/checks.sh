@@ -104,8 +104,18 @@ needs() {
   tests/stability/needs.sh "$release/tumble"
 }
 
+# A share of the subjects for each core: one process draws by one thread for most of the time.
 egl_goldens() {
-  TUMBLE_GL=egl "$release/tumble" golden -o "$root/golden"
+  local lane status=0 subjects lanes=()
+  mapfile -t subjects < <("$release/tumble" list -q && echo viewer)
+  for ((lane = 0; lane < jobs; lane++)); do
+    # shellcheck disable=SC2046 # several subjects
+    TUMBLE_GL=egl "$release/tumble" golden -o "$root/golden-$lane" \
+      $(printf '%s\n' "${subjects[@]}" | awk -v lane="$lane" -v lanes="$jobs" 'NR % lanes == lane') &
+    lanes+=($!)
+  done
+  for lane in "${lanes[@]}"; do wait "$lane" || status=1; done
+  return $status
 }
 
 # The page of a run, played by a browser if there is one.
