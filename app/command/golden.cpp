@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -102,7 +103,6 @@ struct Shelf {
   Holding holding;
   Manifest manifest;
   std::string out;
-  std::map<std::string, int> renewals = {};  ///< by --update: how many are "new", "changed", …
 };
 
 Shelf ownShelf(const Options& options) {
@@ -136,17 +136,17 @@ std::vector<Shelf> shelvesOf(const Options& options, const std::vector<Subject>&
   return shelves;
 }
 
-void print(const std::vector<Finding>& findings, bool failuresAlone) {
+void print(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings)
-    if (!finding.passes() || !failuresAlone)
+    if (!finding.passes() || !quiet())
       fmt::print("{:<5} {:<20} {:<12} {}\n", finding.passes() ? "ok" : "FAIL", finding.subject,
                  finding.name, finding.verdict());
 }
 
-void print(const std::string& subject, const std::vector<Renewal>& renewals) {
+void print(const std::vector<Renewal>& renewals) {
   if (quiet()) return;
   for (const Renewal& one : renewals)
-    fmt::print("{:<7} {:<20} {:<12} {}\n", one.word, subject, one.name, one.how);
+    fmt::print("{:<7} {:<20} {:<12} {}\n", one.word, one.subject, one.name, one.how);
 }
 
 std::string drawnBy(const Manifest& manifest) {
@@ -154,19 +154,23 @@ std::string drawnBy(const Manifest& manifest) {
                      manifest.glVersion);
 }
 
-// Holds a subject against the goldens of a folder, after it has replaced them if that is asked for.
-void hold(Shelf& shelf, const Golden& now, const Options& options, const Context& context) {
-  if (options.update) {
-    const std::vector<Renewal> renewals = storeGolden(now, shelf.manifest, shelf.holding.folder);
-    for (const Renewal& one : renewals) ++shelf.renewals[one.word];
-    if (!options.json) print(now.subject, renewals);
-    Manifest entry{context.renderer(), context.version(), TUMBLE_VERSION, {}};
-    entry.images[now.subject] = shelf.manifest.images[now.subject];
-    enterInManifest(shelf.holding.folder, entry);
-  }
+// Replaces the goldens of a subject in a folder by what is drawn now.
+std::vector<Finding> update(Shelf& shelf, const Golden& now, bool json, const Context& context) {
+  Holding& holding = shelf.holding;
+  const std::vector<Renewal> renewals = storeGolden(now, shelf.manifest, holding.folder);
+  if (!json) print(renewals);
+  holding.renewals.insert(holding.renewals.end(), renewals.begin(), renewals.end());
+  Manifest entry{context.renderer(), context.version(), TUMBLE_VERSION, {}};
+  entry.images[now.subject] = shelf.manifest.images[now.subject];
+  enterInManifest(holding.folder, entry);
+  return findingsOfStored(now);
+}
+
+// Holds a subject against the goldens of a folder.
+std::vector<Finding> hold(const Shelf& shelf, const Golden& now, bool json) {
   const std::vector<Finding> found = compareGolden(now, shelf.manifest, shelf.holding.folder);
-  if (!options.json) print(found, quiet() || options.update);
-  shelf.holding.findings.insert(shelf.holding.findings.end(), found.begin(), found.end());
+  if (!json) print(found);
+  return found;
 }
 
 // Leaves what was drawn where it can be looked at, and takes away what an earlier failure left.
@@ -183,11 +187,13 @@ void leaveActual(const Finding& finding, const std::string& folder) {
 }
 
 // "2 new, 1 changed, 3 ok".
-std::string told(const std::map<std::string, int>& renewals) {
+std::string told(const std::vector<Renewal>& renewals) {
   std::string text;
-  for (const char* word : {"new", "changed", "gone", "ok"})
-    if (const auto count = renewals.find(word); count != renewals.end())
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count->second, word);
+  for (const char* word : {"new", "changed", "gone", "ok"}) {
+    const auto count = std::count_if(renewals.begin(), renewals.end(),
+                                     [&](const Renewal& one) { return one.word == word; });
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word);
+  }
   return text;
 }
 
@@ -196,11 +202,11 @@ int conclude(const Shelf& shelf, bool json) {
   const Holding& holding = shelf.holding;
   const auto total = static_cast<long>(holding.findings.size());
   const std::string where = holding.scenes.empty() ? "" : holding.folder + ": ";
-  if (!json && shelf.renewals.empty())
+  if (!json && holding.renewals.empty())
     fmt::print("{}{} goldens: {} pass, {} equal to the last bit\n", where, total, holding.passing(),
                holding.exact());
   else if (!json)
-    fmt::print("{}{} goldens: {}\n", where, total, told(shelf.renewals));
+    fmt::print("{}{} goldens: {}\n", where, total, told(holding.renewals));
   if (!json && holding.exact() < total && holding.expectedBy != holding.actualBy)
     fmt::print("{}\n", holding.environment());
   for (const Finding& finding : holding.findings) leaveActual(finding, shelf.out);
@@ -244,7 +250,11 @@ int golden(int argc, char** argv) {
   for (const Subject& subject : subjects) {
     const Golden now =
         subject.scene ? drawGolden(*subject.scene, renderer) : drawGolden(subject.name, renderer);
-    for (Shelf& shelf : shelves) hold(shelf, now, options, *context);
+    for (Shelf& shelf : shelves) {
+      std::vector<Finding> found = options.update ? update(shelf, now, options.json, *context)
+                                                  : hold(shelf, now, options.json);
+      std::move(found.begin(), found.end(), std::back_inserter(shelf.holding.findings));
+    }
   }
 
   int code = kOk;

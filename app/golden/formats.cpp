@@ -59,6 +59,13 @@ nlohmann::ordered_json jsonOf(const Finding& finding) {
   return json;
 }
 
+nlohmann::ordered_json jsonOf(const Renewal& renewal) {
+  return {{"subject", renewal.subject},
+          {"name", renewal.name},
+          {"word", renewal.word},
+          {"how", renewal.how}};
+}
+
 }  // namespace
 
 std::string goldenJson(const std::vector<Holding>& holdings) {
@@ -73,6 +80,8 @@ std::string goldenJson(const std::vector<Holding>& holdings) {
     folders.push_back({{"folder", holding.folder},
                        {"environment", holding.environment()},
                        {"findings", std::move(findings)}});
+    for (const Renewal& renewal : holding.renewals)
+      folders.back()["updates"].push_back(jsonOf(renewal));
   }
   const nlohmann::ordered_json json = {
       {"goldens", total}, {"pass", passing}, {"exact", exact}, {"folders", std::move(folders)}};

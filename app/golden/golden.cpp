@@ -136,9 +136,8 @@ namespace {
 
 // What a finding about what stands there says of what takes its place.
 Renewal renewal(const Finding& before, bool stood) {
-  if (!stood) return {before.name, "new", ""};
-  if (before.exact()) return {before.name, "ok", before.verdict()};
-  return {before.name, "changed", before.verdict()};
+  if (!stood) return {before.subject, before.name, "new", ""};
+  return {before.subject, before.name, before.exact() ? "ok" : "changed", before.verdict()};
 }
 
 Renewal store(const Golden& now, const NamedImage& drawn, Manifest& manifest,
@@ -176,10 +175,27 @@ std::vector<Renewal> storeGolden(const Golden& now, Manifest& manifest, const st
   std::erase_if(manifest.images[now.subject], [&](const auto& entry) {
     if (has(now, entry.first)) return false;
     fs::remove(place / (entry.first + ".png"));
-    renewals.push_back({entry.first, "gone", "no longer drawn"});
+    renewals.push_back({now.subject, entry.first, "gone", "no longer drawn"});
     return true;
   });
   return renewals;
+}
+
+std::vector<Finding> findingsOfStored(const Golden& now) {
+  std::vector<Finding> findings;
+  for (const NamedImage& drawn : now.images)
+    findings.push_back({.subject = now.subject,
+                        .name = drawn.name,
+                        .expected = drawn.image,
+                        .actual = drawn.image,
+                        .image = {.exact = true}});
+  for (const NamedTable& table : now.tables)
+    findings.push_back({.subject = now.subject,
+                        .name = table.name,
+                        .numbers = NumberDifference{},
+                        .expectedCsv = table.csv,
+                        .actualCsv = table.csv});
+  return findings;
 }
 
 std::vector<NamedImage> distinctImages(std::vector<NamedImage> candidates) {

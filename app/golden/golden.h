@@ -46,11 +46,19 @@ struct Finding {
   std::string verdict() const;
 };
 
+/// What became of one golden that was stored.
+struct Renewal {
+  std::string subject, name;
+  std::string word;  ///< "new", "changed", "gone", or "ok" if it stood there to the last bit
+  std::string how;   ///< how it is the same, or how far off what stood there was; nothing if new
+};
+
 /// What came of comparing subjects with the goldens of one folder.
 struct Holding {
   std::string folder;
   std::string approve;  ///< the command that accepts what is drawn now, but for the subjects
   std::vector<Finding> findings;
+  std::vector<Renewal> renewals = {};              ///< by an update
   std::map<std::string, std::string> scenes = {};  ///< subject → its name in a shell, if another
   std::string expectedBy = {}, actualBy = {};      ///< programs that drew the images
   long passing() const;
@@ -68,16 +76,12 @@ struct Holding {
 std::vector<Finding> compareGolden(const Golden& now, const Manifest& manifest,
                                    const std::string& folder);
 
-/// What became of one golden that was stored.
-struct Renewal {
-  std::string name;
-  std::string word;  ///< "new", "changed", "gone", or "ok" if it stood there to the last bit
-  std::string how;   ///< how it is the same, or how far off what stood there was; nothing if new
-};
-
 /// Puts a subject's images and numbers into the folder, enters them in the manifest, and removes
 /// images that are no longer drawn. @throws FileError
 std::vector<Renewal> storeGolden(const Golden& now, Manifest& manifest, const std::string& folder);
+
+/// What compareGolden finds once the subject has been stored: all of it, equal to the last bit.
+std::vector<Finding> findingsOfStored(const Golden& now);
 
 /// Images from the candidates that show something new: each fails against all that are kept before
 /// it.

@@ -114,6 +114,25 @@ TEST_CASE("an update says what is new, changed, gone, and as it was") {
   CHECK(allPass(compareGolden(now, manifest, folder)));
 }
 
+TEST_CASE("what an update says is found is what is read again") {
+  const Scratch scratch;
+  Manifest manifest;
+  Golden now = sample();
+  now.tables = {{"more", "t,y\n0,1\n"}};
+  storeGolden(now, manifest, scratch.path.string());
+  const auto said = findingsOfStored(now);
+  const auto read = compareGolden(now, manifest, scratch.path.string());
+  REQUIRE(said.size() == read.size());
+  for (std::size_t k = 0; k < said.size(); ++k) {
+    CHECK(said[k].exact());
+    CHECK(said[k].passes());
+    CHECK(said[k].subject == read[k].subject);
+    CHECK(said[k].name == read[k].name);
+    CHECK(said[k].verdict() == read[k].verdict());
+    CHECK(said[k].numbers.has_value() == read[k].numbers.has_value());
+  }
+}
+
 TEST_CASE("only images that show something new are kept") {
   const auto kept = distinctImages({{"a", plain(10)}, {"b", plain(10)}, {"c", plain(200)}});
   REQUIRE(kept.size() == 2);
@@ -156,6 +175,17 @@ TEST_CASE("what programs read counts what passes and quotes what people wrote") 
   CHECK(json["goldens"] == 4);
   CHECK(json["pass"] == 1);
   CHECK(json["folders"][0]["findings"][0]["subject"] == "a \"drop\" & <more>");
+  CHECK_FALSE(json["folders"][0].contains("updates"));
+
+  holding.renewals = {{"drop", "start", "changed", "the sizes differ"},
+                      {"drop", "end", "gone", ""}};
+  const auto updates = nlohmann::json::parse(goldenJson({holding}))["folders"][0]["updates"];
+  REQUIRE(updates.size() == 2);
+  CHECK(updates[0]["subject"] == "drop");
+  CHECK(updates[0]["name"] == "start");
+  CHECK(updates[0]["word"] == "changed");
+  CHECK(updates[0]["how"] == "the sizes differ");
+  CHECK(updates[1]["word"] == "gone");
 }
 
 TEST_CASE("base64 agrees with the examples of RFC 4648, section 10") {

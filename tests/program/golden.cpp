@@ -51,6 +51,9 @@ TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of 
   CHECK(holds(first.out, "kept: 5 goldens: 5 new\n"));
   CHECK(holds(tumbleRun(scratch, "golden --folder kept --update mine.toml").out,
               "kept: 5 goldens: 5 ok\n"));
+  const std::string told = tumbleRun(scratch, "golden --folder kept --update --json mine.toml").out;
+  CHECK(holds(told, "\"word\": \"ok\""));
+  CHECK_FALSE(holds(told, "\"word\": \"new\""));
   CHECK(std::filesystem::exists(scratch / "kept/mine/start.png"));
   CHECK(std::filesystem::exists(scratch / "kept/mine/numbers.csv"));
 
