@@ -19,8 +19,10 @@ Verdict judge(const Scene& scene, const Recording& recording) {
   for (const Disagreement& d : recording.report.disagreements)
     verdict.rows.push_back(
         {"audit: " + std::string(d.what), d.found, d.stated, d.found - d.stated, d.allowed});
-  for (Expectation& one : expectationsOf(ran, recording))
+  for (Expectation& one : expectationsOf(ran, recording)) {
     verdict.rows.push_back(std::move(one.row));
+    verdict.expects.push_back(one.index);
+  }
   for (const ClaimRow& row : verdict.rows) {
     if (!row.holds()) ++verdict.failed;
     double share = row.error / row.allowed;

@@ -10,7 +10,8 @@ namespace tumble {
 
 struct Verdict {
   std::vector<ClaimRow> rows;
-  int failed = 0;           ///< rows that do not hold
+  std::vector<std::size_t> expects;  ///< the last rows are of these of the scene's [[expect]]
+  int failed = 0;                    ///< rows that do not hold
   std::string worst;        ///< label of the row nearest to, or furthest beyond, what is allowed
   double worstShare = 0.0;  ///< its error / allowed
 };

@@ -43,11 +43,14 @@ std::string csvHeader(const Scene& scene) {
 
 // Measured and expected of each [[expect]] of the scene that is swept; two empty cells for one that
 // the run does not measure.
-std::string expectCells(std::size_t count, const VariantRun& run) {
+std::string expectCells(std::size_t count, const Verdict& verdict) {
   std::vector<std::string> cells(count, ",,");
-  for (const Expectation& one : expectationsOf(asRun(run.scene, run.recording), run.recording))
-    if (one.index < count)
-      cells[one.index] = fmt::format(",{:.17g},{:.17g}", one.row.measured, one.row.exact);
+  const std::size_t first = verdict.rows.size() - verdict.expects.size();
+  for (std::size_t k = 0; k < verdict.expects.size(); ++k) {
+    const ClaimRow& row = verdict.rows[first + k];
+    if (verdict.expects[k] < count)
+      cells[verdict.expects[k]] = fmt::format(",{:.17g},{:.17g}", row.measured, row.exact);
+  }
   return fmt::format("{}", fmt::join(cells, ""));
 }
 
@@ -65,7 +68,7 @@ std::string csvRow(const Scene& scene, std::size_t k, const VariantRun& run,
   row += fmt::format("{:.17g},{},{},{},{},{:.17g}", run.recording.cpuSeconds,
                      report.stopped ? 1 : 0, verdict.rows.size(), verdict.failed,
                      csvQuoted(verdict.worst), verdict.worstShare);
-  return row + expectCells(scene.expects.size(), run) + "\n";
+  return row + expectCells(scene.expects.size(), verdict) + "\n";
 }
 
 std::string findingOf(const Recording& recording, const Verdict& verdict) {
