@@ -111,9 +111,10 @@ bool straight(const std::vector<Vector2d>& points, std::size_t from, std::size_t
   return true;
 }
 
-/// What a stroke can show of many points [px]: the first, the last, and of those between that
-/// follow each other in a column as wide as the stroke the lowest and the highest, in their order.
-/// A curve that goes on to the right keeps at most one for each pixel across, and every peak.
+/// What strokes or marks can show of many points [px]: the first, the last, and of those between
+/// that follow each other in a column as wide as a stroke the lowest and the highest, in their
+/// order. A curve that goes on to the right keeps at most one for each pixel across, and every
+/// peak.
 std::vector<Vector2d> thinned(const std::vector<Vector2d>& points) {
   const auto column = [&](std::size_t i) { return std::floor(points[i].x() / kStroke); };
   std::vector<Vector2d> kept = {points.front()};
@@ -251,38 +252,36 @@ class Plot {
   bool holds(const Vector2d& point) const { return x_.holds(point.x()) && y_.holds(point.y()); }
   Vector2d at(const Vector2d& point) const { return {x_.at(point.x()), y_.at(point.y())}; }
 
-  // Each stretch of points that have a place on the axes.
-  void drawLine(const ChartCurve& curve) {
-    std::vector<Vector2d> stretch;  // [px]
-    for (const Vector2d& point : curve.points) {
-      if (holds(point)) {
-        stretch.push_back(at(point));
-      } else {
-        drawStretch(stretch, curve.colour);
-        stretch.clear();
-      }
-    }
-    drawStretch(stretch, curve.colour);
+  // Each stretch of points that have a place on the axes [px], without those that nobody could see.
+  std::vector<std::vector<Vector2d>> stretchesOf(const ChartCurve& curve) const {
+    std::vector<std::vector<Vector2d>> stretches(1);
+    for (const Vector2d& point : curve.points)
+      if (holds(point))
+        stretches.back().push_back(at(point));
+      else if (!stretches.back().empty())
+        stretches.emplace_back();
+    for (std::vector<Vector2d>& stretch : stretches)
+      if (static_cast<double>(stretch.size()) > right_ - left_) stretch = thinned(stretch);
+    return stretches;
   }
 
   // Where it is straight, one stroke: many would show their ends as beads.
-  void drawStretch(const std::vector<Vector2d>& all, const Colour& colour) {
-    const std::vector<Vector2d> points =
-        static_cast<double>(all.size()) > right_ - left_ ? thinned(all) : all;
-    for (std::size_t from = 0; from + 1 < points.size();) {
-      std::size_t to = from + 1;
-      while (to < points.size() && straight(points, from, to)) ++to;
-      --to;
-      canvas_.stroke(points[from], points[to], kStroke, colour);
-      from = to;
-    }
+  void drawLine(const ChartCurve& curve) {
+    for (const std::vector<Vector2d>& points : stretchesOf(curve))
+      for (std::size_t from = 0; from + 1 < points.size();) {
+        std::size_t to = from + 1;
+        while (to < points.size() && straight(points, from, to)) ++to;
+        --to;
+        canvas_.stroke(points[from], points[to], kStroke, curve.colour);
+        from = to;
+      }
   }
 
   void drawMarks(std::size_t index) {
     const ChartCurve& curve = chart_.curves[index];
     if (!curve.marked) return;
-    for (const Vector2d& point : curve.points)
-      if (holds(point)) drawMark(index, at(point), curve.colour, canvas_);
+    for (const std::vector<Vector2d>& points : stretchesOf(curve))
+      for (const Vector2d& point : points) drawMark(index, point, curve.colour, canvas_);
   }
 
   void drawLegend() {
