@@ -12,6 +12,31 @@ constexpr std::size_t kMostComplaints = 100;
 constexpr std::size_t kMostListed = 32;   // names in a hint
 constexpr std::size_t kLongestWord = 64;  // a slip of the finger happens in shorter words
 
+// What people say and what a scene calls it.
+struct Everyday {
+  std::string_view said, name;
+};
+constexpr Everyday kEveryday[] = {{"ball", "sphere"},
+                                  {"cube", "box"},
+                                  {"cuboid", "box"},
+                                  {"brick", "box"},
+                                  {"block", "box"},
+                                  {"tube", "cylinder"},
+                                  {"disc", "cylinder"},
+                                  {"disk", "cylinder"},
+                                  {"pill", "capsule"},
+                                  {"egg", "ellipsoid"},
+                                  {"floor", "plane"},
+                                  {"ground", "plane"},
+                                  {"half_space", "plane"},
+                                  {"wall", "plane"},
+                                  {"weight", "mass"},
+                                  {"bounce", "restitution"},
+                                  {"rotation", "orientation"},
+                                  {"speed", "velocity"},
+                                  {"spin", "angular_velocity"},
+                                  {"static", "fixed"}};
+
 int slips(std::string_view a, std::string_view b) {
   // Three rows of the table of distances between prefixes: a swap looks two rows back.
   std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -48,6 +73,10 @@ void Findings::raise() {
 
 std::string nearestName(std::string_view word, const std::vector<std::string>& names) {
   if (word.size() > kLongestWord) return "";
+  for (const Everyday& everyday : kEveryday)
+    if (word == everyday.said &&
+        std::find(names.begin(), names.end(), everyday.name) != names.end())
+      return std::string(everyday.name);
   // One slip in a word of one letter leaves nothing of it: any other would be as near.
   const int letters = static_cast<int>(word.size());
   int fewest = (letters < 2 ? 0 : std::max(1, letters / 3)) + 1;

@@ -39,7 +39,8 @@ class Findings {
   std::map<std::string, Place> places_;
 };
 
-/// The name at the fewest slips (insertion, deletion, replacement, swap of neighbours: optimal
+/// The name that the word is an everyday one for ("ball", a sphere); else
+/// the name at the fewest slips (insertion, deletion, replacement, swap of neighbours: optimal
 /// string alignment after Damerau and Levenshtein) from the word, if these are at most a third of
 /// its length (one, in two letters), or the only one that the word begins; else "".
 std::string nearestName(std::string_view word, const std::vector<std::string>& names);

@@ -32,6 +32,23 @@ std::string told(const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("an everyday name of a shape or a key is answered by the one that is valid") {
+  const auto [said, name] = GENERATE(table<const char*, const char*>({{"ball", "sphere"},
+                                                                      {"cube", "box"},
+                                                                      {"pill", "capsule"},
+                                                                      {"tube", "cylinder"},
+                                                                      {"egg", "ellipsoid"},
+                                                                      {"ground", "plane"},
+                                                                      {"half_space", "plane"}}));
+  const std::string line =
+      told(std::string("[world]\n[[body]]\nmass = 1\nshape = { ") + said + " = 0.1 }\n");
+  CHECK(line.starts_with("s.toml:4:11: error: body.0.shape." + std::string(said) +
+                         ": unknown key, did you mean '" + name + "'? Valid: "));
+  CHECK(told(kStart + "weight = 1\n").find("did you mean 'mass'?") != std::string::npos);
+  // Where nothing is called so, nothing is said of it.
+  CHECK(told(kStart + "mass = 1\nball = 1\n").find("did you mean") == std::string::npos);
+}
+
 TEST_CASE("whoever misspells what a body weighs is not told that it weighs nothing") {
   struct Slip {
     std::string text, says;
