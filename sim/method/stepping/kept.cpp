@@ -201,7 +201,7 @@ void Stepping::stand(Island& island, bool crowd, double h) const {
   island.memory->books.external.setZero();
   for (IslandMemory::Mover& mover : island.memory->movers) {
     mover.v.setZero();
-    island.memory->books.external -= state_.bodies[mover.body].M * mover.vStar.head<3>();
+    island.memory->books.external -= massOnWay(mover.body) * mover.vStar.head<3>();
   }
 }
 
@@ -221,7 +221,7 @@ void Stepping::stretch(Island& island, double h) {
     island.memory->movers[i].vStar = work_.star[island.movers[i]];
     island.memory->movers[i].v = work_.before[island.movers[i]];
     island.memory->books.external +=
-        state_.bodies[island.movers[i]].M *
+        massOnWay(island.movers[i]) *
         (island.memory->movers[i].v - island.memory->movers[i].vStar).head<3>();
   }
 }

@@ -419,6 +419,13 @@ class Stepping {
   }
   void springAnew(Island& island, double h);
   void applyDragged(int body, double h);
+  /// Mass [kg] that an impulse meets in a step: more than the body's where drag brakes it on the
+  /// way.
+  double massOnWay(int body) const {
+    const int drag = isHalved(body) ? -1 : memory_.drives->dragOf[body];
+    const double M = state_.bodies[body].M;
+    return drag < 0 ? M : M / work_.drags[drag].way.mean;
+  }
   double steadyPower() const;
   /// What springs and dampers take that the step treats as rows.
   void bookSprings(double h);
