@@ -35,10 +35,12 @@ void readInertiaMethod(Section& section, BodyDef& def) {
   section.read("samples", def.samples, 1, kMostSamples);
 }
 
-// The shape with its origin at the centre of mass.
-void centre(Section& section, BodyDef& def) {
+// The shape with its origin at the centre of mass, and the body where that is.
+void centre(Section& section, const std::optional<Vec3>& origin, BodyDef& def) {
   try {
+    const Vec3 zero = originOf(def.shape);
     def.shape = centredShape(def);
+    if (origin) def.position = *origin + def.orientation * Vec3(originOf(def.shape) - zero);
   } catch (const std::invalid_argument& reason) {
     section.complain("samples", reason.what());
   }
@@ -96,6 +98,22 @@ void readKick(Section& section, BodyDef& def) {
   def.angularVelocity = body.omega;
 }
 
+// Where [0, 0, 0] of the frame stands that a hull, a mesh or a compound is given in.
+std::optional<Vec3> readOrigin(Section& section) {
+  Vec3 origin = Vec3::Zero();
+  section.read("origin", origin, any("m"));
+  if (!section.find("origin")) return {};
+  if (section.find("position")) section.complain("origin", "position is given too; keep one");
+  return origin;
+}
+
+void checkOrigin(Section& section, const Shape& shape) {
+  if (section.find("origin") && !hasOwnFrame(shape))
+    section.complain("origin",
+                     "only a hull, a mesh or a compound has coordinates of its own; a position "
+                     "says where this body stands");
+}
+
 // A half-space is fixed and stands where its n and d say.
 void checkPlane(Section& section, BodyDef& def) {
   if (section.find("fixed") && !def.fixed) section.complain("fixed", "a plane is always fixed");
@@ -150,16 +168,18 @@ BodyEntry readBody(Section& section, const std::string& name, const Materials& m
   readMass(section, def);
   readInertiaMethod(section, def);
   readMotion(section, def);
+  const std::optional<Vec3> origin = readOrigin(section);
   const std::optional<Shape> shape = readShape(section);
   section.find("kick");
   section.finish();
   if (!shape) return entry;
   def.shape = *shape;
+  checkOrigin(section, def.shape);
   if (std::get_if<HalfSpace>(&def.shape)) checkPlane(section, def);
   if (std::get_if<Particle>(&def.shape)) checkParticle(section);
   // A key that is misspelt or wrong may be the very one that seems to be missing.
   if (section.good() && surface.sound) requireMass(section, def);
-  if (section.good()) centre(section, def);
+  if (section.good()) centre(section, origin, def);
   readKick(section, def);
   return entry;
 }

@@ -59,7 +59,7 @@ Generator makeFountain(Section& array, Weather& weather) {
   double sine = 0.0;
   sinCos(spread * (std::numbers::pi / 180.0), sine, fountain.cosine);
   const auto place = [fountain](int, BodyDef& copy) mutable { return fountain.place(copy); };
-  return {count, place, {"position", "velocity"}};
+  return {count, place, {"position", "origin", "velocity"}};
 }
 
 }  // namespace tumble

@@ -57,7 +57,7 @@ Generator makeTower(Section& array, Weather&) {
     height += 2.0 * reach;
     return "";
   };
-  return {count, place, {"position"}};
+  return {count, place, {"position", "origin"}};
 }
 
 }  // namespace tumble

@@ -18,7 +18,8 @@ class MeshError : public std::runtime_error {
 /// A mesh, and where its faces stand in its file.
 struct MeshFile {
   std::shared_ptr<const Polyhedron> solid;
-  std::vector<int> lines;  ///< per face of the solid: the line, from 1, on which it begins
+  std::vector<int> lines;     ///< per face of the solid: the line, from 1, on which it begins
+  Vec3 first = Vec3::Zero();  ///< [m] the file's first point, which all of the solid's are less
 
   /// ":12", the line of a face; "" for −1.
   std::string lineOf(int face) const;

@@ -56,7 +56,7 @@ Generator makeRain(Section& array, Weather& weather) {
   if ((rain.lo.array() > rain.hi.array()).any())
     array.complain("hi", "expected no coordinate below that of lo");
   const auto place = [rain](int i, BodyDef& copy) mutable { return rain.place(i, copy); };
-  return {count, place, {"position", "orientation"}};
+  return {count, place, {"position", "origin", "orientation"}};
 }
 
 }  // namespace tumble

@@ -100,7 +100,7 @@ std::optional<Shape> readMeshFile(Section& shape) {
   MeshFile file;
   try {
     file = readMesh(meshPath(name, shape.findings().file()));
-    Mesh mesh{file.solid};
+    Mesh mesh{file.solid, -file.first};
     mesh.pieces = storedPieces(*mesh.solid, kind, tolerance * sizeOf(*mesh.solid), name);
     return mesh;
   } catch (const MeshError& reason) {

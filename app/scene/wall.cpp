@@ -54,7 +54,7 @@ Generator makeWall(Section& array, Weather&) {
   const auto place = [wall](int, BodyDef& copy) mutable { return wall.place(copy); };
   return {static_cast<int>(std::min<long>(count, kMostCopies)),
           place,
-          {"position", "orientation", "inertia"}};
+          {"position", "origin", "orientation", "inertia"}};
 }
 
 }  // namespace tumble

@@ -64,10 +64,7 @@ MassProperties massOf(const BodyDef& body) {
 }
 
 Shape centredShape(const BodyDef& body) {
-  const bool anywhere = std::holds_alternative<Hull>(body.shape) ||
-                        std::holds_alternative<Mesh>(body.shape) ||
-                        std::holds_alternative<Compound>(body.shape);
-  if (!anywhere) return body.shape;
+  if (!hasOwnFrame(body.shape)) return body.shape;
   return withOrigin(body.shape, methodOf(body).weigh(body.shape, 1.0, body.samples, 0).centre);
 }
 

@@ -202,6 +202,11 @@ double boundingRadius(const Shape& shape) {
   return std::visit([](const auto& s) { return radius(s); }, shape);
 }
 
+bool hasOwnFrame(const Shape& shape) {
+  return std::holds_alternative<Hull>(shape) || std::holds_alternative<Mesh>(shape) ||
+         std::holds_alternative<Compound>(shape);
+}
+
 Shape withOrigin(Shape shape, const Vec3& origin) {
   if (Hull* hull = std::get_if<Hull>(&shape)) hull->origin = origin;
   if (Mesh* mesh = std::get_if<Mesh>(&shape)) mesh->origin = origin;

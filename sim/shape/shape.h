@@ -97,8 +97,12 @@ struct Aabb {
 /// "ellipsoid".
 std::string_view shapeName(const Shape& shape);
 
-/// The shape with its body origin at a point [m] of the frame in which it was given; others than
-/// hulls, meshes and compounds are symmetric about their origin and stay as they are.
+/// Whether it is a hull, a mesh or a compound, which are given in a frame that may begin anywhere;
+/// others are symmetric about the body origin.
+bool hasOwnFrame(const Shape& shape);
+
+/// The shape with its body origin at a point [m] of the frame in which it was given; one without
+/// such a frame stays as it is.
 Shape withOrigin(Shape shape, const Vec3& origin);
 
 /// The body origin [m] in the frame in which the shape was given.

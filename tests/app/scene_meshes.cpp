@@ -111,6 +111,30 @@ TEST_CASE("a hull stands on its centre of mass, and as a part where its points s
              "parts 1 and 2 of \"b\" overlap"));
 }
 
+// Oracle: the corners that the file and the scene list, turned by hand.
+TEST_CASE("origin puts the coordinates of a mesh, a hull or a compound where it says") {
+  const auto box = [](const BodyDef& def) {
+    return boundingBox(def.shape, Pose{def.position, def.orientation});
+  };
+  const std::string hull =
+      "shape = { hull = [[3,0,0],[5,0,0],[3,1,0],[5,1,0],[3,0,4],[5,0,4],"
+      "[3,1,4],[5,1,4]] }\n";
+  const Aabb asGiven = box(read(hull + "origin = [0, 0, 0]"));
+  CHECK((asGiven.lo - Vec3(3, 0, 0)).norm() + (asGiven.hi - Vec3(5, 1, 4)).norm() < 1e-14);
+  const Aabb turned =
+      box(read(hull + "origin = [10, 0, 0]\norientation = { axis = [0, 1, 0], degrees = 90 }"));
+  CHECK((turned.lo - Vec3(10, 0, -5)).norm() + (turned.hi - Vec3(14, 1, -3)).norm() < 1e-13);
+  const Aabb ell = box(read(std::string(kEll) + "\norigin = [-10, 0, 0]"));
+  CHECK((ell.lo - Vec3(0, 0, 0)).norm() + (ell.hi - Vec3(2, 2, 1)).norm() < 1e-13);
+  const Aabb mesh = box(read("shape = { mesh = \"ell.obj\" }\norigin = [1, 2, 3]"));
+  CHECK((mesh.lo - Vec3(1, 2, 2.5)).norm() + (mesh.hi - Vec3(3, 4, 3.5)).norm() < 1e-13);
+
+  CHECK(says(refusalOf(hull + "origin = [0, 0, 0]\nposition = [0, 0, 0]"),
+             "origin: position is given too; keep one"));
+  CHECK(says(refusalOf("shape = { box = [1, 1, 1] }\norigin = [0, 0, 0]"),
+             "only a hull, a mesh or a compound has coordinates of its own"));
+}
+
 TEST_CASE("copies of a hull share its points, and of a hull or a capsule the surface drawn") {
   const Scene scene = parseScene(
       "[world]\ngravity = [0, 0, 0]\nduration = 1\n"
