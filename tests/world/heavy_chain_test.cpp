@@ -85,6 +85,21 @@ TEST_CASE("course: a chain that no step follows ends with the joint that came ap
   CHECK(books.max_joint_gap < 1e-4);  // measured 1e-5
 }
 
+// Oracle: statics. Two forces along one line carry no load across it, whatever the step.
+TEST_CASE("a chain that is straight between two pins ends with words about slack") {
+  const auto [method, step] = GENERATE(
+      table<const char*, const char*>({{"stepping", "stepping.step"}, {"course", "course.step"}}));
+  WorldDef def = chainOf(method, 4, 1.0, kLevel);
+  const Vec3 end = def.bodies.back().position;
+  def.joints.push_back({.name = "far", .a = 3, .anchorA = end, .anchorB = end});
+  World world(def);
+  world.advance(2.0);
+  CAPTURE(world.report().reason);
+  CHECK(world.report().stopped);
+  CHECK(world.report().reason.find(std::string("came apart; try a smaller ") + step +
+                                   ", or slack") != std::string::npos);
+}
+
 // Oracle: the count of evaluations, and the chain as above.
 TEST_CASE("auto leaves a heavy chain to stepping after so much work, and swings it on") {
   World world(chainOf("auto", 3, 1e6, kLevel));

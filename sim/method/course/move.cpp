@@ -6,6 +6,7 @@
 #include "sim/contact/jam.h"
 #include "sim/joint/joint_rows.h"
 #include "sim/math/root.h"
+#include "sim/method/came_apart.h"
 #include "sim/method/course/course.h"
 
 namespace tumble {
@@ -185,9 +186,8 @@ void Course::commit(double t1) {
                     : "the motion left the range of numbers; try a smaller course.step");
   if (!model_.joints.empty()) {
     system_.unpack(y_, trial_);
-    if (const Joint* open = brokenJoint(trial_, model_.joints))
-      return stop("joint \"" + model_.def.joints[open - model_.joints.data()].name +
-                  "\" came apart; try a smaller course.step");
+    if (const std::string apart = cameApart(model_, trial_, "course.step"); !apart.empty())
+      return stop(apart);
   }
   system_.unpack(y_, state_.bodies);
   const Ledger ledger = system_.ledger(y_);

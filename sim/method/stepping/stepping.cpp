@@ -5,6 +5,7 @@
 
 #include "sim/body/force.h"
 #include "sim/math/rotation.h"
+#include "sim/method/came_apart.h"
 
 namespace tumble {
 namespace {
@@ -175,12 +176,9 @@ void Stepping::moveTo(double t1, double h) {
   if (bends()) bookBent();
   if (bends() && !points_.foresees) moveOut(h);
   if (!finite()) return stop("the motion left the range of numbers; try a smaller stepping.step");
-  if (!project()) {
-    if (const Joint* open = brokenJoint(state_.bodies, joints())) {
-      const std::string& name = model_.def.joints[open - model_.joints.data()].name;
-      return stop("joint \"" + name + "\" came apart; try a smaller stepping.step");
-    }
-  }
+  if (!project())
+    if (const std::string apart = cameApart(model_, state_.bodies, "stepping.step"); !apart.empty())
+      return stop(apart);
   pushAgain(h);
   meetJoints(h);
   bookHalves(h);
