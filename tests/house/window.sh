@@ -9,7 +9,10 @@ if [[ ${2:-} != inside ]]; then
   # The screen is a file, so that what stands on it can be read at any instant.
   FRAMEBUFFER=$(mktemp -d)
   export FRAMEBUFFER
-  exec xvfb-run --auto-servernum --server-args="-screen 0 1280x800x24 -fbdir $FRAMEBUFFER" "$0" "$1" inside
+  # With a key of ours xvfb-run has no folder of its own, which it may fail to tidy up.
+  touch "$FRAMEBUFFER/key"
+  exec xvfb-run --auto-servernum --auth-file="$FRAMEBUFFER/key" \
+    --server-args="-screen 0 1280x800x24 -fbdir $FRAMEBUFFER" "$0" "$1" inside
 fi
 tumble=$(realpath "$1")/tumble
 scratch=$(mktemp -d)

@@ -11,7 +11,9 @@ TEST_CASE("the window opens on a virtual display, draws and closes") {
   scratch.file(
       "scene.toml",
       "[world]\nduration = 0.2\n[[body]]\nname = \"a\"\nshape = { sphere = 0.1 }\nmass = 1.0\n");
-  const std::string server = "xvfb-run --auto-servernum --server-args='-screen 0 1280x800x24' ";
+  // With a key of ours xvfb-run has no folder of its own, which it may fail to tidy up.
+  const std::string server = "xvfb-run --auto-servernum --auth-file='" + scratch.file("key", "") +
+                             "' --server-args='-screen 0 1280x800x24' ";
   // What the drivers of the display keep cannot be told by name once they are unloaded.
   const std::string command = "cd '" + scratch.path.string() + "' && ASAN_OPTIONS=detect_leaks=0 " +
                               server + TUMBLE_PROGRAM + " view scene.toml --images 3 >log 2>&1";
