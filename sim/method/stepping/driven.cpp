@@ -238,6 +238,7 @@ void Stepping::springAnew(Island& island, double h) {
     SpringRow& spring = *springOf(link);
     const SpringEnds at = endsOf(*spring.spring, island.smooth ? 0.5 * h : 0.0);
     const double length = (at.pa - at.pb).norm();
+    if (length == 0.0) continue;  // it has no direction there: that of the start stays
     const Vec3 along = (at.pa - at.pb) / length, t1 = along.unitOrthogonal();
     SpringLaw law = spring.law;
     if (island.smooth && spring.across == 0) {
