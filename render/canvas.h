@@ -81,7 +81,8 @@ class Canvas : public Drawing {
              const Colour& colour);
   void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style) override;
   double textWidth(std::string_view utf8, const TextStyle& style) override;
-  /// The text in lines that are at most as wide as asked [px], if a word is not; broken at blanks.
+  /// The text in lines that are at most as wide as asked [px], if no word is wider; broken at
+  /// blanks, and within a formula or between a number and its unit only where nothing else fits.
   std::vector<std::string> lines(std::string_view utf8, double width, const TextStyle& style);
 
  private:

@@ -396,6 +396,25 @@ TEST_CASE("text is set on lines that are no wider than asked, broken at blanks a
   CHECK(canvas.lines("", 10.0, style).empty());
 }
 
+TEST_CASE("a line ends neither at the sign of a formula nor between a number and its unit") {
+  Fonts fonts(kFonts);
+  Image nothing;
+  Canvas canvas(nothing, fonts, 1.0);
+  const Canvas::TextStyle style{15.0};
+  const std::string text = "4.9 cm in 0.6 s, the plane holds both edges: n = ea × eb";
+  for (double width = 90.0; width < 400.0; width += 10.0) {
+    const std::vector<std::string> lines = canvas.lines(text, width, style);
+    CAPTURE(width, lines);
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+      for (const char* end : {"4.9", "0.6", "=", "×", "n", "ea"})
+        CHECK_FALSE(lines[i].ends_with(end));
+      CHECK(canvas.textWidth(lines[i], style) <= width);
+    }
+  }
+  // What is wider than a line is broken all the same.
+  CHECK(canvas.lines("a = b + c + d", 40.0, style).size() > 1);
+}
+
 TEST_CASE("labels at one point stand above each other, not on each other") {
   Picture picture;
   picture.camera = straight(0.0);
