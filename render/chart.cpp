@@ -13,7 +13,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr Colour kGrid = {0.886f, 0.894f, 0.910f}, kFaintGrid = {0.935f, 0.940f, 0.948f};
-constexpr double kLegendGap = 28.0, kLegendStep = 42.0, kMark = 4.2;
+constexpr double kMargin = 32.0;      // to the right of everything [px]
+constexpr double kLegendGap = 28.0;   // from the axes to the middle of a key's stroke [px]
+constexpr double kLegendText = 18.0;  // from there to its name [px]
+constexpr double kLegendStep = 42.0, kMark = 4.2;
 constexpr double kStroke = 2.0;    // of a curve [px]
 constexpr double kSeenGap = 2.0;   // between two strokes that are told apart [px]
 constexpr double kCrowded = 10.0;  // guides nearer than that hide what they cross [px]
@@ -140,7 +143,8 @@ class Plot {
         canvas_(canvas),
         legend_(legendWidth()),
         left_(64.0),
-        right_(canvas.width() - (legend_ > 0.0 ? legend_ + 2.0 * kLegendGap : 32.0)),
+        right_(canvas.width() - kMargin -
+               (legend_ > 0.0 ? kLegendGap + kLegendText + legend_ : 0.0)),
         top_(chart.title.empty() ? 48.0 : 120.0),
         bottom_(canvas.height() - 58.0),
         x_(chart.x, valuesOf(0), left_, right_, 64.0),
@@ -293,8 +297,8 @@ class Plot {
       if (curve.label.empty()) continue;
       canvas_.stroke({x - 12.0, y}, {x + 10.0, y}, kStroke, curve.colour);
       if (curve.marked) drawMark(i, {x - 1.0, y}, curve.colour, canvas_);
-      canvas_.text({x + 18.0, y + 5.0}, curve.label, kLabel);
-      canvas_.text({x + 18.0, y + std::min(22.0, 0.5 * step + 4.0)}, curve.note, kNote);
+      canvas_.text({x + kLegendText, y + 5.0}, curve.label, kLabel);
+      canvas_.text({x + kLegendText, y + std::min(22.0, 0.5 * step + 4.0)}, curve.note, kNote);
     }
   }
 
