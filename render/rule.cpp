@@ -23,7 +23,8 @@ struct Tick {
   double value;
   Vector2d place, inward;  ///< on the image, and the unit direction back to the bodies
 };
-constexpr double kNumber = 32.0;  ///< [px] across that a number under a tick may take
+constexpr double kNumber = 32.0;   ///< [px] across that a number under a tick may take
+constexpr std::size_t kLeast = 3;  ///< ticks: two in a corner, of four or more, measure nothing
 
 using Ticks = std::vector<Tick>;
 using Boxes = std::vector<Eigen::AlignedBox2d>;
@@ -182,18 +183,19 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
   // What comes nearer than the image reaches leaves no room before it: then further back, up to
   // half way to the middle.
   const double depth = rail->outward * (rail->start - picture.centre[rail->other]);
-  while (chosen.size() < 3 && nearest > -0.5 * depth) {
+  while (chosen.size() < kLeast && nearest > -0.5 * depth) {
     nearest -= 0.04 * picture.radius;
     chosen = ticksAt(*rail, nearest, picture, projection, canvas);
   }
   for (double gap = nearest; gap < picture.radius; gap += 0.04 * picture.radius) {
     const Ticks ticks = ticksAt(*rail, gap, picture, projection, canvas);
-    if (ticks.size() < 2 || 5 * ticks.size() < 3 * chosen.size()) break;  // too much of it is lost
+    if (ticks.size() < kLeast || 5 * ticks.size() < 3 * chosen.size())
+      break;  // too much of it is lost
     if (collides(ticks, boxes)) continue;
     chosen = ticks;
     break;
   }
-  if (chosen.size() >= 2 && spacing(chosen) > kNumber) drawTicks(chosen, rail->step, canvas);
+  if (chosen.size() >= kLeast && spacing(chosen) > kNumber) drawTicks(chosen, rail->step, canvas);
 }
 
 }  // namespace tumble

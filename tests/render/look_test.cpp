@@ -402,7 +402,7 @@ TEST_CASE("a line ends neither at the sign of a formula nor between a number and
   Canvas canvas(nothing, fonts, 1.0);
   const Canvas::TextStyle style{15.0};
   const std::string text = "4.9 cm in 0.6 s, the plane holds both edges: n = ea × eb";
-  for (double width = 90.0; width < 400.0; width += 10.0) {
+  for (double width = 110.0; width < 400.0; width += 10.0) {
     const std::vector<std::string> lines = canvas.lines(text, width, style);
     CAPTURE(width, lines);
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
@@ -446,6 +446,22 @@ TEST_CASE("the rule is seen even where bodies come nearer than the image reaches
   const Image without = studio().draw(picture, kFull);
   picture.floor.rule = true;
   CHECK_FALSE(compare(without, studio().draw(picture, kFull)).exact);
+}
+
+TEST_CASE("a rule of which the image shows but a stump is left out") {
+  Picture picture = stage();
+  picture.instances = {box({-0.5, 0.3, 0.0}, Finish::Solid)};
+  picture.floor.motion = {Vector3d(-2.4, 0.0, -0.3), Vector3d(2.4, 0.6, 0.3)};
+  const auto ruled = [&](double fov) {
+    picture.camera = {{-0.5, 3.0, 9.0}, {-0.5, 0.3, 0.0}, fov};
+    picture.floor.rule = false;
+    const Image without = studio().draw(picture, kFull);
+    picture.floor.rule = true;
+    return !compare(without, studio().draw(picture, kFull)).exact;
+  };
+  CHECK(ruled(30.0));
+  // Of 4.8 m there are 1.7 to be seen, with two numbers, −1 and 0 m.
+  CHECK_FALSE(ruled(6.0));
 }
 
 // Oracle: the place of the label. The rule, all that its picture has more, passes through it where
