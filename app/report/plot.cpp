@@ -65,17 +65,20 @@ set border linecolor rgb '#5c636e'
 set key outside right top Left reverse samplen 2 spacing 1.15 noenhanced
 )";
 
-// The errors drawn: from the decade of the least, or of the floor if that is below, to 10, or as
-// far as the least needs.
+// The errors drawn, in whole decades: from the least, or from the floor if that is below, to the
+// largest, of which what is above 10 is left out unless all are.
 std::string errorRange(const Study& study) {
-  double least = std::numeric_limits<double>::max();
+  double least = std::numeric_limits<double>::max(), largest = 0.0;
   for (const ChartSeries& series : study.series)
-    for (const ChartPoint& point : series.points)
-      if (point.error > 0.0) least = std::min(least, point.error);
+    for (const ChartPoint& point : series.points) {
+      if (!(point.error > 0.0) || !std::isfinite(point.error)) continue;
+      least = std::min(least, point.error);
+      largest = std::max(largest, point.error);
+    }
   const double floor = study.chart.floor.value_or(0.0);
   const auto decade = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };
   return fmt::format("[1e{}:1e{}]", decade(floor > 0.0 ? std::min(least, floor) : least),
-                     std::max(1, decade(least) + 1));
+                     std::max(std::min(1, decade(largest) + 1), decade(least) + 1));
 }
 
 std::string curves(const Study& study, std::span<const std::string> labels) {

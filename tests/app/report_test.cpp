@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 #include "app/claim/claim.h"
@@ -139,6 +140,13 @@ TEST_CASE("the script draws every curve from the numbers beside it, the floor da
   Study bare = knownStudy();
   bare.chart.floor.reset();
   CHECK(plotScript(bare, labelsOf(std::vector{bare}), "").find("dashtype") == std::string::npos);
+  // No decade is drawn that no error reaches.
+  Study close = knownStudy();
+  for (ChartSeries& series : close.series)
+    for (ChartPoint& point : series.points) point.error *= 2e-6;
+  close.series[1].points.push_back({"x", std::numeric_limits<double>::infinity(), 0, 1e-6});
+  CHECK(plotScript(close, labelsOf(std::vector{close}), "").find("set xrange [1e-18:1e-5]\n") !=
+        std::string::npos);
   // The least error is in the picture however large it is.
   Study wild = knownStudy();
   for (ChartSeries& series : wild.series)
