@@ -21,6 +21,9 @@ void Course::chooseSprings() {
   system_.begin(touching_, {});
   system_.findForces(state_.bodies);
   state_.lasting = system_.contacts();
+  // The books follow them to the end of the step.
+  for (Contact& c : state_.lasting)
+    c.anchor = anchorOf(state_.bodies[c.a], state_.bodies[c.b], c.point);
   // What they took and did not store is lost.
   report_.certificate.energy_lost_impact -= energyStored(state_.lasting) - energyStored(before);
   // One event for a pair, told at its first contact.
