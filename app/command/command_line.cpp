@@ -58,7 +58,8 @@ template <typename Value>
 void CommandLine::option(const std::string& names, Value& value, const std::string& help,
                          const OptionTraits& traits) {
   CLI::Option* const option = parser_->app.add_option(names, value, help);
-  if (!traits.hidden) parser_->sheet.options.push_back({names, traits.type, help, false});
+  if (!traits.hidden)
+    parser_->sheet.options.push_back({names, traits.type, help, false});
   if (names.front() == '-') option->allow_extra_args(false);
   if (!traits.type.empty()) option->type_name(traits.type);
   if (traits.range) option->check(between(traits.range->first, traits.range->second));
@@ -80,23 +81,33 @@ template void CommandLine::option(const std::string&, std::vector<std::string>&,
 
 namespace {
 
-// The options of which one may be meant by what is no option.
-std::string hintOfOption(const CLI::App& app, const std::vector<std::string>& unknown) {
+// What no option or place takes: unknown options, with the nearest that there are, or else words.
+std::string unexpected(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (const std::string& word : unknown) {
-    const std::string nearest = nearestName(word.substr(0, word.find('=')), names);
-    if (word.starts_with("-") && !nearest.empty())
-      return ", did you mean '" + nearest + "' for '" + word + "'?";
+  std::string options, words;
+  for (const std::string& word : app.remaining()) {
+    if (!word.starts_with("-")) {
+      words += (words.empty() ? "unexpected '" : ", '") + word + "'";
+      continue;
+    }
+    const std::string name = word.substr(0, word.find('='));
+    const std::string nearest = nearestName(name, names);
+    options += (options.empty() ? "unknown option '" : ", '") + name + "'";
+    if (!nearest.empty()) options += ", did you mean '" + nearest + "'?";
   }
-  return "";
+  return options.empty() ? words : options;
 }
 
-// A value that is none of its kind, told as other refusals are: CLI11 says "Could not convert:
-// --still = -o".
-std::string worded(const CLI::App& app, const std::string& what) {
-  const std::string head = "Could not convert: ";
+// Other errors as refusals of scenes are told. CLI11 says "Could not convert: --still = -o" and
+// "--html: 1 required FILE missing".
+std::string worded(const CLI::App& app, std::string what) {
+  const std::string head = "Could not convert: ", one = ": 1 required ", missing = " missing";
+  if (const std::size_t at = what.find(one); at != std::string::npos && what.ends_with(missing))
+    return what.substr(0, at + 2) +
+           what.substr(at + one.size(), what.size() - at - one.size() - missing.size()) +
+           " is missing";
   const std::size_t equals = what.find(" = ");
   if (!what.starts_with(head) || equals == std::string::npos) return what;
   const std::string name = what.substr(head.size(), equals - head.size());
@@ -122,11 +133,13 @@ bool CommandLine::read(int argc, char** argv) {
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}\n", parser_->app.help());
     return false;
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(fmt::format("{}; `{} --help` shows how", unexpected(parser_->app),
+                                 parser_->app.get_name()));
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    throw UsageError(fmt::format("{}{}; `{} --help` shows how", worded(parser_->app, what),
-                                 hintOfOption(parser_->app, parser_->app.remaining()),
+    throw UsageError(fmt::format("{}; `{} --help` shows how", worded(parser_->app, what),
                                  parser_->app.get_name()));
   }
 }

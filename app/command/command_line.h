@@ -18,9 +18,9 @@ struct OptionTraits {
   std::string needs = {};  ///< another option that must be given too
 };
 
-/// Options and flags that write into variables of the command, with examples below the help.
 struct CommandSheet;
 
+/// Options and flags that write into variables of the command, with examples below the help.
 class CommandLine {
  public:
   /// @param examples "arguments  # what they do", without the program's name

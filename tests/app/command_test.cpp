@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "app/command/command.h"
+#include "app/command/command_line.h"
 #include "app/command/gallery_page.h"
 #include "app/command/options.h"
 #include "app/command/shoot.h"
@@ -75,6 +76,34 @@ TEST_CASE("ranges, sizes and shards are read whole or refused with what is expec
     CHECK_THROWS_AS(parseSize(text), UsageError);
   for (const char* text : {"2/2", "-1/2", "1/0", "1:2"})
     CHECK_THROWS_AS(parseShard(text), UsageError);
+}
+
+TEST_CASE("a command line that makes no sense is refused in words of its own") {
+  const auto refused = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "tumble draw");
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    std::string scene, page;
+    double still = 0.0;
+    CommandLine line("draw", "Draws.", {"pile"});
+    line.option("SCENE", scene, "a scene", {.required = true});
+    line.option("--still", still, "an instant", {.type = "SECONDS"});
+    line.option("--html", page, "a page", {.type = "FILE"});
+    try {
+      line.read(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string help = "; `tumble draw --help` shows how";
+  CHECK(refused({"pile", "--still", "1"}).empty());
+  CHECK(refused({"pile", "--stil", "1"}) ==
+        "unknown option '--stil', did you mean '--still'?" + help);
+  CHECK(refused({"pile", "--zzz"}) == "unknown option '--zzz'" + help);
+  CHECK(refused({"pile", "heap"}) == "unexpected 'heap'" + help);
+  CHECK(refused({"pile", "--html"}) == "--html: FILE is missing" + help);
+  CHECK(refused({"pile", "--still", "x"}) == "--still: expected SECONDS, found 'x'" + help);
 }
 
 TEST_CASE("a finished image is kept, one of another scene, size or half-written is drawn anew") {
