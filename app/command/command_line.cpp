@@ -59,7 +59,7 @@ void CommandLine::option(const std::string& names, Value& value, const std::stri
                          const OptionTraits& traits) {
   CLI::Option* const option = parser_->app.add_option(names, value, help);
   if (!traits.hidden)
-    parser_->sheet.options.push_back({names, traits.type, help, false});
+    parser_->sheet.options.push_back({names, traits.type, help, false, traits.required});
   if (names.front() == '-') option->allow_extra_args(false);
   if (!traits.type.empty()) option->type_name(traits.type);
   if (traits.range) option->check(between(traits.range->first, traits.range->second));

@@ -26,7 +26,8 @@ std::string roff(const std::string& text) {
 std::string sectionOf(const CommandSheet& sheet) {
   std::string synopsis;
   for (const OptionSheet& option : sheet.options)
-    if (option.place()) synopsis += " [" + option.names + "]";
+    if (option.place())
+      synopsis += option.required ? " " + option.names : " [" + option.names + "]";
   std::string text = fmt::format(".SS tumble {}{} [options]\n{}\n", roff(sheet.name),
                                  roff(synopsis), roff(sheet.summary));
   for (const OptionSheet& option : sheet.options) {

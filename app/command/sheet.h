@@ -14,7 +14,8 @@ struct OptionSheet {
   std::string names;  ///< "-o,--output", or "SCENE" of a place
   std::string type;   ///< of its value, "" if it has none or the help names none
   std::string help;
-  bool flag = false;  ///< takes no value
+  bool flag = false;      ///< takes no value
+  bool required = false;  ///< the command does nothing without it
   bool place() const { return !names.starts_with('-'); }
   /// "--output" of "-o,--output".
   std::string longName() const { return names.substr(names.find("--")); }
