@@ -19,7 +19,7 @@ void printTable(const Verdict& verdict) {
   std::size_t width = 46;
   for (const ClaimRow& row : verdict.rows)
     if (!row.silent) width = std::max(width, row.label.size());
-  fmt::print("  {:<{}}{:>16}{:>16}{:>11}{:>11}\n", "", width, "measured", "exact", "error",
+  fmt::print("  {:<{}}{:>18}{:>20}{:>11}{:>11}\n", "", width, "measured", "exact", "error",
              "allowed");
   for (const ClaimRow& row : verdict.rows) {
     if (row.silent) {
@@ -27,7 +27,7 @@ void printTable(const Verdict& verdict) {
       continue;
     }
     const std::string exact = fmt::format("{}{:.10g}", signOf(row.relation), row.exact);
-    fmt::print("  {:<{}}{:>16.10g}{:>16}{:>11.2g}{:>11.2g}  {}\n", row.label, width, row.measured,
+    fmt::print("  {:<{}}{:>18.10g}{:>20}{:>11.2g}{:>11.2g}  {}\n", row.label, width, row.measured,
                exact, row.error, row.allowed, row.holds() ? "ok" : "FAILED");
   }
 }
