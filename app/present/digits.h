@@ -18,4 +18,16 @@ inline std::string fourDigits(double value) {
   return (value < 0.0 ? "−" : "") + text;
 }
 
+/// So many significant digits at most, as they are printed: "0.00598", "−2.5 × 10⁻¹¹", "10⁻⁹".
+inline std::string printed(double value, int digits) {
+  constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = fmt::format("{:.{}g}", std::abs(value), digits);
+  if (const std::size_t e = text.find('e'); e != std::string::npos) {
+    const std::string power = std::to_string(std::stoi(text.substr(e + 1)));
+    text = (text.substr(0, e) == "1" ? "" : text.substr(0, e) + " × ") + "10";
+    for (const char c : power) text += c == '-' ? "⁻" : kRaised[c - '0'];
+  }
+  return (value < 0.0 ? "−" : "") + text;
+}
+
 }  // namespace tumble

@@ -264,12 +264,11 @@ void Presenter::addExpectations(Picture& picture) const {
     if (one.place) picture.lines.push_back(expectedLine(one));
     if (!scene_.show.title) continue;
     // Beside 0, what is left is an error: its size tells, its digits do not.
-    const std::string measured =
-        fmt::format("{:.{}g}", one.row.measured, one.row.exact == 0.0 ? 2 : 6);
+    const std::string measured = printed(one.row.measured, one.row.exact == 0.0 ? 2 : 6);
     picture.remarks.push_back(
-        {fmt::format("{}: {}, expected {}{:.6g}{}", one.row.label, measured,
-                     signOf(one.row.relation), one.row.exact,
-                     one.row.allowed > 0.0 ? fmt::format(" ± {:g}", one.row.allowed) : ""),
+        {fmt::format("{}: {}, expected {}{}{}", one.row.label, measured, signOf(one.row.relation),
+                     printed(one.row.exact, 6),
+                     one.row.allowed > 0.0 ? " ± " + printed(one.row.allowed, 6) : ""),
          one.row.holds() ? colour::kQuiet : colour::kForce});
   }
 }

@@ -245,6 +245,14 @@ TEST_CASE("numbers have four digits, zeros too") {
   CHECK(fourDigits(25184.0) == "25180");
 }
 
+TEST_CASE("numbers of claims are written as they are printed") {
+  CHECK(printed(0.00598151, 6) == "0.00598151");
+  CHECK(printed(1e-9, 6) == "10⁻⁹");
+  CHECK(printed(-3.31e-15, 2) == "−3.3 × 10⁻¹⁵");
+  CHECK(printed(2.5e12, 6) == "2.5 × 10¹²");
+  CHECK(printed(0.0, 6) == "0");
+}
+
 // What the lectures ask or show without a number.
 const std::set<std::string> kAsked = {"One solver for particles and bodies",
                                       "What is a rigid body?",
