@@ -59,7 +59,8 @@ void Viewer::numbers() {
   line(fmt::format("t = {:.3f} s", sample.t));
   line(fmt::format("kinetic {:.4g} J", sample.kinetic));
   line(fmt::format("potential {:.4g} J", sample.potential));
-  line(fmt::format("{} contact points", sample.contacts.size()));
+  const std::size_t points = sample.contacts.size();
+  line(fmt::format("{} contact point{}", points, points == 1 ? "" : "s"));
   plot();
   bodyNumbers();
   if (!recorder_ && !live_) certificate();
