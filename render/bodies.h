@@ -29,7 +29,6 @@ class Bodies {
   void drawGhosts() const;     ///< at each sample one: the nearest of the highest layer
   void drawGlass() const;      ///< far sides, then at each sample the nearest near side
   void drawMasks();            ///< all, each in its own colour, and how far they are
-  bool drawsInColour() const { return !instances_.empty(); }
 
  private:
   enum Group { kSolid, kSunk, kUnseen, kGhost, kGlass, kGroups };

@@ -70,7 +70,6 @@ class Crossing {
   const Model& model_;
   const State& state_;
   std::vector<RigidBody> start_, moved_, end_;  ///< moved: at the start, with v⁺
-  std::vector<HeavyTop> tops_;
   std::vector<Pair> pairs_;
   std::vector<Contact> points_;  ///< of pairs that touch
   std::vector<char> active_;     ///< takes part in the problem, per point
