@@ -56,8 +56,8 @@ bool hasCase(const std::string& room, const std::string& name) {
 
 TEST_CASE("every link and picture of a page is there") {
   int count = 0;
-  for (const char* page : {"README.md", "API.md", "sim/README.md", "assets/demos/README.md",
-                           "assets/report/README.md"}) {
+  for (const char* page : {"README.md", "API.md", "sim/README.md", "render/README.md",
+                           "app/README.md", "assets/demos/README.md", "assets/report/README.md"}) {
     const std::vector<std::string> links = found(textOf(kRoot / page), R"(\]\(([^)#:]+)\))");
     for (const std::string& link : links) {
       CAPTURE(page, link);
@@ -75,6 +75,21 @@ TEST_CASE("every file that the way from slide to file names is there") {
   for (const std::string& file : files) {
     CAPTURE(file);
     CHECK(fs::exists(kRoot / "sim" / file));
+  }
+}
+
+TEST_CASE("every file that the maps of the program and of its pictures name is there") {
+  for (const std::string room : {"app", "render"}) {
+    const std::vector<std::string> files =
+        found(textOf(kRoot / room / "README.md"), R"(`([a-z_/]+\.(h|cpp))`)");
+    CHECK(files.size() > 15);
+    for (const std::string& file : files) {
+      CAPTURE(room, file);
+      bool there = fs::exists(kRoot / room / file) || fs::exists(kRoot / file);
+      for (const auto& folder : fs::directory_iterator(kRoot / room))
+        there |= folder.is_directory() && fs::exists(folder.path() / file);
+      CHECK(there);
+    }
   }
 }
 
