@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,36 @@ TEST_CASE("every link and picture of a page is there") {
     }
   }
   CHECK(count > 5);
+}
+
+TEST_CASE("every row of a table has as many cells as its head") {
+  for (const char* page : {"README.md", "sim/README.md", "sim/TOLERANCES.md", "render/README.md",
+                           "app/README.md", "assets/demos/README.md", "assets/report/README.md"}) {
+    std::istringstream lines(textOf(kRoot / page));
+    std::size_t head = 0, rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+      std::size_t bars = 0;
+      for (std::size_t i = 0; i < line.size(); ++i)
+        bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+      if (!line.starts_with('|')) bars = 0;
+      CAPTURE(page, line);
+      if (head > 0 && bars > 0) CHECK(bars == head);
+      head = bars;
+      rows += bars > 0;
+    }
+    CHECK(rows > 3);
+  }
+}
+
+TEST_CASE("every number of the certificate is told what it says") {
+  const std::string table = section(textOf(kRoot / "sim/README.md"), "The certificate");
+  const std::vector<std::string> keys =
+      found(textOf(kRoot / "sim/method/report.h"), R"re(\{"(\w+)", &Certificate::)re");
+  CHECK(keys.size() > 30);
+  for (const std::string& key : keys) {
+    CAPTURE(key);
+    CHECK(table.find("`" + key + "`") != std::string::npos);
+  }
 }
 
 TEST_CASE("every file that the way from slide to file names is there") {
