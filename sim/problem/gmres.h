@@ -31,7 +31,7 @@ class Gmres {
   static void add(std::vector<Vec3>& a, double factor, const std::vector<Vec3>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
   }
-  /// @return its length, which it has no more
+  /// Scales it to length 1. @return the length that it had
   static double normalise(std::vector<Vec3>& a) {
     const double size = std::sqrt(dot(a, a));
     if (size > 0.0)
