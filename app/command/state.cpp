@@ -19,8 +19,8 @@ void printLayer(const Scene& scene, const StartCheck& check, StateLayer layer) {
                                    [&](const StateFault& fault) { return fault.layer == layer; });
   fmt::print("  {:<14}{}", layerName(layer), count > 0 ? "NOT OK" : "ok");
   if (layer == StateLayer::Accelerations && count == 0 && check.resting > 0)
-    fmt::print("      forces at {} contact points hold what would close at up to {:.4g} m/s²",
-               check.resting, -check.unheld);
+    fmt::print("      forces at {} contact point{} hold what would close at up to {:.4g} m/s²",
+               check.resting, check.resting == 1 ? "" : "s", -check.unheld);
   fmt::print("\n");
   for (const StateFault& fault : check.faults)
     if (fault.layer == layer) fmt::print("    {}\n", faultText(scene, fault));
