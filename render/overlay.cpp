@@ -121,9 +121,11 @@ void drawTitle(const Picture& picture, Canvas& canvas) {
     }
   };
   draw(picture.title, {22.0 * small, Face::Bold, Align::Left, ink::text}, 26.0);
-  baseline = std::max(baseline - 2.0 * small, 70.0 * small);
+  const bool titled = !picture.title.empty();
+  if (titled) baseline = std::max(baseline - 2.0 * small, 70.0 * small);
   draw(picture.subtitle, {15.0 * small, Face::Regular, Align::Left, ink::secondary}, 19.0);
-  baseline = std::max(baseline + 11.0 * small, 100.0 * small);
+  baseline += 11.0 * small;
+  if (titled) baseline = std::max(baseline, 100.0 * small);
   for (const Remark& remark : picture.remarks)
     draw(remark.text, {13.0 * small, Face::Regular, Align::Left, remark.colour}, 19.0);
 }

@@ -521,6 +521,26 @@ TEST_CASE("over any page a transparent image gives what is drawn on that page, t
   }
 }
 
+TEST_CASE("where there is no title, the subtitle stands in its place") {
+  const auto top = [](const char* title, const char* subtitle) {  // first row that words cover
+    Picture picture = stage();
+    picture.floor.visible = false;
+    const Image without = studio().draw(picture, kFull);
+    picture.title = title;
+    picture.subtitle = subtitle;
+    const Image with = studio().draw(picture, kFull);
+    int y = 0;
+    while (y < 719 &&
+           std::equal(with.rgb.begin() + 3 * 1280 * y, with.rgb.begin() + 3 * 1280 * (y + 1),
+                      without.rgb.begin() + 3 * 1280 * y))
+      ++y;
+    return y;
+  };
+  const int title = top("Hill", "");
+  CHECK(std::abs(top("", "Hill") - title) < 8);
+  CHECK(top("Hill", "Hill") == title);
+}
+
 TEST_CASE("remarks stand below title and subtitle, in however many lines these are") {
   const std::string words = "words that go on and on and on and on and on and on and on and on ";
   const auto linesOf = [](Picture picture) {  // of pixels that its remark alone covers
