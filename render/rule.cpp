@@ -36,6 +36,12 @@ double stepFor(double length) {
   return (leading < 2.0 ? 0.2 : leading < 4.0 ? 0.5 : 1.0) * power;
 }
 
+/// The next of 1, 2 and 5 times powers of ten.
+double coarser(double step) {
+  const double leading = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+  return step * (leading > 1.5 && leading < 3.0 ? 2.5 : 2.0);
+}
+
 /// Bounds of the motion, or else of all bodies.
 Eigen::AlignedBox3d measured(const Picture& picture) {
   Eigen::AlignedBox3d box = picture.floor.motion;
@@ -174,12 +180,16 @@ void drawTicks(const Ticks& ticks, double step, Canvas& canvas) {
 }  // namespace
 
 void drawRule(const Picture& picture, const Projection& projection, Canvas& canvas) {
-  const std::optional<Rail> rail = railOf(picture, projection);
+  std::optional<Rail> rail = railOf(picture, projection);
   if (!rail) return;
   // As near to the bodies as other writing allows; where it never does, just in front of them.
   const Boxes boxes = writtenBoxes(picture, projection, canvas);
   double nearest = 0.12 * picture.radius;
   Ticks chosen = ticksAt(*rail, nearest, picture, projection, canvas);
+  while (chosen.size() > kLeast && spacing(chosen) <= kNumber) {
+    rail->step = coarser(rail->step);
+    chosen = ticksAt(*rail, nearest, picture, projection, canvas);
+  }
   // What comes nearer than the image reaches leaves no room before it: then further back, up to
   // half way to the middle.
   const double depth = rail->outward * (rail->start - picture.centre[rail->other]);

@@ -448,6 +448,16 @@ TEST_CASE("the rule is seen even where bodies come nearer than the image reaches
   CHECK_FALSE(compare(without, studio().draw(picture, kFull)).exact);
 }
 
+// Ticks of 0.2 m would stand 28 px apart, closer than their numbers are wide.
+TEST_CASE("a rule takes longer steps where its numbers would touch") {
+  Picture picture = stage();
+  picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid)};
+  picture.floor.motion = {Vector3d(-0.7, 0.0, -0.7), Vector3d(0.7, 0.6, 0.7)};
+  const Image without = studio().draw(picture, kFull);
+  picture.floor.rule = true;
+  CHECK_FALSE(compare(without, studio().draw(picture, kFull)).exact);
+}
+
 TEST_CASE("a rule of which the image shows but a stump is left out") {
   Picture picture = stage();
   picture.instances = {box({-0.5, 0.3, 0.0}, Finish::Solid)};
