@@ -3,20 +3,16 @@
 
 #include "app/claim/parting.h"
 #include "app/claim/verdict.h"
-#include "app/file/data.h"
 #include "app/panel/graph_run.h"
 #include "app/present/planes.h"
 #include "app/present/present.h"
 #include "app/report/plot.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
 
 namespace {
-
-Scene demo(const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/between-us.toml", overrides);
-}
 
 // The discs that are drawn at a sample.
 std::vector<Instance> discsAt(const Scene& scene, const Recording& recording, double t) {
@@ -33,7 +29,7 @@ bool greener(const Instance& disc) {
 
 TEST_CASE(
     "the claim of planes holds for other passes, and fails where bodies were moved together") {
-  const Scene scene = demo();
+  const Scene scene = demo("between-us");
   const Recording recording = record(scene, scene.image.rate);
   CHECK(holds("apart", scene, recording));
   const auto lift = [](const char* what, double by) {
@@ -47,14 +43,14 @@ TEST_CASE(
   CHECK(holdsBroken("apart", scene, recording, lift("ell", -0.1)));
   CHECK_FALSE(holdsBroken("apart", scene, recording, lift("ell", 0.1)));
 
-  const Scene slow =
-      demo({"body.hull_a.angular_velocity=[0.0, 0.0, 0.0]", "world.method=\"course\""});
+  const Scene slow = demo(
+      "between-us", {"body.hull_a.angular_velocity=[0.0, 0.0, 0.0]", "world.method=\"course\""});
   CHECK(holds("apart", slow, record(slow, 40.0)));
 }
 
 // Oracle: brute force over the corners.
 TEST_CASE("a disc between two solids has the corners of each on its own side") {
-  const Scene scene = demo();
+  const Scene scene = demo("between-us");
   const Recording recording = record(scene, scene.image.rate);
   Coherence coherence(scene);
   int seen = 0;
@@ -88,7 +84,7 @@ TEST_CASE("a disc between two solids has the corners of each on its own side") {
 }
 
 TEST_CASE("a disc is green if remembered, orange if sought, and dark where bodies touch") {
-  const Scene scene = demo();
+  const Scene scene = demo("between-us");
   const Recording recording = record(scene, scene.image.rate);
   Coherence coherence(scene);
   int green = 0, orange = 0;
@@ -106,8 +102,8 @@ TEST_CASE("a disc is green if remembered, orange if sought, and dark where bodie
   CHECK(green > 20);
   CHECK(orange > 1);
 
-  const Variant touching = demo().panels.back().variant;  // a face on a face
-  const Scene stack = readScene(demo().file, {}, &touching);
+  const Variant touching = demo("between-us").panels.back().variant;  // a face on a face
+  const Scene stack = readScene(demo("between-us").file, {}, &touching);
   const std::vector<Instance> discs = discsAt(stack, record(stack, 60.0), 0.0);
   REQUIRE(discs.size() == 1);
   CHECK(*std::max_element(discs[0].colour.begin(), discs[0].colour.end()) < 0.3f);
@@ -117,9 +113,9 @@ TEST_CASE("a disc is green if remembered, orange if sought, and dark where bodie
 
 TEST_CASE("the six panels of contacts touch, and an L as a hull is hit while its boxes pass") {
   int touching = 0;
-  for (const PanelDef& panel : demo().panels) {
+  for (const PanelDef& panel : demo("between-us").panels) {
     CAPTURE(panel.variant.title);
-    const Scene scene = readScene(demo().file, {}, &panel.variant);
+    const Scene scene = readScene(demo("between-us").file, {}, &panel.variant);
     const Recording recording = record(scene, scene.image.rate);
     REQUIRE_FALSE(recording.report.stopped);
     if (scene.world.duration < 1.0 && !recording.samples[0].contacts.empty()) ++touching;
@@ -130,7 +126,7 @@ TEST_CASE("the six panels of contacts touch, and an L as a hull is hit while its
 }
 
 TEST_CASE("remembered planes are sought less often, and the graph of it never falls") {
-  const Scene scene = demo();
+  const Scene scene = demo("between-us");
   const std::vector<GraphSeries> series = runGraph(scene, scene.graphs[0], [] {});
   REQUIRE(series.size() == 2);
   for (const GraphSeries& one : series)

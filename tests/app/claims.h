@@ -2,7 +2,9 @@
 // with?
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "app/claim/claim.h"
@@ -25,6 +27,13 @@ inline bool holdsBroken(const char* check, const Scene& scene, Recording recordi
                         const std::function<void(Recording&)>& breakIt) {
   breakIt(recording);
   return holds(check, scene, recording);
+}
+
+/// Whether the name of a row has this text.
+inline bool hasRow(const std::vector<ClaimRow>& rows, const std::string& text) {
+  return std::any_of(rows.begin(), rows.end(), [&](const ClaimRow& row) {
+    return row.label.find(text) != std::string::npos;
+  });
 }
 
 }  // namespace tumble

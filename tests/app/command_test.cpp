@@ -15,23 +15,13 @@
 #include "app/command/sweeping.h"
 #include "app/command/video.h"
 #include "app/file/file.h"
+#include "tests/app/folder.h"
 #include "tests/catch.h"
 
 using namespace tumble;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder of its own for each test, gone at the end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("tumble-command-" + std::to_string(::getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 constexpr const char* kDrop = R"(
 title = "Drop"
@@ -57,7 +47,7 @@ parameter = "materials.rubber.restitution"
 values = [0.1, 0.5, 0.9]
 )";
 
-std::vector<std::string> lines(const std::string& path) {
+std::vector<std::string> linesIn(const std::string& path) {
   std::vector<std::string> found;
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);) found.push_back(line);
@@ -170,7 +160,7 @@ TEST_CASE("the shards of a sweep write the rows of the whole") {
   Studio studio;
   const SweepResult whole = runSweep(scene, folder / "all", {0, 1}, studio);
   CHECK(whole.code == kOk);
-  const std::vector<std::string> rows = lines(folder / "all/sweep.csv");
+  const std::vector<std::string> rows = linesIn(folder / "all/sweep.csv");
   REQUIRE(rows.size() == 4);
   CHECK(rows[2].starts_with("materials.rubber.restitution,0.5,"));
   const Image page = readPng(folder / "all/sweep.png");
@@ -179,8 +169,8 @@ TEST_CASE("the shards of a sweep write the rows of the whole") {
   runSweep(scene, folder / "parts", {0, 2}, studio);
   runSweep(scene, folder / "parts", {1, 2}, studio);
   CHECK_FALSE(fs::exists(folder / "parts/sweep.png"));
-  const std::vector<std::string> even = lines(folder / "parts/sweep-0-of-2.csv");
-  const std::vector<std::string> odd = lines(folder / "parts/sweep-1-of-2.csv");
+  const std::vector<std::string> even = linesIn(folder / "parts/sweep-0-of-2.csv");
+  const std::vector<std::string> odd = linesIn(folder / "parts/sweep-1-of-2.csv");
   REQUIRE(even.size() == 3);
   REQUIRE(odd.size() == 2);
   const auto value = [](const std::string& row) {
@@ -206,7 +196,7 @@ TEST_CASE("a sweep's table has what each claim of the scene's own measured and e
   const Scene scene = readScene(folder / "drop.toml", {"world.duration=0.25", "image.rate=8"});
   Studio studio;
   runSweep(scene, folder / "all", {0, 1}, studio);
-  const std::vector<std::string> rows = lines(folder / "all/sweep.csv");
+  const std::vector<std::string> rows = linesIn(folder / "all/sweep.csv");
   REQUIRE(rows.size() == 4);
   CHECK(
       rows[0].ends_with("worst_error_share,"

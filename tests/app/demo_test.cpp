@@ -12,15 +12,12 @@
 #include "app/scene/demos.h"
 #include "app/scene/scene.h"
 #include "tests/app/run_hashes.h"
+#include "tests/app/runs.h"
 #include "tests/catch.h"
 
 using namespace tumble;
 
 namespace {
-
-Scene demo(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/" + name + ".toml", overrides);
-}
 
 void requireClaims(const Scene& scene, const Recording& recording) {
   REQUIRE_FALSE(recording.report.stopped);
@@ -38,7 +35,7 @@ void requireClaims(const Scene& scene) {
 }
 
 // The hashes of a recorded run at a rate [1/s]; of a run anew, if the recording has other instants.
-RunHashes hashesOf(const Scene& scene, const Recording& recording, double rate) {
+RunHashes recordedHashes(const Scene& scene, const Recording& recording, double rate) {
   const double every = recording.rate / rate;
   if (every < 1.0 || every != std::round(every)) return test::hashesOf(scene, rate);
   RunHashes hashes = hashesFor(scene, rate);
@@ -53,7 +50,7 @@ void requireBits([[maybe_unused]] const Scene& scene, [[maybe_unused]] const Rec
 #ifndef __FMA__
   const std::string file = dataFolder("golden") + "/hashes/" + scene.name + ".txt";
   const RunHashes expected = readHashes(readFile(file), file, scene);
-  const RunHashes actual = hashesOf(scene, recording, expected.rate);
+  const RunHashes actual = recordedHashes(scene, recording, expected.rate);
   CHECK(firstDifference(expected, actual, scene).value_or("") == "");
 #endif
 }

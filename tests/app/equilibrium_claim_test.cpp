@@ -4,16 +4,12 @@
 #include <cmath>
 
 #include "app/claim/equilibrium.h"
-#include "app/file/data.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
 
 namespace {
-
-Scene demo(const char* name, const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/" + std::string(name) + ".toml", overrides);
-}
 
 // A block of 1 kg, 0.2 m wide and 0.4 m high, on a slope of these degrees.
 Scene blockOn(double degrees, double mu) {
@@ -82,7 +78,7 @@ std::string verdictOn(const Scene& scene) {
   return rows.size() == 1 ? rows[0].label : "";
 }
 
-bool says(const Scene& scene, const char* words) {
+bool saysRow(const Scene& scene, const char* words) {
   const std::vector<ClaimRow> rows =
       findCheck("equilibrium")->rows(scene, record(scene, scene.image.rate));
   return std::any_of(rows.begin(), rows.end(), [&](const ClaimRow& row) {
@@ -108,10 +104,10 @@ TEST_CASE("the distance of a load from a cone is that of plane geometry") {
 
 // Oracles: tan θ = μ, and tan θ = 0.2/0.4, above which a block topples.
 TEST_CASE("a block on a slope is held below the angle of friction and below that of toppling") {
-  CHECK(says(blockOn(20.0, 0.37), "can be held"));
-  CHECK(says(blockOn(20.0, 0.36), "cannot be held"));
-  CHECK(says(blockOn(26.5, 2.0), "can be held"));
-  CHECK(says(blockOn(26.6, 2.0), "cannot be held"));
+  CHECK(saysRow(blockOn(20.0, 0.37), "can be held"));
+  CHECK(saysRow(blockOn(20.0, 0.36), "cannot be held"));
+  CHECK(saysRow(blockOn(26.5, 2.0), "can be held"));
+  CHECK(saysRow(blockOn(26.6, 2.0), "cannot be held"));
 }
 
 // Oracle: the line of thrust, as a linear programme in the push at the crown and its height, fits
@@ -125,8 +121,8 @@ TEST_CASE("an arch of eleven stones can be held from a thickness of 0.104589 rad
 TEST_CASE("an arch falls by what statics says, not by what it is named") {
   const Scene scene = demo("arch");
   const Recording right = record(scene, 20.0);
-  CHECK(says(scene, "thick_0: can be held"));
-  CHECK(says(scene, "thin_0: cannot be held"));
+  CHECK(saysRow(scene, "thick_0: can be held"));
+  CHECK(saysRow(scene, "thin_0: cannot be held"));
   CHECK(holds("settled", scene, right));
   const auto bodyNamed = [&](const char* name) {
     int body = 0;

@@ -6,6 +6,7 @@
 #include "app/file/data.h"
 #include "app/present/arrows.h"
 #include "app/present/present.h"
+#include "tests/app/runs.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -36,10 +37,6 @@ target = [5, 25, 0]
 contact_forces = true
 )",
                     "tower.toml", overrides);
-}
-
-Recording runOf(const Scene& scene) {
-  return record(scene, scene.image.rate);
 }
 
 std::vector<PageShape> discsOf(const Picture& picture) {

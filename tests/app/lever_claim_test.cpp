@@ -3,22 +3,18 @@
 #include <algorithm>
 
 #include "app/claim/verdict.h"
-#include "app/file/data.h"
 #include "app/panel/page.h"
 #include "app/present/present.h"
 #include "app/record/output.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
 
 namespace {
 
-Scene demo(const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/free-or-not.toml", overrides);
-}
-
-bool keeps(const char* check, const std::vector<std::string>& overrides) {
-  const Scene scene = demo(overrides);
+bool checkHolds(const char* check, const std::vector<std::string>& overrides) {
+  const Scene scene = demo("free-or-not", overrides);
   CAPTURE(scene.line);
   return holds(check, scene, record(scene, scene.image.rate));
 }
@@ -29,13 +25,13 @@ bool keeps(const char* check, const std::vector<std::string>& overrides) {
 TEST_CASE("a lever and a groove keep their claims whatever the scene") {
   for (const char* method : {"course", "exact"}) {
     const std::string set = std::string("world.method=") + method;
-    CHECK(keeps("lever", {set}));
-    CHECK(keeps("lever", {set, "world.gravity=[0.0, -1.6, 0.0]", "body.plank.mass=0.3"}));
-    CHECK(keeps("lever",
-                {set, "body.prop.position=[1.9, 0.25, 0.0]", "body.prop.velocity=[-0.3, 0, 0]"}));
-    CHECK(keeps("lever", {set, "force.other.force=[0.0, 50.0, 0.0]"}));
-    CHECK(keeps("groove", {set}));
-    CHECK(keeps("groove", {set, "body.ball.mass=7.0", "world.gravity=[0.0, -1.6, 0.0]"}));
+    CHECK(checkHolds("lever", {set}));
+    CHECK(checkHolds("lever", {set, "world.gravity=[0.0, -1.6, 0.0]", "body.plank.mass=0.3"}));
+    CHECK(checkHolds(
+        "lever", {set, "body.prop.position=[1.9, 0.25, 0.0]", "body.prop.velocity=[-0.3, 0, 0]"}));
+    CHECK(checkHolds("lever", {set, "force.other.force=[0.0, 50.0, 0.0]"}));
+    CHECK(checkHolds("groove", {set}));
+    CHECK(checkHolds("groove", {set, "body.ball.mass=7.0", "world.gravity=[0.0, -1.6, 0.0]"}));
   }
 }
 
@@ -45,7 +41,7 @@ TEST_CASE("a force that is too large lifts a plank, and its prop gives nothing")
   const std::vector<std::string> lifted = {
       "body.prop.position=[0.6, 0.25, 0.0]", "body.prop.velocity=[0.0, 0.0, 0.0]",
       "force.other.force=[0.0, 150.0, 0.0]", "world.duration=0.3"};
-  const Scene scene = demo(lifted);
+  const Scene scene = demo("free-or-not", lifted);
   CHECK(holds("lever", scene, record(scene, 60.0)));
   const Verdict verdict = judge(scene, record(scene, 60.0));
   CHECK(std::any_of(verdict.rows.begin(), verdict.rows.end(), [](const ClaimRow& row) {
@@ -55,7 +51,7 @@ TEST_CASE("a force that is too large lifts a plank, and its prop gives nothing")
 
 // Oracle: the tampering. The row tells the distance d of the prop where it is furthest off.
 TEST_CASE("the rows of a lever say for which d they are worst") {
-  const Scene scene = demo({"world.duration=1.0"});
+  const Scene scene = demo("free-or-not", {"world.duration=1.0"});
   Recording recording = record(scene, 10.0);
   for (ContactSample& c : recording.samples[5].contacts) c.force *= 1.01;
   recording.samples[10].joints[0].force.y() += 1.0;
@@ -71,7 +67,7 @@ TEST_CASE("the rows of a lever say for which d they are worst") {
 }
 
 TEST_CASE("a wrong force of a prop, a hinge or a wall breaks a claim") {
-  const Scene scene = demo({"world.duration=1.0"});
+  const Scene scene = demo("free-or-not", {"world.duration=1.0"});
   const Recording right = record(scene, 10.0);
   CHECK(holds("lever", scene, right));
   CHECK_FALSE(holdsBroken("lever", scene, right, [](Recording& r) {
@@ -88,7 +84,7 @@ TEST_CASE("a wrong force of a prop, a hinge or a wall breaks a claim") {
 
 // Oracle: the scene. Every joint and sample has its row, forces as in the sample.
 TEST_CASE("joints are written as a row for each sample, and none without them") {
-  const Scene scene = demo({"world.duration=0.5"});
+  const Scene scene = demo("free-or-not", {"world.duration=0.5"});
   const Recording recording = record(scene, 2.0);
   const std::string csv = jointsCsv(recording, scene);
   CHECK(csv.starts_with("t,joint,a,b,px,py,pz,fx,fy,fz,tx,ty,tz\n0,hinge,plank,post,0,0.77"));
@@ -140,7 +136,7 @@ force_scale = 0.01
 
 // Oracle: the sign. The arrow of a hinge that pulls down points down and is red.
 TEST_CASE("the arrow of a hinge changes its colour with the sign of its force") {
-  const Scene scene = demo();
+  const Scene scene = demo("free-or-not");
   const Recording recording = record(scene, 2.0);
   const Presenter presenter(scene, recording);
   const auto arrowAt = [&](double t) {

@@ -1,11 +1,9 @@
 // Variants run side by side: pages of panels, and charts of errors.
 // Long: pages, charts and graphs are drawn from the scenes of one folder.
-#include <unistd.h>
-
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
 #include <filesystem>
 
 #include "app/claim/verdict.h"
@@ -14,6 +12,7 @@
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/panel/page.h"
+#include "tests/app/folder.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -70,16 +69,6 @@ curves = [
   { label = "RK4", values = [0.02] },
 ]
 )";
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("tumble-panel-" + std::to_string(::getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 Scene bounceIn(const Folder& folder) {
   writeFile(folder / "bounce.toml", kBounce);

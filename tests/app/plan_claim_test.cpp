@@ -3,18 +3,14 @@
 #include <cmath>
 
 #include "app/claim/verdict.h"
-#include "app/file/data.h"
 #include "app/panel/page.h"
 #include "app/present/present.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
 
 namespace {
-
-Scene demo(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/" + name + ".toml", overrides);
-}
 
 bool keeps(const std::string& name, const std::vector<std::string>& overrides) {
   const Scene scene = demo(name, overrides);

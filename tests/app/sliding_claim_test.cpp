@@ -1,24 +1,8 @@
 // The claim of slopes holds for true runs by every method, and fails for untrue ones.
-#include <algorithm>
-
-#include "app/file/data.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
-
-namespace {
-
-Scene demo(const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/slope.toml", overrides);
-}
-
-bool hasRow(const std::vector<ClaimRow>& rows, const std::string& text) {
-  return std::any_of(rows.begin(), rows.end(), [&](const ClaimRow& row) {
-    return row.label.find(text) != std::string::npos;
-  });
-}
-
-}  // namespace
 
 // Oracle: the closed forms of app/claim/sliding.cpp.
 TEST_CASE("blocks and a ball on slopes keep their claim by each method, whatever the scene") {
@@ -29,7 +13,7 @@ TEST_CASE("blocks and a ball on slopes keep their claim by each method, whatever
       std::vector<std::string> overrides = {set};
       for (const char* material : {"ramp", "stayer", "slider", "rubber"})
         overrides.push_back(std::string("materials.") + material + ".friction=" + mu);
-      const Scene scene = demo(overrides);
+      const Scene scene = demo("slope", overrides);
       CHECK(holds("sliding", scene, record(scene, 60.0)));
     }
   }
@@ -37,7 +21,7 @@ TEST_CASE("blocks and a ball on slopes keep their claim by each method, whatever
 
 // Oracle: tan 25° < 0.5 < tan 28°.
 TEST_CASE("the claim tells what stays from what slides by the tangent of the slope") {
-  const Scene scene = demo();
+  const Scene scene = demo("slope");
   const std::vector<ClaimRow> rows = findCheck("sliding")->rows(scene, record(scene, 60.0));
   CHECK(hasRow(rows, "block25 stays at 25°"));
   CHECK(hasRow(rows, "block28 slides at 28°"));
@@ -48,7 +32,7 @@ TEST_CASE("the claim tells what stays from what slides by the tangent of the slo
 }
 
 TEST_CASE("a wrong acceleration, a creep, and a ball that rolls late break the claim of slopes") {
-  const Scene scene = demo();
+  const Scene scene = demo("slope");
   const Recording right = record(scene, 60.0);
   CHECK(holds("sliding", scene, right));
   const auto bodyNamed = [&](const char* name) {
@@ -69,7 +53,7 @@ TEST_CASE("a wrong acceleration, a creep, and a ball that rolls late break the c
 }
 
 TEST_CASE("without a plane that stands still the claim of slopes says so") {
-  const Scene scene = demo({"world.gravity=[0.0, 9.81, 0.0]", "world.duration=0.1"});
+  const Scene scene = demo("slope", {"world.gravity=[0.0, 9.81, 0.0]", "world.duration=0.1"});
   const Recording recording = record(scene, 60.0);
   CHECK_FALSE(holds("sliding", scene, recording));
 }

@@ -3,16 +3,9 @@
 
 #include "app/file/data.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
-
-namespace {
-
-Scene demo(const std::vector<std::string>& overrides = {}) {
-  return readScene(dataFolder("demos") + "/dominoes.toml", overrides);
-}
-
-}  // namespace
 
 // Oracles: the closed forms of app/claim/toppling.cpp.
 TEST_CASE("dominoes keep their claim at another distance, height and gravity") {
@@ -23,14 +16,14 @@ TEST_CASE("dominoes keep their claim at another distance, height and gravity") {
            {"world.gravity=[0.0, -1.6, 0.0]", "world.duration=3.0"}}) {
     std::vector<std::string> overrides = {"array.domino.count=4"};
     overrides.insert(overrides.end(), set.begin(), set.end());
-    const Scene scene = demo(overrides);
+    const Scene scene = demo("dominoes", overrides);
     CHECK(holds("toppling", scene, record(scene, 60.0)));
   }
 }
 
 TEST_CASE(
     "a late first hit, a hit too low, a wrong order and energy from nowhere break the claim") {
-  const Scene scene = demo({"array.domino.count=4", "world.duration=1.2"});
+  const Scene scene = demo("dominoes", {"array.domino.count=4", "world.duration=1.2"});
   const Recording right = record(scene, 60.0);
   CHECK(holds("toppling", scene, right));
   const auto hits = [](Recording& r, int a, int b) -> Event& {

@@ -6,6 +6,7 @@
 #include "app/claim/rows.h"
 #include "app/file/data.h"
 #include "tests/app/claims.h"
+#include "tests/app/runs.h"
 
 using namespace tumble;
 
@@ -13,10 +14,6 @@ namespace {
 
 Scene chapter(const char* name, const std::vector<std::string>& overrides = {}) {
   return readScene(dataFolder("report") + "/" + name + ".toml", overrides);
-}
-
-Recording runOf(const Scene& scene) {
-  return record(scene, scene.image.rate);
 }
 
 // Sweeps of the course may leave the friction of a block that hardly moves unsolved; then they say

@@ -3,6 +3,7 @@
 
 #include "sim/body/mass_properties.h"
 #include "sim/math/rotation.h"
+#include "tests/gravity.h"
 
 namespace tumble::test {
 

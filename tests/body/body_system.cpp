@@ -15,8 +15,6 @@ using namespace tumble::test;
 
 namespace {
 
-const Vec3 kGravity(0.0, -9.81, 0.0);
-
 /// Carries the bodies of a system through equal steps and leaves them there.
 void run(std::string_view integrator, BodySystem& system, double h, int steps) {
   const auto stepper = findIntegrator(integrator)->make(system.size());

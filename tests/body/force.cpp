@@ -11,7 +11,7 @@ using namespace tumble::test;
 
 namespace {
 
-const Vec3 kGravity(0.5, -9.81, 0.3);
+const Vec3 kObliqueGravity(0.5, -9.81, 0.3);
 
 /// Brick, cylinder, turntable; springs between the first two, from either to the turntable, and
 /// from the cylinder to a point of the world. Undamped, all of them have a potential.
@@ -28,13 +28,13 @@ std::vector<Force> springs(double damping = 0.0) {
 
 /// Energy of all that can change.
 double energy(const std::vector<Force>& forces, const std::vector<RigidBody>& bodies) {
-  return kineticEnergy(bodies) + potentialEnergy(kGravity, forces, bodies);
+  return kineticEnergy(bodies) + potentialEnergy(kObliqueGravity, forces, bodies);
 }
 
 /// The bodies a time h later to second order: x and q with mean velocity, P and L with the forces.
 std::vector<RigidBody> later(std::vector<RigidBody> bodies, const std::vector<Force>& forces,
                              double h) {
-  sumForces(kGravity, forces, bodies);
+  sumForces(kObliqueGravity, forces, bodies);
   for (RigidBody& body : bodies) {
     const RigidBody start = body;
     body.P += 0.5 * h * body.force;
@@ -56,10 +56,10 @@ TEST_CASE("forces and torques add up over a body") {
   const Vec3 grip_B(0.1, -0.2, 0.3), pull(2.0, 1.0, -3.0), wind(0.1, 0.2, 0.3);
   const std::vector<Force> forces = {PointForce{0, grip_B, pull}, UniformWind{kNoBody, wind},
                                      LinearDrag{0, 0.7, 0.2}};
-  sumForces(kGravity, forces, bodies);
+  sumForces(kObliqueGravity, forces, bodies);
   const RigidBody& body = bodies[0];
   // Measured 0 to the printed digits, allowed 1e-13.
-  CHECK((body.force - (3.0 * kGravity + pull + wind - 0.7 * body.v)).norm() < 1e-13);
+  CHECK((body.force - (3.0 * kObliqueGravity + pull + wind - 0.7 * body.v)).norm() < 1e-13);
   CHECK((body.torque - ((body.R * grip_B).cross(pull) - 0.2 * body.omega)).norm() < 1e-13);
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("a force on one body leaves the others alone, and none reaches a fixed
 TEST_CASE("gravity and springs pull down the slope of their potential") {
   const std::vector<Force> forces = springs();
   std::vector<RigidBody> bodies = threeBodies();
-  sumForces(kGravity, forces, bodies);
+  sumForces(kObliqueGravity, forces, bodies);
   const double h = 1e-6;
   for (int body = 0; body < 2; ++body) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -97,11 +97,11 @@ TEST_CASE("gravity and springs pull down the slope of their potential") {
         const Vec3 step = (side == 0 ? -h : h) * Vec3::Unit(axis);
         std::vector<RigidBody> trial = bodies;
         trial[body].x += step;
-        shifted[side] = potentialEnergy(kGravity, forces, trial);
+        shifted[side] = potentialEnergy(kObliqueGravity, forces, trial);
         trial = bodies;
         trial[body].q = rotated(trial[body].q, step);
         updateDerived(trial[body]);
-        turned[side] = potentialEnergy(kGravity, forces, trial);
+        turned[side] = potentialEnergy(kObliqueGravity, forces, trial);
       }
       CHECK(bodies[body].force[axis] == Approx((shifted[0] - shifted[1]) / (2 * h)).margin(3e-7));
       CHECK(bodies[body].torque[axis] == Approx((turned[0] - turned[1]) / (2 * h)).margin(3e-7));

@@ -15,8 +15,6 @@ using namespace tumble::test;
 
 namespace {
 
-const Vec3 kGravity(0.0, -9.81, 0.0);
-
 /// Y after `steps` equal steps to time `end`.
 template <class SomeSystem>
 VecX carried(const Integrator& row, SomeSystem system, double end, int steps, int order = 0) {

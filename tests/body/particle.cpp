@@ -11,7 +11,7 @@ using namespace tumble;
 
 namespace {
 
-const Vec3 kGravity(0.3, -9.81, -0.2);
+const Vec3 kAskewGravity(0.3, -9.81, -0.2);
 
 RigidBody particleAt(const Vec3& x, const Vec3& v, double mass = 0.7) {
   RigidBody body = makeParticle(mass);
@@ -35,18 +35,18 @@ void carry(BodySystem& system, const char* integrator, double h, int n) {
 // and 5e-14 m/s, allowed 1e-12.
 TEST_CASE("a thrown particle follows its parabola") {
   const Vec3 x0(0.1, 2.0, -0.4), v0(3.0, 4.0, -1.0);
-  BodySystem system(kGravity, {}, {particleAt(x0, v0)});
+  BodySystem system(kAskewGravity, {}, {particleAt(x0, v0)});
   carry(system, "rk4", 0.01, 200);
   const double t = 2.0;
   const RigidBody& body = system.bodies()[0];
-  CHECK((body.x - (x0 + t * v0 + 0.5 * t * t * kGravity)).norm() < 1e-12);
-  CHECK((body.v - (v0 + t * kGravity)).norm() < 1e-12);
+  CHECK((body.x - (x0 + t * v0 + 0.5 * t * t * kAskewGravity)).norm() < 1e-12);
+  CHECK((body.v - (v0 + t * kAskewGravity)).norm() < 1e-12);
 }
 
 // Slides SD3, SD6. Oracle: bit-equal round trip; six numbers a particle.
 TEST_CASE("a particle's state comes back from Y bit by bit") {
   const RigidBody body = particleAt({1.0 / 3.0, -2e-7, 1e9}, {0.1, 1.0 / 7.0, -3e-30});
-  BodySystem system(kGravity, {}, {body});
+  BodySystem system(kAskewGravity, {}, {body});
   REQUIRE(system.size() == 6);
   std::vector<double> y(system.size());
   system.toArray(y);
@@ -62,13 +62,13 @@ TEST_CASE("a particle's state comes back from Y bit by bit") {
 TEST_CASE("the rate of a particle's velocity is force over mass") {
   const double m = 0.7, drag = 0.3;
   const Vec3 push(1.25, -0.5, 2.0);
-  const BodySystem system(kGravity, {UniformWind{0, push}, LinearDrag{0, drag, 0.0}},
+  const BodySystem system(kAskewGravity, {UniformWind{0, push}, LinearDrag{0, drag, 0.0}},
                           {particleAt({1.0, 2.0, 3.0}, {-1.0, 0.5, 2.0}, m)});
   const int size = system.size();
   std::vector<double> y(size), rate(size);
   system.toArray(y);
   system.derivative(0.0, y, rate);
-  const Vec3 v = system.bodies()[0].v, F = m * kGravity + push - drag * v;
+  const Vec3 v = system.bodies()[0].v, F = m * kAskewGravity + push - drag * v;
   REQUIRE(size == 6);
   for (int k = 0; k < 3; ++k) {
     CHECK(rate[k] == v[k]);
@@ -130,11 +130,11 @@ TEST_CASE("kinetic energy and the field's potential add up to a constant") {
   const std::vector<Force> field = {CircularField{kNoBody, {0.3, 0.0, -1.0}, {1.0, 2.0, -0.7}}};
   std::vector<RigidBody> start = {particleAt({1.0, 0.5, -0.2}, {0.4, -2.0, 1.0}),
                                   test::tumblingBrick()};
-  BodySystem system(kGravity, field, start);
-  const double before = kineticEnergy(start) + potentialEnergy(kGravity, field, start);
+  BodySystem system(kAskewGravity, field, start);
+  const double before = kineticEnergy(start) + potentialEnergy(kAskewGravity, field, start);
   carry(system, "rk4", 1e-3, 3000);
   const double after =
-      kineticEnergy(system.bodies()) + potentialEnergy(kGravity, field, system.bodies());
+      kineticEnergy(system.bodies()) + potentialEnergy(kAskewGravity, field, system.bodies());
   CHECK(std::abs(after - before) < 1e-11 * std::abs(before));
   CHECK(powerOfForces(field, start) == 0.0);
 }
@@ -150,10 +150,10 @@ TEST_CASE("n particles together move as each does alone, bit for bit") {
                                      CircularField{kNoBody, Vec3::UnitX(), {0.0, 1.5, 0.3}}};
   for (const char* name : {"euler", "symplectic-euler", "midpoint", "rk4"}) {
     CAPTURE(name);
-    BodySystem together(kGravity, forces, all);
+    BodySystem together(kAskewGravity, forces, all);
     carry(together, name, 1.0 / 240.0, 100);
     for (int i = 0; i < kCount; ++i) {
-      BodySystem alone(kGravity, forces, {all[i]});
+      BodySystem alone(kAskewGravity, forces, {all[i]});
       carry(alone, name, 1.0 / 240.0, 100);
       REQUIRE(alone.bodies()[0].x == together.bodies()[i].x);
       REQUIRE(alone.bodies()[0].P == together.bodies()[i].P);

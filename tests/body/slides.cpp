@@ -14,7 +14,6 @@ using namespace tumble::test;
 
 namespace {
 
-const Vec3 kGravity(0.0, -9.81, 0.0);
 const std::vector<Force> kPull = {PointForce{0, {0.1, -0.2, 0.3}, {2.0, 5.0, -3.0}}};
 
 /// Y of the pulled brick at t [s], by a series that is exact to rounding.

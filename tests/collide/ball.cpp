@@ -8,19 +8,13 @@
 #include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
+#include "tests/collide/points.h"
 #include "tests/collide/random_pose.h"
 
 namespace tumble {
 namespace {
 
 const Box kBox{{1.0, 2.0, 3.0}};
-
-Manifold points(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
-                double margin) {
-  Manifold manifold;
-  collide(a, poseA, b, poseB, margin, manifold);
-  return manifold;
-}
 
 ContactPoint onlyPoint(const Shape& a, const Vec3& xa, const Shape& b, double margin = 0.1) {
   const Manifold manifold = points(a, {xa, Quat::Identity()}, b, Pose{}, margin);

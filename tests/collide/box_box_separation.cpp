@@ -11,17 +11,15 @@
 namespace tumble {
 namespace {
 
-ExactBoxes exact(const Boxes& s) {
+ExactBoxes exactBoxes(const Boxes& s) {
   return {s.a, s.poseA, s.b, s.poseB};
 }
 
 // A rotation that is random, or along the axes, or at 45° about one of them, or nearly so.
-Quat someRotation(Random& random) {
+Quat tiltedRotation(Random& random) {
   const int kind = random.below(4);
   if (kind == 0) return random.rotation();
-  const int axis = random.below(3);
-  const int eighths = random.below(8);
-  Quat q = turn(Vec3::Unit(axis), 45.0 * eighths);
+  const Quat q = someEighths(random);
   if (kind == 1) return q;
   const double exponent = random.uniform(-16.0, -1.0);
   const Vec3 tilt = random.direction();
@@ -33,13 +31,13 @@ Boxes someBoxes(Random& random, double reach) {
   const Box b = random.box();
   const Vec3 xa = random.vector(-reach, reach);
   const Vec3 xb = random.vector(-reach, reach);
-  const Quat qa = someRotation(random);
-  const Quat qb = someRotation(random);
+  const Quat qa = tiltedRotation(random);
+  const Quat qb = tiltedRotation(random);
   return {a, b, {xa, qa}, {xb, qb}};
 }
 
 // Moves a along the best direction known until the gap is nearly `target`.
-void approach(Boxes& boxes, double target) {
+void moveToGap(Boxes& boxes, double target) {
   Manifold manifold;
   for (int k = 0; k < 20; ++k) {
     collide(boxes.a, boxes.poseA, boxes.b, boxes.poseB, 1e9, manifold);
@@ -57,13 +55,13 @@ void signAgrees(std::uint64_t seed, int count) {
     if (k % 2 == 1) {
       const double exponent = random.uniform(-13.0, -6.0);
       const double side = random.below(2) == 0 ? -1.0 : 1.0;
-      approach(boxes, side * std::pow(10.0, exponent));
+      moveToGap(boxes, side * std::pow(10.0, exponent));
     }
     const double gap = boxes.gap();
     if (std::abs(gap) < 2e-15) continue;
     if (std::abs(gap) < 1e-6) ++near;
     if (gap > 0.0) ++apart;
-    if (exact(boxes).sign() != (gap > 0.0 ? 1 : -1)) ++wrong;
+    if (exactBoxes(boxes).sign() != (gap > 0.0 ? 1 : -1)) ++wrong;
   }
   CAPTURE(wrong, apart, near, count);
   REQUIRE(wrong == 0);
@@ -90,11 +88,11 @@ TEST_CASE("the depth of overlapping boxes is the least over the 15 directions") 
   int overlapping = 0;
   for (int k = 0; k < 3000; ++k) {
     const Boxes boxes = someBoxes(random, 0.5);
-    const double depth = exact(boxes).widest();
+    const double depth = exactBoxes(boxes).widest();
     const double gap = boxes.gap();
     if (depth > 0.0) {
       REQUIRE(gap <= depth + 1e-14);
-      REQUIRE(gap >= exact(boxes).widestFace() - 1e-14);
+      REQUIRE(gap >= exactBoxes(boxes).widestFace() - 1e-14);
       continue;
     }
     ++overlapping;
@@ -113,7 +111,7 @@ struct DistanceBounds {
 Vec3 project(const Box& box, const Pose& pose, const Vec3& p) {
   return toWorld(pose, toBody(pose, p).cwiseMax(-box.half).cwiseMin(box.half));
 }
-double reach(const Box& box, const Pose& pose, const Vec3& n) {
+double halfWidth(const Box& box, const Pose& pose, const Vec3& n) {
   return (pose.q.conjugate() * n).cwiseAbs().dot(box.half);
 }
 DistanceBounds distance(const Boxes& s) {
@@ -125,7 +123,8 @@ DistanceBounds distance(const Boxes& s) {
   const double upper = (pa - pb).norm();
   if (upper < 1e-9) return {0.0, upper};
   const Vec3 n = (pa - pb) / upper;
-  return {n.dot(s.poseA.x - s.poseB.x) - reach(s.a, s.poseA, n) - reach(s.b, s.poseB, n), upper};
+  return {n.dot(s.poseA.x - s.poseB.x) - halfWidth(s.a, s.poseA, n) - halfWidth(s.b, s.poseB, n),
+          upper};
 }
 
 // Oracle: bounds of the distance by another algorithm. Measured at least 0.596 of it.

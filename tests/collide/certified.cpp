@@ -12,19 +12,17 @@
 namespace tumble {
 namespace {
 
-struct Pair {
+struct PolyhedronPair {
   Shape a, b;
   Pose poseA, poseB;
   double size() const { return boundingRadius(a) + boundingRadius(b) + (poseA.x - poseB.x).norm(); }
 };
 
 // A rotation that is random, or along the axes, or at 45° about one, or nearly so.
-Quat someRotation(Random& random) {
+Quat roughRotation(Random& random) {
   const int kind = random.below(4);
   if (kind == 0) return random.rotation();
-  const int axis = random.below(3);
-  const int eighths = random.below(8);
-  Quat q = turn(Vec3::Unit(axis), 45.0 * eighths);
+  Quat q = someEighths(random);
   for (int k = 0; k < 4; ++k)  // exactly along the axes
     if (std::abs(q.coeffs()[k]) < 1e-15) q.coeffs()[k] = 0.0;
   if (kind == 1) return q;
@@ -40,22 +38,22 @@ Box someBox(Random& random) {
   return box;
 }
 
-Pair someBoxes(Random& random) {
+PolyhedronPair someBoxPair(Random& random) {
   const Box a = someBox(random);
   const Box b = random.below(8) == 0 ? a : someBox(random);
-  const Quat qa = someRotation(random);
-  const Quat qb = random.below(4) == 0 ? qa : someRotation(random);
+  const Quat qa = roughRotation(random);
+  const Quat qb = random.below(4) == 0 ? qa : roughRotation(random);
   const Vec3 far = random.below(8) == 0 ? 1e3 * random.direction() : Vec3(Vec3::Zero());
   const Vec3 xa = far + random.vector(-1.0, 1.0);
   const Vec3 xb = far + random.vector(-1.0, 1.0);
   return {a, b, {xa, qa}, {xb, qb}};
 }
 
-Pair someHulls(Random& random) {
+PolyhedronPair someHullPair(Random& random) {
   const Hull a = someHull(random, 4 + random.below(5));
   const Hull b = random.below(8) == 0 ? a : someHull(random, 4 + random.below(5));
-  const Quat qa = someRotation(random);
-  const Quat qb = random.below(4) == 0 ? qa : someRotation(random);
+  const Quat qa = roughRotation(random);
+  const Quat qb = random.below(4) == 0 ? qa : roughRotation(random);
   const Vec3 far = random.below(8) == 0 ? 1e3 * random.direction() : Vec3(Vec3::Zero());
   const Vec3 xa = far + random.vector(-1.0, 1.0);
   const Vec3 xb = far + random.vector(-1.0, 1.0);
@@ -63,7 +61,7 @@ Pair someHulls(Random& random) {
 }
 
 // Moves a along the widest plane until the gap is ±10^−6 … ±10^−17, or 0, as near as doubles go.
-void approach(Random& random, Pair& pair) {
+void bringNear(Random& random, PolyhedronPair& pair) {
   const int k = 6 + random.below(13);
   const double side = random.below(2) == 0 ? -1.0 : 1.0;
   const double target = k == 18 ? 0.0 : side * std::pow(10.0, -k);
@@ -73,12 +71,12 @@ void approach(Random& random, Pair& pair) {
   }
 }
 
-struct Tally {
+struct SignTally {
   long pairs = 0, wrong = 0, open = 0, nan = 0, near = 0, apart = 0, exact = 0;
   double widest = 0.0;  // bound / (size + distance)
 };
 
-void hold(const Pair& pair, Tally& tally) {
+void holdSign(const PolyhedronPair& pair, SignTally& tally) {
   const Gap gap = certifiedSeparation(pair.a, pair.poseA, pair.b, pair.poseB);
   ++tally.pairs;
   if (std::isnan(gap.value) || std::isnan(gap.bound)) ++tally.nan;
@@ -98,11 +96,11 @@ void hold(const Pair& pair, Tally& tally) {
 template <class Make>
 void holdAll(const char* name, std::uint64_t seed, long count, Make make) {
   Random random(seed);
-  Tally tally;
+  SignTally tally;
   for (long k = 0; k < count; ++k) {
-    Pair pair = make(random);
-    if (k % 2 == 1) approach(random, pair);
-    hold(pair, tally);
+    PolyhedronPair pair = make(random);
+    if (k % 2 == 1) bringNear(random, pair);
+    holdSign(pair, tally);
   }
   WARN(name << ": measured wrong signs " << tally.wrong << " of " << tally.pairs << ", left open "
             << tally.open << ", NaN " << tally.nan << ", bound " << tally.widest
@@ -117,16 +115,16 @@ void holdAll(const char* name, std::uint64_t seed, long count, Make make) {
 
 // Oracle: exact integers. Nothing is left out but gaps below the bound.
 TEST_CASE("the certified sign of the gap between boxes is exact", "[figures]") {
-  holdAll("certified gap of boxes", 71, 20000, someBoxes);
+  holdAll("certified gap of boxes", 71, 20000, someBoxPair);
 }
 TEST_CASE("the certified sign of the gap between hulls is exact", "[figures]") {
-  holdAll("certified gap of hulls", 72, 3000, someHulls);
+  holdAll("certified gap of hulls", 72, 3000, someHullPair);
 }
 TEST_CASE("the certified sign is exact for ten million pairs of boxes", "[long][figures]") {
-  holdAll("certified gap of boxes", 73, 10'000'000, someBoxes);
+  holdAll("certified gap of boxes", 73, 10'000'000, someBoxPair);
 }
 TEST_CASE("the certified sign is exact for a million pairs of hulls", "[long][figures]") {
-  holdAll("certified gap of hulls", 74, 1'000'000, someHulls);
+  holdAll("certified gap of hulls", 74, 1'000'000, someHullPair);
 }
 
 // Oracle: exact integers, on cases by hand with numbers that doubles hold.
@@ -159,7 +157,7 @@ TEST_CASE("a separating plane is found if and only if there is one") {
   Random random(75);
   int planes = 0, none = 0;
   for (int k = 0; k < 3000; ++k) {
-    Pair pair = someHulls(random);
+    PolyhedronPair pair = someHullPair(random);
     if (k % 2 == 1) {
       const ContactPoint c = separatingPlane(pair.a, pair.poseA, pair.b, pair.poseB);
       pair.poseA.x -= (c.separation - 1e-9 * (random.below(2) ? 1.0 : -1.0)) * c.n;

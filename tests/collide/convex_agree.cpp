@@ -36,17 +36,16 @@ struct Posed {
 };
 
 // A rotation that is random, or along the axes, or at 45° about one of them.
-Quat someRotation(Random& random) {
-  const int axis = random.below(3);
-  const int eighths = random.below(8);
-  return random.below(2) == 0 ? random.rotation() : turn(Vec3::Unit(axis), 45.0 * eighths);
+Quat evenRotation(Random& random) {
+  const Quat eighths = someEighths(random);
+  return random.below(2) == 0 ? random.rotation() : eighths;
 }
 
-Posed somePair(Random& random, const Shape& a, const Shape& b, double reach) {
+Posed somePosed(Random& random, const Shape& a, const Shape& b, double reach) {
   const Vec3 xa = random.vector(-reach, reach);
   const Vec3 xb = random.vector(-reach, reach);
-  const Quat qa = someRotation(random);
-  const Quat qb = someRotation(random);
+  const Quat qa = evenRotation(random);
+  const Quat qb = evenRotation(random);
   return {a, b, {xa, qa}, {xb, qb}};
 }
 
@@ -78,7 +77,7 @@ struct Worst {
   int compared = 0, differ = 0, touching = 0;
 };
 
-void compare(const Posed& pair, double margin, Worst& worst) {
+void compareWays(const Posed& pair, double margin, Worst& worst) {
   worst.gap = std::max(worst.gap, std::abs(pair.general() - pair.special()));
   const Manifold general = pair.generalPoints(margin), special = pair.specialPoints(margin);
   ++worst.compared;
@@ -91,7 +90,7 @@ void compare(const Posed& pair, double margin, Worst& worst) {
       std::max(worst.points, std::max(difference(general, special), difference(special, general)));
 }
 
-void report(const char* name, const Worst& worst) {
+void reportWorst(const char* name, const Worst& worst) {
   WARN(name << ": measured gap " << worst.gap << " m, points " << worst.points << " m, "
             << worst.differ << " of " << worst.compared << " with another count");
 }
@@ -109,11 +108,11 @@ TEST_CASE("balls in the general path meet balls, boxes and half-spaces as in the
     const Vec3 n = random.direction();
     const HalfSpace plane{n, random.uniform(-0.5, 0.5)};
     const Shape b = k % 3 == 0 ? Shape(ball) : k % 3 == 1 ? Shape(box) : Shape(plane);
-    Posed pair = somePair(random, a, b, 1.0);
+    Posed pair = somePosed(random, a, b, 1.0);
     if (k % 2 == 0) approach(pair, std::pow(10.0, random.uniform(-13.0, -6.0)));
-    compare(pair, 0.05, worst);
+    compareWays(pair, 0.05, worst);
   }
-  report("general path, balls", worst);
+  reportWorst("general path, balls", worst);
   REQUIRE(worst.touching > 5000);
   REQUIRE(worst.differ == 0);
   REQUIRE(worst.gap < 1e-14);
@@ -128,7 +127,7 @@ TEST_CASE("boxes in the general path overlap as in their own pair", "[figures]")
   Worst worst;
   int apart = 0;
   for (int k = 0; k < 20000; ++k) {
-    Posed pair = somePair(random, random.box(), random.box(), 0.8);
+    Posed pair = somePosed(random, random.box(), random.box(), 0.8);
     if (k % 2 == 0)
       approach(pair, (random.below(2) ? 1.0 : -1.0) * std::pow(10.0, random.uniform(-15.0, -6.0)));
     const double special = pair.special(), general = pair.general();
@@ -137,10 +136,10 @@ TEST_CASE("boxes in the general path overlap as in their own pair", "[figures]")
       REQUIRE(general >= special - 1e-14);
       if (general > special + 1e-13) continue;
     }
-    compare(pair, 0.02, worst);
+    compareWays(pair, 0.02, worst);
   }
   CAPTURE(apart);
-  report("general path, boxes", worst);
+  reportWorst("general path, boxes", worst);
   REQUIRE(worst.touching > 5000);
   REQUIRE(worst.differ == 0);
   REQUIRE(worst.gap < 2e-13);
@@ -154,9 +153,9 @@ TEST_CASE("boxes in the general path meet a half-space as in their own pair", "[
   for (int k = 0; k < 5000; ++k) {
     const Vec3 n = random.direction();
     const HalfSpace plane{n, random.uniform(-0.5, 0.5)};
-    compare(somePair(random, random.box(), plane, 1.0), 0.05, worst);
+    compareWays(somePosed(random, random.box(), plane, 1.0), 0.05, worst);
   }
-  report("general path, boxes on half-spaces", worst);
+  reportWorst("general path, boxes on half-spaces", worst);
   REQUIRE(worst.touching > 1000);
   REQUIRE(worst.differ == 0);
   REQUIRE(worst.gap < 1e-14);

@@ -6,19 +6,13 @@
 #include "sim/math/frames.h"
 #include "tests/catch.h"
 #include "tests/collide/hulls.h"
+#include "tests/collide/points.h"
 
 namespace tumble {
 namespace {
 
-Manifold points(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
-                double margin) {
-  Manifold manifold;
-  collide(a, poseA, b, poseB, margin, manifold);
-  return manifold;
-}
-
 // Outermost height [m] of a shape along n, written anew for the tests.
-double reach(const Shape& shape, const Pose& pose, const Vec3& n) {
+double heightAlong(const Shape& shape, const Pose& pose, const Vec3& n) {
   const Vec3 m = pose.q.conjugate() * n;
   double far = 0.0;
   if (const auto* s = std::get_if<Sphere>(&shape)) far = s->r;
@@ -34,10 +28,10 @@ double reach(const Shape& shape, const Pose& pose, const Vec3& n) {
 }
 
 double slab(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, const Vec3& n) {
-  return -reach(a, poseA, -n) - reach(b, poseB, n);
+  return -heightAlong(a, poseA, -n) - heightAlong(b, poseB, n);
 }
 
-Shape someShape(Random& random, int kind) {
+Shape someConvex(Random& random, int kind) {
   switch (kind) {
     case 0:
       return Sphere{random.uniform(0.1, 0.7)};
@@ -79,8 +73,8 @@ TEST_CASE("the plane between any two convex solids is as wide as it says, and no
   for (int k = 0; k < 4000; ++k) {
     const int kindA = random.below(5);
     const int kindB = random.below(5);
-    const Shape a = someShape(random, kindA);
-    const Shape b = someShape(random, kindB);
+    const Shape a = someConvex(random, kindA);
+    const Shape b = someConvex(random, kindB);
     Pose poseA = random.pose(1.0);
     const Pose poseB = random.pose(0.3);
     if (k % 2 == 0) {  // touching, or nearly
@@ -184,7 +178,7 @@ TEST_CASE("the gap of a cylinder is between those of the prisms inside and aroun
   const Hull inside = prismHull(64, r, h), around = prismHull(64, wider * r, h);
   int overlapping = 0;
   for (int k = 0; k < 300; ++k) {
-    const Shape b = someShape(random, 1 + random.below(4));
+    const Shape b = someConvex(random, 1 + random.below(4));
     const Pose poseA = random.pose(0.9), poseB = random.pose(0.2);
     const double gap = separation(Cylinder{r, h}, poseA, b, poseB);
     const double most = separation(inside, poseA, b, poseB);

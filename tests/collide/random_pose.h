@@ -61,4 +61,11 @@ inline Quat turn(const Vec3& axis, double degrees) {
   return Quat(Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180.0, axis.normalized()));
 }
 
+/// A turn by some eighths about an axis of the frame.
+inline Quat someEighths(Random& random) {
+  const int axis = random.below(3);
+  const int eighths = random.below(8);
+  return turn(Vec3::Unit(axis), 45.0 * eighths);
+}
+
 }  // namespace tumble

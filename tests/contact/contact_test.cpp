@@ -5,6 +5,7 @@
 #include "sim/contact/impulse.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
+#include "tests/contact/coasted.h"
 
 using namespace tumble;
 
@@ -14,16 +15,6 @@ RigidBody movingBox(const Vec3& x, const Vec3& axis, double angle, const Vec3& v
   RigidBody body = makeBody(solidMass(Box{{0.5, 0.2, 0.3}}, 2.0));
   body.x = x;
   body.q = fromAxisAngle(axis, angle);
-  updateDerived(body);
-  setVelocity(body, v, w);
-  return body;
-}
-
-/// The body a time t later, at constant v and omega: what ṅ and d²/dt² are held to.
-RigidBody coasted(RigidBody body, double t) {
-  body.x += t * body.v;
-  body.q = rotated(body.q, t * body.omega);
-  const Vec3 v = body.v, w = body.omega;
   updateDerived(body);
   setVelocity(body, v, w);
   return body;

@@ -8,6 +8,7 @@
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/collide/hulls.h"
+#include "tests/contact/coasted.h"
 
 using namespace tumble;
 
@@ -20,17 +21,6 @@ RigidBody moving(const Shape& shape, const Pose& pose, const Vec3& v, const Vec3
   body.q = pose.q;
   updateDerived(body);
   if (!body.fixed()) setVelocity(body, v, omega);
-  return body;
-}
-
-/// The body a time t later, at constant v and omega.
-RigidBody coasted(RigidBody body, double t) {
-  if (body.fixed()) return body;
-  const Vec3 v = body.v, omega = body.omega;
-  body.x += t * v;
-  body.q = rotated(body.q, t * omega);
-  updateDerived(body);
-  setVelocity(body, v, omega);
   return body;
 }
 
@@ -51,14 +41,14 @@ Shape other(Random& random, int kind) {
   }
 }
 
-struct Worst {
+struct WorstRates {
   double rate = 0.0, speed = 0.0, bend = 0.0, place = 0.0;
 };
 
 /// Contacts of a shape with `kinds` others, held to central differences of their gaps.
 void requireFollows(const Shape& shapeA, int kinds) {
   Random random(91);
-  Worst worst;
+  WorstRates worst;
   int seen[7] = {}, rims = 0;
   for (int k = 0; k < 100 * kinds; ++k) {
     const int kind = k % kinds;

@@ -16,8 +16,6 @@ using namespace tumble::test;
 
 namespace {
 
-const Vec3 kGravity(0.0, -9.81, 0.0);
-
 /// The body after `steps` equal steps of an integrator.
 RigidBody integrated(const Integrator& row, const RigidBody& start, double duration, int steps) {
   BodySystem system(kGravity, {}, {start});

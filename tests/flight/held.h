@@ -7,8 +7,6 @@
 
 namespace tumble::test {
 
-inline const Vec3 kGravity(0.0, -9.81, 0.0);
-
 /// A disc of 1 kg and radius 0.1 m, thin, 0.1 m from its pivot along its axis, the body Y.
 inline RigidBody disc() {
   return makeBody({1.0, Vec3(0.0025, 0.005, 0.0025).asDiagonal()});

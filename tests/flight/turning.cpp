@@ -57,21 +57,21 @@ TEST_CASE("a spin about the middle axis flips when elliptic functions say", "[fi
 // Oracle: the acceleration itself, g + ω̇ × r + ω × (ω × r), at many instants and points. The proof
 // that it cannot be more is at `Polhode::turning`; where it comes close the bound is worth having.
 TEST_CASE("no point of any body is accelerated by more than its flight allows") {
-  Draw draw{std::mt19937_64(3)};
+  Random random(3);
   const Vec3 gravity(0.0, -9.81, 0.0);
   double closest = 0.0;
   for (int n = 0; n < 300; ++n) {
-    const RigidBody start =
-        n % 3 ? randomBody(draw) : spinning({1, 2, 3}, Quat::Identity(), draw.vector(9.0));
-    const double r = draw(0.0, 2.0);
+    const RigidBody start = n % 3 ? randomBody(random)
+                                  : spinning({1, 2, 3}, Quat::Identity(), random.vector(-9.0, 9.0));
+    const double r = random.uniform(0.0, 2.0);
     const Flight flight(start, gravity, 0.0);
     const double bound = flight.accelBound(r),
                  alone = Flight(start, Vec3::Zero(), 0.0).accelBound(r);
     RigidBody body = start;
     double most = 0.0, turning = 0.0;
     for (int k = 0; k < 300; ++k) {
-      flight.at(draw(0.0, 20.0), body);
-      const Vec3 p = r * draw.vector(1.0).normalized();
+      flight.at(random.uniform(0.0, 20.0), body);
+      const Vec3 p = r * random.vector(-1.0, 1.0).normalized();
       const Vec3 change = body.Iinv * body.L.cross(body.omega);
       const Vec3 a = change.cross(p) + body.omega.cross(body.omega.cross(p));
       most = std::max(most, (a + gravity).norm());

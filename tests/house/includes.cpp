@@ -9,9 +9,11 @@
 
 #include "tests/catch.h"
 #include "tests/house/pattern.h"
+#include "tests/text_of.h"
 
 namespace fs = std::filesystem;
 using tumble::test::Pattern;
+using tumble::test::textOf;
 
 namespace {
 
@@ -93,11 +95,6 @@ std::vector<fs::path> sourcesUnder(const fs::path& root, const std::string& room
     if (ending == ".h" || ending == ".cpp") files.push_back(entry.path().lexically_relative(root));
   }
   return files;
-}
-
-std::string textOf(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Every wrong arrow in the rooms below `root`, as "file includes header: reason".

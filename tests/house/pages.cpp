@@ -1,25 +1,20 @@
 // The pages keep their word: what they point at is there.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/catch.h"
 #include "tests/house/pattern.h"
+#include "tests/text_of.h"
 
 namespace fs = std::filesystem;
 using tumble::test::Pattern;
+using tumble::test::textOf;
 
 namespace {
 
 const fs::path kRoot = TUMBLE_SOURCE_DIR;
-
-std::string textOf(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// What each match of the pattern has in its first group.
 std::vector<std::string> found(const std::string& text, const char* pattern) {

@@ -1,24 +1,19 @@
 // The reference of scene files names every key that the readers know, and no other.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "tests/catch.h"
 #include "tests/house/pattern.h"
+#include "tests/text_of.h"
 
 namespace fs = std::filesystem;
 using tumble::test::Pattern;
+using tumble::test::textOf;
 
 namespace {
 
-std::string textOf(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// What each match of the pattern has in the group of that number.
-std::set<std::string> found(const std::string& text, const Pattern& pattern, std::size_t group) {
+std::set<std::string> wordsOf(const std::string& text, const Pattern& pattern, std::size_t group) {
   std::set<std::string> words;
   for (const Pattern::Match& match : pattern.all(text)) words.insert(match[group]);
   return words;
@@ -34,8 +29,8 @@ std::set<std::string> knownKeys() {
   for (const auto& entry : fs::directory_iterator(TUMBLE_SOURCE_DIR "/app/scene")) {
     if (entry.path().extension() != ".cpp") continue;
     const std::string text = textOf(entry.path());
-    keys.merge(found(text, asked, 3));
-    keys.merge(found(text, row, 1));
+    keys.merge(wordsOf(text, asked, 3));
+    keys.merge(wordsOf(text, row, 1));
   }
   return keys;
 }
@@ -60,8 +55,8 @@ TEST_CASE("the reference of scene files names every key and kind") {
 TEST_CASE("the reference of scene files names no key that is unknown") {
   const std::set<std::string> keys = knownKeys();
   const Pattern cell("\n\\| ([^|]*) \\|"), word("`([a-z_]+)`");
-  for (const std::string& first : found(kReference, cell, 1))
-    for (const std::string& key : found(first, word, 1)) {
+  for (const std::string& first : wordsOf(kReference, cell, 1))
+    for (const std::string& key : wordsOf(first, word, 1)) {
       INFO("unknown: " << key);
       CHECK(keys.contains(key));
     }
@@ -72,7 +67,7 @@ TEST_CASE("the reference of scene files names every check and every integrator")
   int count = 0;
   for (const char* table : {"app/claim/claim.cpp", "sim/ode/integrators.cpp"})
     for (const std::string& name :
-         found(textOf(TUMBLE_SOURCE_DIR "/" + std::string(table)), row, 2)) {
+         wordsOf(textOf(TUMBLE_SOURCE_DIR "/" + std::string(table)), row, 2)) {
       CAPTURE(table, name);
       CHECK(kReference.find("\n| \"" + name + "\" |") != std::string::npos);
       ++count;

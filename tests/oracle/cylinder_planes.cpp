@@ -16,13 +16,11 @@ using namespace tumble;
 namespace {
 
 using Real = test::Quad;
-using Triple = std::array<Real, 3>;
+using Triple = test::QVec;
+using test::dot;
 
 Triple exactly(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
-}
-Real dot(const Triple& a, const Triple& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 Triple sum(const Triple& a, const Real& s, const Triple& b) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};

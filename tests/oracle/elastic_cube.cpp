@@ -13,17 +13,14 @@
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::dot;
 using tumble::test::Quad;
+using tumble::test::QVec;
 
 namespace {
 
-using QVec = std::array<Quad, 3>;
-
 QVec cross(const QVec& a, const QVec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Quad dot(const QVec& a, const QVec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// A hit: when, and which corner.

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "sim/problem/problem.h"
+#include "tests/gravity.h"
 
 namespace tumble::test {
-
-inline constexpr double kG = 9.81;  // m/s²
 
 /// Uniform numbers from a 64-bit linear congruential generator, one draw a call.
 class Draw {

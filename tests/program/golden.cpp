@@ -5,7 +5,7 @@
 namespace {
 
 // A wedge read from a file beside the scene tumbles past a ball.
-const std::string kScene = R"([world]
+const std::string kWedgeAndBall = R"([world]
 duration = 0.4
 [[body]]
 name = "ball"
@@ -35,16 +35,12 @@ std::string moved(const std::string& text, const std::string& by) {
   return changed.replace(changed.find("0.3, 0]"), 7, by);
 }
 
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of it fails") {
   const Scratch scratch;
   scratch.file("wedge.obj", kWedge);
-  scratch.file("mine.toml", kScene);
+  scratch.file("mine.toml", kWedgeAndBall);
   const Outcome first = tumbleRun(scratch, "golden --folder kept --update mine.toml");
   CHECK(first.code == 0);
   CHECK(holds(first.out, "new     mine                 start"));
@@ -70,7 +66,7 @@ TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of 
   CHECK(holds(textOf(scratch.path / "j.xml"), "tests=\"10\" failures=\"0\""));
   CHECK_FALSE(std::filesystem::exists(scratch / "out"));
 
-  scratch.file("mine.toml", moved(kScene, "0.31, 0]"));
+  scratch.file("mine.toml", moved(kWedgeAndBall, "0.31, 0]"));
   const Outcome changed =
       tumbleRun(scratch, "golden --folder kept mine.toml --junit ci/results/j.xml");
   CHECK(changed.code == 1);
@@ -83,7 +79,7 @@ TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of 
   CHECK(holds(report, "actual minus expected"));
 
   // What passes again leaves no report of an earlier failure.
-  scratch.file("mine.toml", kScene);
+  scratch.file("mine.toml", kWedgeAndBall);
   CHECK(tumbleRun(scratch, "golden --folder kept mine.toml").code == 0);
   CHECK(filesBelow(scratch.path / "out") == 0);
 }
@@ -91,8 +87,8 @@ TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of 
 TEST_CASE("two processes that enter goldens into one folder both find theirs") {
   const Scratch scratch;
   scratch.file("wedge.obj", kWedge);
-  scratch.file("one.toml", kScene);
-  scratch.file("two.toml", moved(kScene, "0.4, 0]"));
+  scratch.file("one.toml", kWedgeAndBall);
+  scratch.file("two.toml", moved(kWedgeAndBall, "0.4, 0]"));
   const std::string update = std::string("'") + TUMBLE_PROGRAM + "' golden --folder kept --update ";
   const Outcome held =
       tumbleRun(scratch, "golden --folder kept one.toml two.toml",
@@ -116,9 +112,9 @@ TEST_CASE("goldens of scenes that cannot be held are refused in one line, and no
   CAPTURE(slip.arguments);
   const Scratch scratch;
   std::filesystem::create_directories(scratch.path / "sub");
-  for (const char* name : {"mine.toml", "sub/mine.toml"}) scratch.file(name, kScene);
+  for (const char* name : {"mine.toml", "sub/mine.toml"}) scratch.file(name, kWedgeAndBall);
   for (const char* name : {"wedge.obj", "sub/wedge.obj"}) scratch.file(name, kWedge);
-  scratch.file("bad.toml", "titel = \"x\"\n" + kScene);
+  scratch.file("bad.toml", "titel = \"x\"\n" + kWedgeAndBall);
   const Outcome outcome = tumbleRun(scratch, slip.arguments);
   CAPTURE(outcome.err);
   CHECK(outcome.code == slip.code);

@@ -11,6 +11,10 @@
 #include <sstream>
 #include <string>
 
+#include "tests/text_of.h"
+
+using tumble::test::textOf;
+
 /// A folder that is gone when the test ends.
 struct Scratch {
   std::filesystem::path path =
@@ -44,9 +48,9 @@ struct Outcome {
   bool says(const std::string& text) const { return err.find(text) != std::string::npos; }
 };
 
-inline std::string textOf(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// Whether a text has a part.
+inline bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 /// Runs `before; tumble arguments` in a shell inside the scratch folder.

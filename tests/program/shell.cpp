@@ -6,7 +6,7 @@
 
 namespace {
 
-const std::string kBall = R"([world]
+const std::string kDrawnBall = R"([world]
 duration = 0.2
 [[body]]
 name = "floor"
@@ -40,10 +40,6 @@ std::vector<std::string> commands(const Scratch& scratch) {
     if (line.starts_with("  ") && line.size() > 2)
       names.push_back(line.substr(2, line.find(' ', 2) - 2));
   return names;
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 // A process that waits, then ends this shell, or what it has become, without a warning.
@@ -99,7 +95,7 @@ TEST_CASE("bash completes commands, options of the command, demos and shells") {
 
 TEST_CASE("a misspelt option is answered with the nearest one, a file with the nearest file") {
   const Scratch scratch;
-  scratch.file("billiard.toml", kBall);
+  scratch.file("billiard.toml", kDrawnBall);
   const Outcome option = tumbleRun(scratch, "render billiard.toml --stil 1");
   CHECK(option.code == 2);
   CHECK(option.says("did you mean '--still'"));
@@ -112,7 +108,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a file with the n
 
 TEST_CASE("two shards, three jobs and one run draw the same bytes, and quiet says nothing") {
   const Scratch scratch;
-  scratch.file("ball.toml", kBall);
+  scratch.file("ball.toml", kDrawnBall);
   CHECK(tumbleRun(scratch, "render ball.toml -o one").code == 0);
   for (const std::string arguments :
        {"-o two --shard 1/2", "-o two --shard 0/2", "-o jobs --jobs 3"}) {
@@ -133,7 +129,7 @@ TEST_CASE("two shards, three jobs and one run draw the same bytes, and quiet say
 TEST_CASE(
     "what is killed, again and again, leaves whole images alone and goes on to the same bytes") {
   const Scratch scratch;
-  scratch.file("ball.toml", kBall);
+  scratch.file("ball.toml", kDrawnBall);
   const std::string render = "render ball.toml -q --set image.rate=1000 -o ";
   CHECK(tumbleRun(scratch, render + "whole").code == 0);
   const long all = filesBelow(scratch.path / "whole");
@@ -158,7 +154,7 @@ TEST_CASE(
 
 TEST_CASE("numbers of a run that is killed leave no file behind, new or in place of old ones") {
   const Scratch scratch;
-  scratch.file("ball.toml", kBall);
+  scratch.file("ball.toml", kDrawnBall);
   const std::string simulate = "simulate ball.toml -q -o out";
   const std::string asLong = " --set world.duration=999 --set image.rate=1000";
   CHECK(tumbleRun(scratch, simulate + asLong, killedAfter("sleep 0.3")).code == 128 + 9);
@@ -173,7 +169,7 @@ TEST_CASE("numbers of a run that is killed leave no file behind, new or in place
 
 TEST_CASE("the first Ctrl-C is answered at once, the second ends a run far from its next sample") {
   const Scratch scratch;
-  scratch.file("ball.toml", kBall);
+  scratch.file("ball.toml", kDrawnBall);
   const std::string twice = "self=$(exec sh -c 'echo $PPID'); (" + untilThereIs("out") +
                             "; kill -INT $self; n=0; until grep -q again .err || [ $((n += 1)) -gt "
                             "6000 ]; do sleep 0.005; done; kill -INT $self) & :";
@@ -189,7 +185,7 @@ TEST_CASE("the first Ctrl-C is answered at once, the second ends a run far from 
 
 TEST_CASE("images of another run are named, and so is a range that reaches beyond the end") {
   const Scratch scratch;
-  scratch.file("ball.toml", kBall);
+  scratch.file("ball.toml", kDrawnBall);
   const Outcome first = tumbleRun(scratch, "render ball.toml -o out --frames 11:50");
   CHECK(first.code == 0);
   CHECK(first.says("--frames 11:50: the sequence ends with image 12"));
@@ -201,7 +197,7 @@ TEST_CASE("images of another run are named, and so is a range that reaches beyon
 
 TEST_CASE("Ctrl-C ends between two images, says how many are there, and the next run goes on") {
   const Scratch scratch;
-  scratch.file("long.toml", "camera = { elevation = 20 }\n" + kBall + "rate = 500\n");
+  scratch.file("long.toml", "camera = { elevation = 20 }\n" + kDrawnBall + "rate = 500\n");
   const Outcome outcome =
       tumbleRun(scratch, "render long.toml -o out",
                 "me=$(exec sh -c 'echo $PPID'); "
@@ -217,7 +213,7 @@ TEST_CASE("Ctrl-C ends between two images, says how many are there, and the next
 TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in which nothing moved") {
   const Scratch scratch;
   scratch.file("rest.toml",
-               "checks = [\"settled\"]\n" + kBall +
+               "checks = [\"settled\"]\n" + kDrawnBall +
                    "[sweep]\nparameter = \"body.ball.position\"\nvalues = [[0, 0.5, 0]]\n");
   const Outcome sweep = tumbleRun(scratch, "sweep rest.toml -o out");
   CHECK(sweep.code == 1);
@@ -229,7 +225,7 @@ TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in whic
 
 TEST_CASE("panels that a scene has not got keep no other picture from being drawn") {
   const Scratch scratch;
-  scratch.file("ball.toml", kBall);
+  scratch.file("ball.toml", kDrawnBall);
   CHECK(tumbleRun(scratch, "render ball.toml --panels -o out").code == 2);
   const Outcome outcome = tumbleRun(scratch, "render ball.toml --strobe --panels -o out");
   CHECK(outcome.code == 0);
@@ -240,7 +236,7 @@ TEST_CASE("panels that a scene has not got keep no other picture from being draw
 TEST_CASE("a sweep over fewer values leaves nothing of one over more") {
   const Scratch scratch;
   scratch.file("ball.toml",
-               kBall + "[sweep]\nparameter = \"body.ball.mass\"\nvalues = [1, 2, 3]\n");
+               kDrawnBall + "[sweep]\nparameter = \"body.ball.mass\"\nvalues = [1, 2, 3]\n");
   CHECK(tumbleRun(scratch, "sweep ball.toml -o out").code == 0);
   CHECK(filesBelow(scratch / "out") == 5);
   CHECK(tumbleRun(scratch, "sweep ball.toml -o out --set sweep.values=[4]").code == 0);

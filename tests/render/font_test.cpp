@@ -5,15 +5,11 @@
 
 #include "render/canvas.h"
 #include "tests/catch.h"
+#include "tests/render/studio.h"
 
 using namespace tumble;
 
 namespace {
-
-Fonts& fonts() {
-  static Fonts all(TUMBLE_BINARY_DIR "/fonts");
-  return all;
-}
 
 long inkOf(const TextImage& image) {
   return std::accumulate(image.ink.begin(), image.ink.end(), 0L);

@@ -10,8 +10,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-const RenderOptions kFull;
-
 /// An empty page: no floor, no text.
 Picture bare(double height) {
   Picture picture;

@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-const RenderOptions kFull;
-
 Picture stage() {
   Picture picture;
   picture.camera = {{0.0, 3.0, 9.0}, {0.0, 0.5, 0.0}, 30.0};

@@ -23,11 +23,6 @@ RenderOptions full() {
   return options;
 }
 
-std::array<int, 3> pixel(const Image& image, int x, int y) {
-  const std::uint8_t* p = image.rgb.data() + 3 * (static_cast<std::size_t>(y) * image.width + x);
-  return {p[0], p[1], p[2]};
-}
-
 }  // namespace
 
 // A point at z = 0 stands 180 px per metre from the middle. The outline of an ellipsoid of

@@ -1,8 +1,11 @@
 // One renderer for all cases of a test program, and small views of its images.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 
+#include "render/font.h"
 #include "render/renderer.h"
 #include "tests/catch.h"
 
@@ -17,12 +20,26 @@ inline Renderer& studio() {
   return renderer;
 }
 
+inline Fonts& fonts() {
+  static Fonts all(kFonts);
+  return all;
+}
+
+/// As a picture is drawn where nothing else is asked for.
+inline const RenderOptions kFull;
+
 /// The size of goldens.
 inline RenderOptions golden() {
   RenderOptions options;
   options.width = 480;
   options.height = 270;
   return options;
+}
+
+/// The three channels, 0 to 255.
+inline std::array<int, 3> pixel(const Image& image, int x, int y) {
+  const std::uint8_t* p = image.rgb.data() + 3 * (static_cast<std::size_t>(y) * image.width + x);
+  return {p[0], p[1], p[2]};
 }
 
 /// Mean of the three channels, 0 to 255.

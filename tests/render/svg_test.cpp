@@ -9,11 +9,6 @@ using namespace tumble;
 
 namespace {
 
-Fonts& fonts() {
-  static Fonts all(kFonts);
-  return all;
-}
-
 std::size_t countOf(const std::string& part, const std::string& text) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))

@@ -8,11 +8,7 @@ using namespace tumble::test;
 
 namespace {
 
-double volumeOf(const ClosedHull& closed) {
-  return integrate(closed.hull).volume;
-}
-
-std::string refusal(const Points& points) {
+std::string hullRefusal(const Points& points) {
   try {
     convexHull(points);
   } catch (const NotASolid& reason) {
@@ -56,7 +52,7 @@ TEST_CASE("points on a grid have a hull of six squares, turned and far away too"
         CHECK(closed.hull.points.size() == 8);
         CHECK(closed.hull.faces.size() == 6);
         CHECK(closed.outside <= allowed);
-        CHECK(std::abs(volumeOf(closed) / std::pow(n - 1, 3) - 1.0) <= 10.0 * allowed);
+        CHECK(std::abs(integrate(closed.hull).volume / std::pow(n - 1, 3) - 1.0) <= 10.0 * allowed);
       }
     }
 }
@@ -115,8 +111,8 @@ TEST_CASE("copies and the order of the points leave a hull as it is") {
 
 TEST_CASE("points that span no volume are refused, saying why") {
   const auto says = [](const Points& points, const char* part) {
-    CAPTURE(refusal(points));
-    return refusal(points).find(part) != std::string::npos;
+    CAPTURE(hullRefusal(points));
+    return hullRefusal(points).find(part) != std::string::npos;
   };
   const Vec3 o = Vec3::Zero(), x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   CHECK(says({o, x, y}, "four points or more, found 3"));
@@ -125,11 +121,11 @@ TEST_CASE("points that span no volume are refused, saying why") {
   CHECK(says({o, x, y, x + y, 0.5 * x}, "in a plane"));
   CHECK(says({o, x, y, x + y + 0.9e-9 * z}, "in a plane"));
   CHECK(says({o, x, y, x + y + Vec3(0, 0, std::nan(""))}, "point 4 is not finite"));
-  CHECK(refusal({o, x, y, x + y + 1e-8 * z}).empty());
-  CHECK(refusal({o, x, y, z}).empty());
+  CHECK(hullRefusal({o, x, y, x + y + 1e-8 * z}).empty());
+  CHECK(hullRefusal({o, x, y, z}).empty());
   const Vec3 far(1e6, 1e6, 1e6);
-  CHECK(refusal({far, far + x, far + y, far + z, far}).empty());
+  CHECK(hullRefusal({far, far + x, far + y, far + z, far}).empty());
   CHECK(says({-1e308 * x, 1e308 * x, y, z}, "too far apart"));
-  CHECK(refusal({1e-200 * x, o, 1e-200 * y, 1e-200 * z, 1e-320 * z}).empty());
-  CHECK(refusal({1e200 * x, o, 1e200 * y, 1e200 * z, 1e-320 * z}).empty());
+  CHECK(hullRefusal({1e-200 * x, o, 1e-200 * y, 1e-200 * z, 1e-320 * z}).empty());
+  CHECK(hullRefusal({1e200 * x, o, 1e200 * y, 1e200 * z, 1e-320 * z}).empty());
 }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/gravity.h"
 #include "tests/stability/hard_case.h"
 
 namespace tumble::test {
 namespace {
 
 using namespace scenes;
-
-constexpr double kG = 9.81;  // [m/s²]
 
 /// Housner's block, 1 m × 4 m, lets go at a tilt: after the blow of its other foot it has r² of its
 /// energy, r = 1 − 3/2 sin² α (Housner, The behavior of inverted pendulum structures during

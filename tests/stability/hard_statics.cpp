@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/shape/convex_hull.h"
+#include "tests/gravity.h"
 #include "tests/stability/hard_case.h"
 
 namespace tumble::test {
@@ -11,7 +12,6 @@ namespace {
 
 using namespace scenes;
 
-constexpr double kG = 9.81;    // [m/s²]
 constexpr double kSoon = 0.3;  // [s] what slips has gone some 0.4 eps m by then
 
 /// The farthest that a centre of mass has gone from its start, and the run's own word on stopping.
@@ -102,7 +102,7 @@ WorldDef ladder(double mu) {
   return worldOf("auto", kSoon, {ground(0.0, mu), wall, card(mu)});
 }
 
-WorldDef tower(int n, double ratio, double t) {
+WorldDef unevenTower(int n, double ratio, double t) {
   WorldDef def = worldOf("auto", t, {ground(0.0, 0.5)});
   double mass = 1.0;
   for (int k = 0; k < n; ++k, mass *= ratio) {
@@ -139,13 +139,13 @@ std::vector<HardCase> hardStatics() {
       {"ladder at a smooth wall, bracket of μ", "μ = cot θ/2 − d/2L", "1", 1e-6,
        [=] { return bracket([=](double eps) { return ladder(mu * (1.0 + eps)); }, kSoon); }},
       {"1000 t on 1 kg, force below", "weight above", "1", 1e-9,
-       [] { return loadError(tower(2, 1e6, 1.0)); }},
+       [] { return loadError(unevenTower(2, 1e6, 1.0)); }},
       {"ten cubes, each twice as heavy, forces", "weight above", "1", 1e-9,
-       [] { return loadError(tower(10, 2.0, 1.0)); }},
+       [] { return loadError(unevenTower(10, 2.0, 1.0)); }},
       {"six cubes, each ten times as heavy, forces", "weight above", "1", 1e-9,
-       [] { return loadError(tower(6, 10.0, 1.0)); }},
+       [] { return loadError(unevenTower(6, 10.0, 1.0)); }},
       {"ten cubes, each twice as heavy, drift in a minute", "none", "m", 1e-9,
-       [] { return wayOf(tower(10, 2.0, 60.0), 60.0); }},
+       [] { return wayOf(unevenTower(10, 2.0, 60.0), 60.0); }},
   };
 }
 

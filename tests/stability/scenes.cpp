@@ -5,12 +5,12 @@
 #include "app/record/recording.h"
 #include "app/scene/scene.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 
 using namespace tumble;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kG = 9.81;  // [m/s²]
 
 struct Run {
   Scene scene;

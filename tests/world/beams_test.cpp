@@ -3,13 +3,13 @@
 
 #include "sim/world.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/bent_bodies.h"
 
 using namespace tumble;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kG = 9.81;
 
 /// Holds points by rods to nails so far off along an axis that they stand in no other's way.
 void holdAlong(WorldDef& def, int axis, const std::vector<int>& points, double young) {

@@ -11,8 +11,6 @@ using namespace tumble::scenes;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// How far the bodies that moved most are from their start, and what the run says of itself.
 struct Outcome {
   double way = 0.0;   ///< [m]

@@ -3,14 +3,14 @@
 
 #include "sim/shape/convex_hull.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi, kG = 9.81;
 
 BodyDef cylinder(const std::string& name, double r, double h, const Vec3& x, const Quat& q) {
   BodyDef def = box(name, Vec3::Ones(), x, 0.0, 0.5);
@@ -68,7 +68,7 @@ struct End {
   Report report;
 };
 
-End run(WorldDef def, const Seen& seen = {}) {
+End endSeen(WorldDef def, const Seen& seen = {}) {
   seen.see(def);
   World world(def);
   world.advance(def.duration);
@@ -86,7 +86,7 @@ TEST_CASE("a lying cylinder that is thrown slides until it rolls, on all that is
   for (const Seen& seen : kViews) {
     BodyDef log = cylinder("log", r, 0.2, {0.0, r, 0.0}, kLying);
     log.velocity = {v0, 0.0, 0.0};
-    const End end = run(worldOf(method, T, {below(kind, mu), log}), seen);
+    const End end = endSeen(worldOf(method, T, {below(kind, mu), log}), seen);
     const double rolls = v0 / (3.0 * mu * kG);
     const double x = v0 * rolls - 0.5 * mu * kG * rolls * rolls + 2.0 / 3.0 * v0 * (T - rolls);
     const BodySample& body = end.sample.bodies[1];
@@ -128,7 +128,7 @@ TEST_CASE("a disk that leans rolls round a circle") {
   disk.velocity = Omega * R * up.cross(out);
   const double T = 1.0;
   for (const Seen& seen : kViews) {
-    const End end = run(worldOf(method, T, {below(kind, 1.0), disk}), seen);
+    const End end = endSeen(worldOf(method, T, {below(kind, 1.0), disk}), seen);
     const Quat turned = fromAxisAngle(up, Omega * T);
     const double off = (end.sample.bodies[1].x - seen.direction(turned * disk.position)).norm();
     CAPTURE(method, kind, Omega, s, off, end.report.certificate.evaluations);
@@ -192,7 +192,7 @@ TEST_CASE("cylinders rest on planes, boxes and cylinders") {
         body.friction = 0.8;
         def.bodies.push_back(body);
       }
-      const End end = run(def, seen);
+      const End end = endSeen(def, seen);
       double off = 0.0;
       for (std::size_t k = 1; k < def.bodies.size(); ++k)
         off =

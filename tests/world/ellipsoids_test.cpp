@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kGravity = 9.81;
 
 BodyDef ellipsoid(const Vec3& half, const Vec3& x, double e = 0.0, double mu = 0.0) {
   BodyDef def;
@@ -91,7 +91,7 @@ TEST_CASE("exact finds when an ellipsoid that turns meets the floor") {
     world.advance(1.0);
     REQUIRE_FALSE(world.report().events.empty());
     const auto gap = [&](long double t) {
-      return y0 - 0.5L * kGravity * t * t - heightOf(a, b, spin * t);
+      return y0 - 0.5L * kG * t * t - heightOf(a, b, spin * t);
     };
     long double lo = 0.0L, hi = 0.0L;
     while (gap(hi) > 0.0L) lo = hi, hi += 1e-4L;
@@ -114,7 +114,7 @@ TEST_CASE("an ellipsoid rocks on a floor with the period of its rolling") {
     const long double phi = 2.0L * 3.14159265358979323846264338L * (k + 0.5L) / kParts;
     const long double theta = theta0 * std::sin(phi);
     const long double h = heightOf(a, b, theta), s = slopeOf(a, b, theta);
-    const long double fall = 2.0L * kGravity * (heightOf(a, b, theta0) - h);
+    const long double fall = 2.0L * kG * (heightOf(a, b, theta0) - h);
     period += 2.0L * 3.14159265358979323846264338L / kParts * theta0 * std::abs(std::cos(phi)) *
               std::sqrt((I + h * h + s * s) / fall);
   }
@@ -148,7 +148,7 @@ TEST_CASE("an ellipsoid comes to rest on its flat side, by every method") {
     double force = 0.0;
     for (const ContactSample& c : sample.contacts) force += c.force.y();
     CAPTURE(method, force, sample.bodies[1].x);
-    CHECK(std::abs(force - kGravity) < 1e-9);
+    CHECK(std::abs(force - kG) < 1e-9);
     CHECK((sample.bodies[1].x - Vec3(0, 0.1, 0)).norm() < 1e-9);
   }
 }

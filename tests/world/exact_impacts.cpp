@@ -7,21 +7,14 @@
 #include "sim/collide/collide.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kG = 9.81;
-
-WorldDef exactWorld(double duration) {
-  WorldDef def;
-  def.method = "exact";
-  def.duration = duration;
-  return def;
-}
 
 /// The instant [s] of the first event of a kind; −1 if there is none.
 double timeOf(const Report& report, EventKind kind) {

@@ -12,13 +12,6 @@ using namespace tumble::scenes;
 
 namespace {
 
-WorldDef exactWorld(double duration) {
-  WorldDef def;
-  def.method = "exact";
-  def.duration = duration;
-  return def;
-}
-
 // The instant that the reason of a stop names.
 double stopTime(const World& world) {
   const std::string& reason = world.report().reason;

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 namespace tumble::scenes {
 
-constexpr double kG = 9.81;  // m/s²
+using test::kG;
 
 /// A hinge about z at a point of the world.
 inline JointDef hinge(int a, int b, const Vec3& anchor, const std::string& name = "hinge") {

@@ -10,7 +10,7 @@ using namespace tumble::scenes;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846, kMass = 1.0, kSpeed = 2.0;
+constexpr double kMass = 1.0, kSpeed = 2.0;
 
 /// A ball of 1 kg that comes down on the floor at 2 m/s, without weight.
 WorldDef soft(double stiffness, double damping = 0.0, double duration = 0.5) {

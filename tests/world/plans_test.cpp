@@ -3,14 +3,16 @@
 #include <algorithm>
 
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
 
-constexpr double kG = 9.81, kH = 0.1, kGap = 0.95, kSpeed = 2.0;
+constexpr double kH = 0.1, kGap = 0.95, kFallSpeed = 2.0;
 
 /// A ball 0.95 m above the floor on its way down, and steps of 0.1 s: coarse on purpose.
 WorldDef coarse(const char* plan, double e, double duration) {
@@ -20,7 +22,7 @@ WorldDef coarse(const char* plan, double e, double duration) {
   def.course.plan = plan;
   def.course.step = kH;
   def.bodies = {ground(), ball("ball", 0.1, {0.0, 0.1 + kGap, 0.0}, e)};
-  def.bodies[1].velocity = {0.0, -kSpeed, 0.0};
+  def.bodies[1].velocity = {0.0, -kFallSpeed, 0.0};
   return def;
 }
 
@@ -35,7 +37,7 @@ double apexAt(const World& world, double t) {
 }
 
 /// Gap [m] < 0 after three steps of free fall.
-const double kDeep = kGap - kSpeed * 3.0 * kH - 0.5 * kG * 9.0 * kH * kH;
+const double kDeep = kGap - kFallSpeed * 3.0 * kH - 0.5 * kG * 9.0 * kH * kH;
 
 }  // namespace
 
@@ -44,7 +46,7 @@ const double kDeep = kGap - kSpeed * 3.0 * kH - 0.5 * kG * 9.0 * kH * kH;
 TEST_CASE("plan backstep goes back to the instant of the collision", "[figures]") {
   World world(coarse("backstep", 1.0, 0.5));
   world.advance(0.5);
-  const double tc = (std::sqrt(kSpeed * kSpeed + 2.0 * kG * kGap) - kSpeed) / kG;
+  const double tc = (std::sqrt(kFallSpeed * kFallSpeed + 2.0 * kG * kGap) - kFallSpeed) / kG;
   CHECK(tc == Approx(0.2811).margin(5e-5));
   REQUIRE_FALSE(world.report().events.empty());
   const Event& hit = world.report().events[0];
@@ -61,7 +63,7 @@ TEST_CASE("plan backstep goes back to the instant of the collision", "[figures]"
   CHECK(tried.pose.x.y() == Approx(0.1 + kDeep).epsilon(1e-12));
   CHECK(tried.mendedAt == hit.t);
   CHECK(tried.mended.x.y() == Approx(0.1).margin(1e-11));
-  CHECK(apexAt(world, 0.4) == Approx(kGap + kSpeed * kSpeed / (2.0 * kG)).epsilon(1e-12));
+  CHECK(apexAt(world, 0.4) == Approx(kGap + kFallSpeed * kFallSpeed / (2.0 * kG)).epsilon(1e-12));
   CHECK(world.report().certificate.energy_added_repair == 0.0);
 }
 
@@ -79,8 +81,8 @@ TEST_CASE("plan lie moves the ball onto the surface, and its rebound is 7.9 % to
   CHECK(lie.mended.x.y() == Approx(0.1).margin(1e-12));
   CHECK(world.report().certificate.max_penetration == Approx(-kDeep).epsilon(1e-12));
 
-  const double fall = kSpeed + 3.0 * kG * kH, apex = fall * fall / (2.0 * kG);
-  const double right = kGap + kSpeed * kSpeed / (2.0 * kG);
+  const double fall = kFallSpeed + 3.0 * kG * kH, apex = fall * fall / (2.0 * kG);
+  const double right = kGap + kFallSpeed * kFallSpeed / (2.0 * kG);
   const double measured = apexAt(world, 0.7);
   WARN("three plans: lie rebounds to " << measured << " m instead of " << right << " m, "
                                        << 100.0 * (measured / right - 1.0) << " % more");
@@ -126,12 +128,12 @@ TEST_CASE("plan gradual leaves an elastic ball all energy but that of its first 
   const Misstep& step = world.report().missteps[0];
   CHECK(step.t == Approx(0.3).epsilon(1e-15));
   CHECK(step.mendedAt == Approx(0.4).epsilon(1e-15));
-  const double up = kSpeed + 3.0 * kG * kH;
+  const double up = kFallSpeed + 3.0 * kG * kH;
   CHECK(step.mended.x.y() ==
         Approx(0.1 + 0.75 * kDeep + up * kH - 0.5 * kG * kH * kH).epsilon(1e-12));
   CHECK(world.report().certificate.energy_added_repair == Approx(-0.25 * kG * kDeep));
   CHECK(apexAt(world, 0.8) ==
-        Approx(kGap + kSpeed * kSpeed / (2.0 * kG) - 0.25 * kDeep).epsilon(1e-12));
+        Approx(kGap + kFallSpeed * kFallSpeed / (2.0 * kG) - 0.25 * kDeep).epsilon(1e-12));
 }
 
 // Oracle: conservation. Two bodies are moved apart by ways that are as their inverse masses, so the

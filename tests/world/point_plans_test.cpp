@@ -28,7 +28,7 @@ struct Fall {
   std::size_t disagreements = 0;
 };
 
-double stretchOf(const Sample& sample, int first) {
+double clothStretch(const Sample& sample, int first) {
   double stretch = 0.0;
   for (int p = 0; p < kSide * kSide; ++p)
     for (const int q : {p % kSide ? p - 1 : p, p >= kSide ? p - kSide : p}) {
@@ -63,7 +63,7 @@ Fall fall(std::string_view plan) {
     REQUIRE_FALSE(world.report().stopped);
     const Sample sample = world.sample(k / kRate);
     const double energy = sample.kinetic + sample.potential, depth = depthIn(sample, kFirst);
-    fall.stretch = std::max(fall.stretch, stretchOf(sample, kFirst));
+    fall.stretch = std::max(fall.stretch, clothStretch(sample, kFirst));
     fall.spike = std::max(fall.spike, energy - before);
     fall.sunk = std::max(fall.sunk, depth);
     fall.inside += depth / kSteps;

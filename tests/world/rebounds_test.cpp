@@ -6,15 +6,15 @@
 
 #include "sim/problem/problem.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/draws.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kG = 9.81;
 
 /// Bricks of any shape and spin above a smooth floor that gives all back.
 WorldDef thrownBrick(unsigned seed) {

@@ -12,6 +12,8 @@
 
 namespace tumble::scenes {
 
+inline constexpr double kPi = std::numbers::pi;
+
 inline BodyDef ground(double restitution = 0.0, double friction = 0.0) {
   BodyDef def;
   def.name = "ground";
@@ -74,6 +76,11 @@ inline WorldDef worldOf(const char* method, double duration, std::vector<BodyDef
   def.duration = duration;
   def.bodies = std::move(bodies);
   return def;
+}
+
+/// A world without bodies for the exact method.
+inline WorldDef exactWorld(double duration) {
+  return worldOf("exact", duration, {});
 }
 
 /// Cubes one above the other, the first of them here; their names end in their numbers.

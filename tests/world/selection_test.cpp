@@ -8,14 +8,16 @@
 
 #include "sim/world.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
 
-constexpr double kG = 9.81, kMu = 0.3;  // m/s², 1
+constexpr double kMu = 0.3;
 
 WorldDef spinning(const std::string& method) {
   WorldDef def;
@@ -73,7 +75,7 @@ Flat flatAt(double t) {
   return y;
 }
 
-double yaw(const BodySample& body) {
+double yawOf(const BodySample& body) {
   return 2.0 * std::atan2(body.q.y(), body.q.w());
 }
 
@@ -89,7 +91,7 @@ TEST_CASE("a box that slides and spins goes as a linear pressure has it") {
     const Flat flat = flatAt(t);
     CHECK(std::abs(at.bodies[1].x.x() - flat[0]) < 1e-9);
     CHECK(std::abs(at.bodies[1].x.z() - flat[1]) < 1e-9);
-    CHECK(std::abs(yaw(at.bodies[1]) - flat[4]) < 1e-9);
+    CHECK(std::abs(yawOf(at.bodies[1]) - flat[4]) < 1e-9);
     std::array<double, 4> loads = {};
     rates(flat, &loads);
     REQUIRE(at.contacts.size() == 4);

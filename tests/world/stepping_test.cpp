@@ -5,22 +5,11 @@
 using namespace tumble;
 using namespace tumble::scenes;
 
-namespace {
-
-WorldDef steppingWorld(double duration) {
-  WorldDef def;
-  def.method = "stepping";
-  def.duration = duration;
-  return def;
-}
-
-}  // namespace
-
 // Oracle: a stack of n equal boxes presses with k m g k levels down. Measured 2e-11 relative,
 // allowed 1e-8.
 TEST_CASE("a tower stands, and its forces grow downward by one weight a level") {
   const int n = 6;
-  WorldDef def = steppingWorld(3.0);
+  WorldDef def = worldOf("stepping", 3.0, {});
   def.bodies = {ground(0.0, 0.5)};
   for (int i = 0; i < n; ++i) {
     def.bodies.push_back(
@@ -42,7 +31,7 @@ TEST_CASE("a tower stands, and its forces grow downward by one weight a level") 
 
 // Oracle: the parabola is exact between contacts. Measured 3e-15 m, allowed 1e-12 m.
 TEST_CASE("free flight is the parabola") {
-  WorldDef def = steppingWorld(1.0);
+  WorldDef def = worldOf("stepping", 1.0, {});
   def.bodies = {ball("ball", 0.1, {0.0, 100.0, 0.0})};
   def.bodies[0].velocity = {3.0, 1.0, -2.0};
   World world(def);
@@ -53,7 +42,7 @@ TEST_CASE("free flight is the parabola") {
 // Oracle: s = v²/(2 mu g), in a direction across both tangents. The scheme is of first order:
 // measured 2e-3 m at h = 1/240, allowed 5e-3 m.
 TEST_CASE("a sliding block stops near where Coulomb says, along its own line") {
-  WorldDef def = steppingWorld(2.0);
+  WorldDef def = worldOf("stepping", 2.0, {});
   def.bodies = {ground(0.0, 0.5), box("block", {0.4, 0.1, 0.3}, {0.0, 0.05, 0.0}, 0.0, 0.5)};
   def.bodies[1].velocity = {1.2, 0.0, 1.6};
   World world(def);
@@ -66,7 +55,7 @@ TEST_CASE("a sliding block stops near where Coulomb says, along its own line") {
 
 // Oracle: the report. At 1e308 m/s a ball leaves the range of numbers within two seconds.
 TEST_CASE("a motion that leaves the range of numbers stops with a reason") {
-  WorldDef def = steppingWorld(5.0);
+  WorldDef def = worldOf("stepping", 5.0, {});
   def.bodies = {ball("ball", 0.1, {0.0, 1.0, 0.0})};
   def.bodies[0].velocity = {1e308, 0.0, 0.0};
   World world(def);
@@ -77,7 +66,7 @@ TEST_CASE("a motion that leaves the range of numbers stops with a reason") {
 
 // Oracle: the event table. Every contact that is told to separate was told to rest before.
 TEST_CASE("bounces are impacts; only what rested can separate") {
-  WorldDef def = steppingWorld(6.0);
+  WorldDef def = worldOf("stepping", 6.0, {});
   def.bodies = {ground(), ball("ball", 0.1, {0.0, 1.1, 0.0}, 0.6)};
   World world(def);
   run(world);
@@ -95,7 +84,7 @@ TEST_CASE("bounces are impacts; only what rested can separate") {
 // Oracle: a tower that only stands has nothing open in its books. Measured 4e-16 and 3e-13, of the
 // momentum that its weight would give it; allowed 1e-12.
 TEST_CASE("rounding does not pass for an open balance where nothing moves") {
-  WorldDef def = steppingWorld(2.0);
+  WorldDef def = worldOf("stepping", 2.0, {});
   def.bodies = {ground(0.0, 0.5), box("lower", {0.5, 0.5, 0.5}, {0.0, 0.25, 0.0}, 0.0, 0.5),
                 box("upper", {0.5, 0.5, 0.5}, {0.0, 0.75, 0.0}, 0.0, 0.5)};
   World world(def);

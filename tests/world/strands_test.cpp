@@ -6,12 +6,12 @@
 #include "sim/elastic/strand.h"
 #include "sim/world.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 
 using namespace tumble;
+using tumble::test::kG;
 
 namespace {
-
-constexpr double kG = 9.81;
 
 /// A strand in a world, held by the two points of its root. @return the number of its tip
 int addStrand(WorldDef& def, const StrandDef& strand, const Quat& turn) {

@@ -5,14 +5,15 @@
 
 #include "sim/shape/convex_hull.h"
 #include "tests/catch.h"
+#include "tests/gravity.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
+using tumble::test::kG;
 
 namespace {
 
-constexpr double kG = 9.81, kPi = 3.14159265358979323846;
 const Vec3 kUp(0.0, 1.0, 0.0);
 
 /// The end of a run whose books must close, and no two bodies overlap.
@@ -34,7 +35,7 @@ long count(const Report& report, EventKind kind) {
 }
 
 /// Rises towards −x, turned about the vertical.
-BodyDef slope(double angle, double mu, double about = 0.0) {
+BodyDef turnedSlope(double angle, double mu, double about = 0.0) {
   BodyDef def = ground(0.0, mu);
   def.shape = HalfSpace{fromAxisAngle(kUp, about) * Vec3(std::sin(angle), std::cos(angle), 0.0)};
   return def;
@@ -98,7 +99,7 @@ TEST_CASE("balls and cylinders roll and slide down as they should", "[figures]")
   const double angle = kPi / 6.0, T = 2.0;
   const Vec3 n(std::sin(angle), std::cos(angle), 0.0), down(std::cos(angle), -std::sin(angle), 0.0);
   const auto way = [&](BodyDef body) {
-    const Sample end = endOf(worldOf("exact", T, {slope(angle, body.friction), body}));
+    const Sample end = endOf(worldOf("exact", T, {turnedSlope(angle, body.friction), body}));
     CHECK(std::abs(end.bodies[1].x.dot(n) - 0.1) < 1e-12);
     return end.bodies[1].x.dot(down);
   };
@@ -229,7 +230,7 @@ TEST_CASE("a block on a slope sticks and slides to a millionth of its friction",
   for (const double side : {1.0 + 1e-6, 1.0 - 1e-6}) {
     const double mu = std::tan(angle) * side;
     const BodyDef block = blockOn(angle, {1.0, 0.2, 0.6}, mu, about);
-    const Sample end = endOf(worldOf("exact", 2.0, {slope(angle, mu, about), block}));
+    const Sample end = endOf(worldOf("exact", 2.0, {turnedSlope(angle, mu, about), block}));
     const double way = (end.bodies[1].x - block.position).norm();
     const double d = 0.5 * kG * std::cos(angle) * (std::tan(angle) - mu) * 4.0;
     WARN("block on " << angle * 180.0 / kPi << " degrees, mu = tan θ · " << side << ": " << way
@@ -247,7 +248,7 @@ TEST_CASE("a block comes to a stop where it should", "[figures]") {
   const Vec3 down(std::cos(angle), -std::sin(angle), 0.0);
   BodyDef block = blockOn(angle, {1.0, 0.2, 0.6}, mu);
   block.velocity = v0 * down;
-  const Sample end = endOf(worldOf("exact", 3.0, {slope(angle, mu), block}));
+  const Sample end = endOf(worldOf("exact", 3.0, {turnedSlope(angle, mu), block}));
   const double d = 0.5 * v0 * v0 / (kG * (mu * std::cos(angle) - std::sin(angle)));
   const double error = (end.bodies[1].x - block.position).dot(down) - d;
   WARN("stopping distance: off by " << error << " m");
@@ -362,7 +363,7 @@ TEST_CASE("a block on a slope stands or topples to a millionth of its width", "[
     const double angle = 20.0 * kPi / 180.0, height = 1.0, width = std::tan(angle) * height * side;
     const BodyDef block = blockOn(angle, {width, height, 0.5}, 0.9);
     Report report;
-    const Sample end = endOf(worldOf("exact", 10.0, {slope(angle, 0.9), block}), &report);
+    const Sample end = endOf(worldOf("exact", 10.0, {turnedSlope(angle, 0.9), block}), &report);
     const double turn = end.bodies[1].q.angularDistance(block.orientation);
     WARN("width = tan θ · height · " << side << ": turned by " << turn << " rad");
     if (side > 1.0)

@@ -31,20 +31,20 @@ const Start kOnCorner{{-0.266567, 0.653684, 0.196837},
                       59.0327,
                       {-1.7802, -1.9418, 1.62963},
                       {-9.99317, -3.81872, -6.58191}};
-const Box kBrick{{0.2, 0.1, 0.15}};
+const Box kThrownBrick{{0.2, 0.1, 0.15}};
 
 const Throw kThrows[] = {
-    {"brick", kBrick, 0.2, 0.4, kTumbling},
-    {"brick that spins", kBrick, 0.2, 0.4, kSpinning},
-    {"brick without rebound", kBrick, 0.0, 0.4, kTumbling},
-    {"brick that bounces", kBrick, 0.5, 1.0, kTumbling},
+    {"brick", kThrownBrick, 0.2, 0.4, kTumbling},
+    {"brick that spins", kThrownBrick, 0.2, 0.4, kSpinning},
+    {"brick without rebound", kThrownBrick, 0.0, 0.4, kTumbling},
+    {"brick that bounces", kThrownBrick, 0.5, 1.0, kTumbling},
     {"brick whose corner sticks and slips", Box{{0.08, 0.16, 0.1}}, 0.3, 0.4, kOnCorner},
     {"capsule", Capsule{0.12, 0.3}, 0.2, 0.4, kTumbling},
     {"cylinder", Cylinder{0.15, 0.3}, 0.5, 0.1, kSpinning},
     {"disc", Cylinder{0.2, 0.05}, 0.0, 0.3, kSpinning},
 };
 
-BodyDef thrown(const Throw& t) {
+BodyDef thrownBody(const Throw& t) {
   BodyDef def = box("thrown", Vec3::Ones(), t.start.position, t.e, t.mu);
   def.shape = t.shape;
   def.orientation = fromAxisAngle(t.start.axis, t.start.degrees * std::numbers::pi / 180.0);
@@ -63,7 +63,7 @@ BodyDef table(double e, double mu) {
 /// Follows a body to the end, and holds the books of energy and the overlap to their bounds.
 Certificate follow(const Throw& t, const BodyDef& below, double duration, double energy = 1e-10,
                    double overlap = 1e-9) {
-  World world(worldOf("exact", duration, {below, thrown(t)}));
+  World world(worldOf("exact", duration, {below, thrownBody(t)}));
   run(world);
   const Certificate& books = world.report().certificate;
   CAPTURE(t.what, books.evaluations, books.steps, books.energy_balance_error,
