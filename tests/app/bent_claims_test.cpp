@@ -8,7 +8,7 @@ using namespace tumble;
 
 namespace {
 
-constexpr const char* kCloth = R"([world]
+constexpr const char* kHangingCloth = R"([world]
 duration = 0.2
 [stepping]
 step = 0.016666666666666666
@@ -36,7 +36,8 @@ position = [0, 1, 0]
 // problems has it; each of its steps is one with held points. Measured 4e-14 of the largest Δv,
 // allowed 1e-10.
 TEST_CASE("a step with held points is the step of the world") {
-  const Scene scene = parseScene(std::string(kCloth) + "pins = [[0, 0], [5, 0]]\n", "s.toml");
+  const Scene scene =
+      parseScene(std::string(kHangingCloth) + "pins = [[0, 0], [5, 0]]\n", "s.toml");
   const Recording recording = record(scene, 1.0 / scene.world.stepping.step);
   for (std::size_t k = 1; k < recording.samples.size(); ++k) {
     const Sample &before = recording.samples[k - 1], &after = recording.samples[k];
@@ -56,10 +57,10 @@ TEST_CASE("a step with held points is the step of the world") {
 }
 
 TEST_CASE("claims of points that touch say nothing of scenes in which none does") {
-  const Scene falls = parseScene(kCloth, "s.toml");
+  const Scene falls = parseScene(kHangingCloth, "s.toml");
   const Recording recording = record(falls, 60.0);
   CHECK_FALSE(holds("holds", falls, recording));
   CHECK_FALSE(holds("point-plans", falls, recording));
-  const Scene pinned = parseScene(std::string(kCloth) + "pins = \"corners\"\n", "s.toml");
+  const Scene pinned = parseScene(std::string(kHangingCloth) + "pins = \"corners\"\n", "s.toml");
   CHECK_FALSE(holds("holds", pinned, record(pinned, 60.0)));
 }

@@ -9,7 +9,7 @@ using namespace tumble;
 
 namespace {
 
-constexpr const char* kScene = R"([world]
+constexpr const char* kBrickAndTop = R"([world]
 method = "course"
 gravity = [0, 0, 0]
 duration = 2.0
@@ -31,9 +31,9 @@ position = [5, 0, 0]
 pivot_body = [0, -0.2, 0]
 )";
 
-std::string refusal(const std::vector<std::string>& overrides) {
+std::string settingsRefusal(const std::vector<std::string>& overrides) {
   try {
-    makeWorld(parseScene(kScene, "s.toml", overrides));
+    makeWorld(parseScene(kBrickAndTop, "s.toml", overrides));
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -43,7 +43,7 @@ std::string refusal(const std::vector<std::string>& overrides) {
 }  // namespace
 
 TEST_CASE("order, attitude and pivot go from the file into the world") {
-  const Scene scene = parseScene(kScene, "s.toml");
+  const Scene scene = parseScene(kBrickAndTop, "s.toml");
   CHECK(scene.world.course.order == 9);
   CHECK(scene.world.course.attitude == "matrix");
   CHECK_FALSE(scene.world.bodies[0].pivot_B);
@@ -56,17 +56,17 @@ TEST_CASE("order, attitude and pivot go from the file into the world") {
 }
 
 TEST_CASE("what a world cannot integrate or hold is told at its key") {
-  CHECK(refusal({}).empty());
-  CHECK(refusal({"body.top.fixed=true"}) ==
+  CHECK(settingsRefusal({}).empty());
+  CHECK(settingsRefusal({"body.top.fixed=true"}) ==
         "s.toml:20:14: error: \"top\" is fixed; leave out the pivot or let it move");
-  CHECK(refusal({"world.method=stepping"})
+  CHECK(settingsRefusal({"world.method=stepping"})
             .find("s.toml:20:14: error: \"stepping\" knows no pivots") == 0);
   CHECK(
-      refusal({"course.integrator=taylor"}) ==
+      settingsRefusal({"course.integrator=taylor"}) ==
       "--set course.integrator=taylor: error: \"taylor\" needs a Taylor jet, which this scene does "
       "not offer");
-  CHECK(refusal({"course.integrator=taylor", "course.attitude=quaternion"}).empty());
-  CHECK(refusal({"course.step=1e-12"}) ==
+  CHECK(settingsRefusal({"course.integrator=taylor", "course.attitude=quaternion"}).empty());
+  CHECK(settingsRefusal({"course.step=1e-12"}) ==
         "--set course.step=1e-12: error: more than 1e11 steps would lead to the end; take longer "
         "ones");
 }
@@ -74,7 +74,7 @@ TEST_CASE("what a world cannot integrate or hold is told at its key") {
 // Oracle: R itself. The corners of what is drawn are where the matrix has them, to the single
 // precision of pictures; the nearest rotation alone would miss by more than a millimetre.
 TEST_CASE("a body that has sheared is drawn sheared") {
-  const Scene scene = parseScene(kScene, "s.toml");
+  const Scene scene = parseScene(kBrickAndTop, "s.toml");
   const Recording recording = record(scene, 10.0);
   const Presenter presenter(scene, recording);
   const Picture picture = presenter.image(presenter.count() - 1);

@@ -29,7 +29,7 @@ velocity = [1, 3, 0]
 rate = 20
 )";
 
-ClaimRow rowOf(const std::string& expect) {
+ClaimRow expectRow(const std::string& expect) {
   const Scene scene = parseScene(kThrow + "[[expect]]\n" + expect, "throw");
   requireKnownChecks(scene);
   const Verdict verdict = judge(scene, record(scene, scene.image.rate));
@@ -37,7 +37,7 @@ ClaimRow rowOf(const std::string& expect) {
   return verdict.rows.front();
 }
 
-std::string refusalOf(const std::string& expect) {
+std::string expectRefusal(const std::string& expect) {
   try {
     requireKnownChecks(parseScene(kThrow + "[[expect]]\n" + expect, "throw"));
   } catch (const SceneError& error) {
@@ -52,21 +52,21 @@ std::string refusalOf(const std::string& expect) {
 
 // Oracle: closed form. Measured 4e-16, allowed 1e-12.
 TEST_CASE("a formula is measured at an instant, at the ends and where it is largest or least") {
-  CHECK(rowOf("value = \"ball.3.y\"\nat = 0.3\nequals = 1.45\nwithin = 1e-12").holds());
-  CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nequals = 1.45\nwithin = 1e-12").holds());
-  CHECK(
-      rowOf("value = \"ball.3.vy + 10 * t\"\nover = \"min\"\nequals = 3\nwithin = 1e-12").holds());
-  CHECK(rowOf("value = \"energy\"\nequals = 30\nwithin = 1e-11").holds());
-  CHECK(rowOf("value = \"energy\"\nover = \"start\"\nequals = 30\nwithin = 1e-12").holds());
-  CHECK(rowOf("value = \"sqrt(ball.3.px^2) / 2\"\nequals = 1\nwithin = 1e-12").holds());
-  const ClaimRow off = rowOf("value = \"ball.3.y\"\nat = 0.3\nequals = 1.5\nwithin = 0.04");
+  CHECK(expectRow("value = \"ball.3.y\"\nat = 0.3\nequals = 1.45\nwithin = 1e-12").holds());
+  CHECK(expectRow("value = \"ball.3.y\"\nover = \"max\"\nequals = 1.45\nwithin = 1e-12").holds());
+  CHECK(expectRow("value = \"ball.3.vy + 10 * t\"\nover = \"min\"\nequals = 3\nwithin = 1e-12")
+            .holds());
+  CHECK(expectRow("value = \"energy\"\nequals = 30\nwithin = 1e-11").holds());
+  CHECK(expectRow("value = \"energy\"\nover = \"start\"\nequals = 30\nwithin = 1e-12").holds());
+  CHECK(expectRow("value = \"sqrt(ball.3.px^2) / 2\"\nequals = 1\nwithin = 1e-12").holds());
+  const ClaimRow off = expectRow("value = \"ball.3.y\"\nat = 0.3\nequals = 1.5\nwithin = 0.04");
   CHECK_FALSE(off.holds());
   CHECK(off.error == Approx(0.05).epsilon(1e-9));
 }
 
 TEST_CASE("no claim holds of what has no end") {
-  CHECK_FALSE(rowOf("value = \"ball.3.y / 0\"\nat_least = 0").holds());
-  CHECK_FALSE(rowOf("value = \"ball.3.y\"\nat_most = \"1 / ball.3.z\"").holds());
+  CHECK_FALSE(expectRow("value = \"ball.3.y / 0\"\nat_least = 0").holds());
+  CHECK_FALSE(expectRow("value = \"ball.3.y\"\nat_most = \"1 / ball.3.z\"").holds());
 }
 
 // Oracle: closed form, 3²/(2 g) above the start, whatever --set or a sweep puts there.
@@ -84,9 +84,10 @@ TEST_CASE("a formula reads numbers of the scene by their keys, as a sweep has ch
     CHECK(row.exact == Approx(1.0 + 4.5 / g).epsilon(1e-14));
     CHECK(row.holds());
   }
-  CHECK(refusalOf("value = \"world.gravty.1\"\nequals = 0").find("world.gravity.1") !=
+  CHECK(expectRefusal("value = \"world.gravty.1\"\nequals = 0").find("world.gravity.1") !=
         std::string::npos);
-  CHECK(refusalOf("value = \"t\"\nequals = \"bal.3.x\"").find("throw:14:11:") != std::string::npos);
+  CHECK(expectRefusal("value = \"t\"\nequals = \"bal.3.x\"").find("throw:14:11:") !=
+        std::string::npos);
 }
 
 // Oracle: what is read. A name with a hyphen is asked for with '_'.
@@ -117,11 +118,11 @@ TEST_CASE("the end is that of the run, though no sample lies there") {
 }
 
 TEST_CASE("at most and at least forgive what is on their side") {
-  CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.46").holds());
-  CHECK(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.4").holds());
-  CHECK_FALSE(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.4").holds());
-  CHECK_FALSE(rowOf("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.5").holds());
-  CHECK_FALSE(rowOf("value = \"0 / 0\"\nequals = 0\nwithin = 1").holds());
+  CHECK(expectRow("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.46").holds());
+  CHECK(expectRow("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.4").holds());
+  CHECK_FALSE(expectRow("value = \"ball.3.y\"\nover = \"max\"\nat_most = 1.4").holds());
+  CHECK_FALSE(expectRow("value = \"ball.3.y\"\nover = \"max\"\nat_least = 1.5").holds());
+  CHECK_FALSE(expectRow("value = \"0 / 0\"\nequals = 0\nwithin = 1").holds());
 }
 
 TEST_CASE("a formula that is none is refused where it goes wrong") {
@@ -156,7 +157,7 @@ TEST_CASE("a formula that is none is refused where it goes wrong") {
                Slip{"value = \"t\"\nequals = 0\nover = \"mox\"", {"'max'"}},
                Slip{"valu = \"t\"\nequals = 0", {"throw:13:1:", "'value'"}});
   CAPTURE(slip.expect);
-  const std::string refusal = refusalOf(slip.expect);
+  const std::string refusal = expectRefusal(slip.expect);
   CAPTURE(refusal);
   for (const std::string& text : slip.says) CHECK(refusal.find(text) != std::string::npos);
 }
@@ -164,7 +165,7 @@ TEST_CASE("a formula that is none is refused where it goes wrong") {
 TEST_CASE(
     "a graph's formula is refused at its place, with the near name of what only graphs read") {
   const auto refusal = [](const std::string& value) {
-    return refusalOf(
+    return expectRefusal(
         "value = \"t\"\nat_least = 0\n[[graph]]\nshows = \"values\"\n"
         "curves = [{ label = \"a\", value = \"" +
         value + "\" }]");

@@ -14,7 +14,7 @@ using namespace tumble;
 
 namespace {
 
-const std::string kScene = R"(
+const std::string kForms = R"(
 title = "Three </script> & forms"
 [world]
 duration = 0.2
@@ -63,7 +63,7 @@ std::uint32_t wordAt(const std::string& file, std::size_t at) {
 }
 
 // Header and chunks as §4.4 of the specification lays them out.
-Glb read(const std::string& file) {
+Glb readGlb(const std::string& file) {
   REQUIRE(file.substr(0, 4) == "glTF");
   CHECK(wordAt(file, 4) == 2);
   REQUIRE(wordAt(file, 8) == file.size());
@@ -79,9 +79,9 @@ Glb read(const std::string& file) {
 
 TEST_CASE(
     "a glTF file moves each body as the recording does, and bodies of one form share a mesh") {
-  const Scene scene = parseScene(kScene, "forms");
+  const Scene scene = parseScene(kForms, "forms");
   const Recording recording = record(scene, 60.0);
-  const Glb glb = read(gltfBinary(scene, recording));
+  const Glb glb = readGlb(gltfBinary(scene, recording));
   const auto& nodes = glb.json["nodes"];
   // Four bodies, each with a node for its mesh; the floor is none.
   REQUIRE(nodes.size() == 8);
@@ -109,8 +109,8 @@ TEST_CASE(
 }
 
 TEST_CASE("the physics extensions tell mass, inertia, form and surface of each body") {
-  const Scene scene = parseScene(kScene, "forms");
-  const Glb glb = read(gltfBinary(scene, record(scene, 60.0)));
+  const Scene scene = parseScene(kForms, "forms");
+  const Glb glb = readGlb(gltfBinary(scene, record(scene, 60.0)));
   const auto& node = glb.json["nodes"][1];
   REQUIRE(node["name"] == "box");
   const auto& body = node["extensions"]["KHR_physics_rigid_bodies"];
@@ -147,7 +147,7 @@ TEST_CASE("a mesh that many bodies share is closed, faces outward and has the si
 }
 
 TEST_CASE("scene.json has arrays expanded, colours, mass and inertia") {
-  const auto json = nlohmann::json::parse(sceneJson(parseScene(kScene, "forms")));
+  const auto json = nlohmann::json::parse(sceneJson(parseScene(kForms, "forms")));
   REQUIRE(json["bodies"].size() == 5);
   CHECK(json["bodies"][0]["shape"]["type"] == "half-space");
   CHECK(json["bodies"][0]["moves"] == false);
@@ -168,7 +168,7 @@ TEST_CASE("series are packed as differences, and values to one part in 65535") {
 
 TEST_CASE(
     "the page holds its run and asks for nothing outside itself, whatever the scene's texts") {
-  const Scene scene = parseScene(kScene, "forms");
+  const Scene scene = parseScene(kForms, "forms");
   const std::string page = pageHtml(scene, record(scene, 60.0));
   CHECK(page.find("Three </script>") == std::string::npos);
   CHECK(page.find("\\u003c/script> & forms") != std::string::npos);

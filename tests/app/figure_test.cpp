@@ -10,7 +10,7 @@ using namespace tumble;
 namespace {
 
 // Falls for a second onto the floor and lies there for nine more.
-const std::string kDrop = R"(
+const std::string kBoxDrop = R"(
 title = "A drop"
 [world]
 duration = 10.0
@@ -28,7 +28,7 @@ position = [0, 4, 0]
 
 TEST_CASE(
     "a sheet shows the fall in equal parts and the rest once, and a still scene one picture") {
-  const Scene scene = parseScene(kDrop, "drop");
+  const Scene scene = parseScene(kBoxDrop, "drop");
   const Recording recording = record(scene, 60.0);
   const std::vector<int> chosen = tellingSamples(scene, recording, 12);
   REQUIRE(chosen.size() == 12);
@@ -41,13 +41,13 @@ TEST_CASE(
                        recording.samples[chosen[n]].bodies[1].x.y();
     CHECK(way == Approx(3.9 / 11.0).margin(0.16));
   }
-  const Scene still = parseScene(kDrop, "drop", {"body.box.position=[0,0.1,0]"});
+  const Scene still = parseScene(kBoxDrop, "drop", {"body.box.position=[0,0.1,0]"});
   CHECK(tellingSamples(still, record(still, 60.0), 12) == std::vector<int>{0});
 }
 
 TEST_CASE("a camera that follows a body keeps it at its place on the image") {
   const Scene scene =
-      parseScene(kDrop + "[camera]\nfollow = \"box\"\n", "drop", {"world.duration=0.5"});
+      parseScene(kBoxDrop + "[camera]\nfollow = \"box\"\n", "drop", {"world.duration=0.5"});
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   const Projection start(presenter.image(0).camera, 1280.0, 720.0);
@@ -60,21 +60,21 @@ TEST_CASE("a camera that follows a body keeps it at its place on the image") {
 
 TEST_CASE("of several cameras the first is taken, and each needs a name of its own") {
   const std::string two =
-      kDrop + "[[camera]]\nname = \"a\"\nazimuth = 10\n[[camera]]\nname = \"b\"\nazimuth = 50\n";
+      kBoxDrop + "[[camera]]\nname = \"a\"\nazimuth = 10\n[[camera]]\nname = \"b\"\nazimuth = 50\n";
   const Scene scene = parseScene(two, "drop");
   REQUIRE(scene.cameras.size() == 2);
   CHECK(scene.camera.azimuth == 10.0);
   CHECK(scene.cameras[1].azimuth == 50.0);
   CHECK_THROWS_AS(
-      parseScene(kDrop + "[[camera]]\nname = \"a\"\n[[camera]]\nname = \"a\"\n", "drop"),
+      parseScene(kBoxDrop + "[[camera]]\nname = \"a\"\n[[camera]]\nname = \"a\"\n", "drop"),
       SceneError);
-  CHECK_THROWS_AS(parseScene(kDrop + "[[camera]]\nazimuth = 1\n", "drop"), SceneError);
-  CHECK_THROWS_AS(parseScene(kDrop + "[camera]\nfollow = \"bax\"\n", "drop"), SceneError);
+  CHECK_THROWS_AS(parseScene(kBoxDrop + "[[camera]]\nazimuth = 1\n", "drop"), SceneError);
+  CHECK_THROWS_AS(parseScene(kBoxDrop + "[camera]\nfollow = \"bax\"\n", "drop"), SceneError);
 }
 
 TEST_CASE("floor, ruler and title can be left out") {
   const Scene scene =
-      parseScene(kDrop + "[show]\nfloor = false\ntitle = false\nruler = false\n", "drop");
+      parseScene(kBoxDrop + "[show]\nfloor = false\ntitle = false\nruler = false\n", "drop");
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   for (const Picture& picture : {presenter.image(3), presenter.strobe()}) {
@@ -88,7 +88,7 @@ TEST_CASE("floor, ruler and title can be left out") {
 // In a film it must not jump, nor differ from that of the strobe.
 TEST_CASE("the ruler measures where bodies come in the run, in every picture of it") {
   const std::string thrown = "body.box.velocity=[2, 0, 0]";
-  const Scene scene = parseScene(kDrop, "drop", {thrown});
+  const Scene scene = parseScene(kBoxDrop, "drop", {thrown});
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   const Eigen::AlignedBox3d whole = presenter.image(0).floor.motion;
@@ -99,7 +99,7 @@ TEST_CASE("the ruler measures where bodies come in the run, in every picture of 
 
 // Oracle: symmetry. In a film the words of bodies that move must not push the ruler about.
 TEST_CASE("the ruler makes room for the same words in every picture of a run") {
-  const Scene scene = parseScene(kDrop + "[show]\nlabels = true\nimpacts = true\n", "drop");
+  const Scene scene = parseScene(kBoxDrop + "[show]\nlabels = true\nimpacts = true\n", "drop");
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   const Picture start = presenter.image(0);
@@ -113,7 +113,7 @@ TEST_CASE("the ruler makes room for the same words in every picture of a run") {
 }
 
 TEST_CASE("a slab of gel stands in place of the floor, with its top at the floor's height") {
-  const Scene scene = parseScene(kDrop + "[show]\ngel = 0.5\n", "drop");
+  const Scene scene = parseScene(kBoxDrop + "[show]\ngel = 0.5\n", "drop");
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   const Picture picture = presenter.image(0);

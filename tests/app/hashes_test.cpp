@@ -26,7 +26,7 @@ position = [1.0, 0.3, 0.0]
 )";
 
 // What reading the text says, after the name of the file.
-std::string refusal(const std::string& text, const Scene& scene) {
+std::string hashesRefusal(const std::string& text, const Scene& scene) {
   try {
     readHashes(text, "h", scene);
   } catch (const FileError& error) {
@@ -112,32 +112,34 @@ TEST_CASE("a file of hashes comes back as it was written, at a rate that no deci
 TEST_CASE("a file of hashes that is none is refused with line, column and what was expected") {
   const Scene scene = parseScene(kThree, "three");
   const std::string good = hashText(test::hashesOf(scene));
-  REQUIRE(refusal(good, scene).empty());
+  REQUIRE(hashesRefusal(good, scene).empty());
   const std::string head = good.substr(0, good.find('\n') + 1);
   const std::size_t sample = good.find("\n0.1 ") + 1;
 
-  CHECK(refusal("", scene).starts_with("h:1:1: no file of hashes: expected 'tumble hashes 1'"));
-  CHECK(refusal("t,body,x\n", scene).starts_with("h:1:1: no file of hashes"));
-  CHECK(refusal(replaced(good, "hashes 1", "hashes 2"), scene)
+  CHECK(
+      hashesRefusal("", scene).starts_with("h:1:1: no file of hashes: expected 'tumble hashes 1'"));
+  CHECK(hashesRefusal("t,body,x\n", scene).starts_with("h:1:1: no file of hashes"));
+  CHECK(hashesRefusal(replaced(good, "hashes 1", "hashes 2"), scene)
             .starts_with("h:1:1: hashes of another version"));
-  CHECK(refusal(head, scene).starts_with("h:1:1: the file ends before"));
-  CHECK(refusal(replaced(good, "rate 10", "rate ten"), scene)
+  CHECK(hashesRefusal(head, scene).starts_with("h:1:1: the file ends before"));
+  CHECK(hashesRefusal(replaced(good, "rate 10", "rate ten"), scene)
             .starts_with("h:2:6: expected a rate [1/s], found 'ten'"));
-  CHECK(refusal(replaced(good, "rate 10", "rate nan"), scene).starts_with("h:2:"));
-  CHECK(refusal(replaced(good, "bodies 3", "bodies 4"), scene).find("'three' with 4 bodies") !=
-        std::string::npos);
-  CHECK(refusal(replaced(good, "\n0.1 ", "\n0.2 "), scene)
+  CHECK(hashesRefusal(replaced(good, "rate 10", "rate nan"), scene).starts_with("h:2:"));
+  CHECK(
+      hashesRefusal(replaced(good, "bodies 3", "bodies 4"), scene).find("'three' with 4 bodies") !=
+      std::string::npos);
+  CHECK(hashesRefusal(replaced(good, "\n0.1 ", "\n0.2 "), scene)
             .starts_with("h:4:1: expected the sample at t = 0.1 s, found '0.2'"));
-  CHECK(refusal(replaced(good, "\n0.1 ", "\n0.1 x"), scene)
+  CHECK(hashesRefusal(replaced(good, "\n0.1 ", "\n0.1 x"), scene)
             .starts_with("h:4:5: expected a hash of 16 hexadecimal digits"));
-  CHECK(refusal(good.substr(0, sample + 10), scene).starts_with("h:4:5: "));
-  CHECK(refusal(good.substr(0, sample + 3), scene).starts_with("h:4:5: the line ends"));
-  CHECK(refusal(good.substr(0, sample), scene).starts_with("h:3:"));
-  CHECK(refusal(replaced(good, "events", "0.6 0 0 0\nevents"), scene)
+  CHECK(hashesRefusal(good.substr(0, sample + 10), scene).starts_with("h:4:5: "));
+  CHECK(hashesRefusal(good.substr(0, sample + 3), scene).starts_with("h:4:5: the line ends"));
+  CHECK(hashesRefusal(good.substr(0, sample), scene).starts_with("h:3:"));
+  CHECK(hashesRefusal(replaced(good, "events", "0.6 0 0 0\nevents"), scene)
             .starts_with("h:9:1: expected the line of events"));
-  CHECK(refusal(good + "more\n", scene).starts_with("h:10:1: expected the end of the file"));
+  CHECK(hashesRefusal(good + "more\n", scene).starts_with("h:10:1: expected the end of the file"));
 
   Scene other = scene;
   other.world.bodies[2].name = "higher";
-  CHECK(refusal(good, other).starts_with("h:2:"));
+  CHECK(hashesRefusal(good, other).starts_with("h:2:"));
 }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kBall = R"([world]
+const std::string kBallOnFloor = R"([world]
 method = "course"
 duration = 0.5
 [course]
@@ -65,8 +65,8 @@ Vec3 arrowNamed(const Picture& picture, const std::string& name) {
 }  // namespace
 
 TEST_CASE("v and F point as the body moves and is pulled, and the slots say so in numbers") {
-  const Picture picture =
-      pictureAt(kBall + "motion = true\ndiagram = \"state\"\nslots = [\"x\", \"v\", \"?\"]\n", 0.1);
+  const Picture picture = pictureAt(
+      kBallOnFloor + "motion = true\ndiagram = \"state\"\nslots = [\"x\", \"v\", \"?\"]\n", 0.1);
   // t = 0.1 s: v = (1, −0.981, 0) m/s, F = m g.
   CHECK(arrowNamed(picture, "v").normalized().dot(Vec3(1.0, -0.981, 0.0).normalized()) ==
         Approx(1.0).epsilon(1e-9));
@@ -110,7 +110,7 @@ TEST_CASE("a contact is colliding, resting or separating by the sign of n·ṗ")
   const auto [vy, kind] = GENERATE(std::pair(-1.0, "colliding"), std::pair(0.0, "resting"),
                                    std::pair(1.0, "separating"));
   const Scene scene = parseScene(
-      kBall + "contact_velocities = true\n", "scene",
+      kBallOnFloor + "contact_velocities = true\n", "scene",
       {"body.ball.position=[0, 0.1, 0]", fmt::format("body.ball.velocity=[0.5, {}, 0]", vy)});
   const Picture picture = statePicture(scene, checkedStart(scene));
   REQUIRE_FALSE(picture.marks.empty());
@@ -118,7 +118,7 @@ TEST_CASE("a contact is colliding, resting or separating by the sign of n·ṗ")
 }
 
 TEST_CASE("the flow chart is lit where the instant is: flight, impact, rest") {
-  const std::string scene = kBall + "diagram = \"flow\"\n";
+  const std::string scene = kBallOnFloor + "diagram = \"flow\"\n";
   const auto lit = [&](double t, const std::vector<std::string>& overrides = {}) {
     const Scene changed = parseScene(scene, "scene", overrides);
     const Recording recording = record(changed, 60.0);
@@ -133,7 +133,7 @@ TEST_CASE("the flow chart is lit where the instant is: flight, impact, rest") {
 }
 
 TEST_CASE("a spring below a ball is as much shorter as the ball has sunk in") {
-  const Scene scene = parseScene(kBall + "springs = true\n", "scene",
+  const Scene scene = parseScene(kBallOnFloor + "springs = true\n", "scene",
                                  {"course.contact=\"penalty\"", "course.stiffness=20000.0"});
   const Recording recording = record(scene, 240.0);
   const Presenter presenter(scene, recording);
@@ -153,7 +153,7 @@ TEST_CASE("a spring below a ball is as much shorter as the ball has sunk in") {
 }
 
 TEST_CASE("a panel shows a start that no run can begin with, in red") {
-  const Scene scene = parseScene(kBall, "scene", {"body.ball.position=[0, 0.05, 0]"});
+  const Scene scene = parseScene(kBallOnFloor, "scene", {"body.ball.position=[0, 0.05, 0]"});
   CHECK_THROWS_AS(makeWorld(scene), SceneError);
   const Picture picture = statePicture(scene, checkedStart(scene));
   CHECK(labelled(picture, "POSITIONS NOT OK"));
@@ -162,7 +162,7 @@ TEST_CASE("a panel shows a start that no run can begin with, in red") {
 // They are about runs, and its verdict stands where they would.
 TEST_CASE("the picture of a start has no words on what is expected of a run") {
   const std::string claim = "[[expect]]\nvalue = \"ball.y\"\nequals = 0.1\n";
-  const std::string free = kBall.substr(0, kBall.find("[show]"));
+  const std::string free = kBallOnFloor.substr(0, kBallOnFloor.find("[show]"));
   const Scene scene = parseScene(free + claim, "scene"), plain = parseScene(free, "scene");
   const Picture with = statePicture(scene, checkedStart(scene));
   const Picture without = statePicture(plain, checkedStart(plain));
@@ -175,7 +175,7 @@ TEST_CASE("the picture of a start has no words on what is expected of a run") {
 TEST_CASE("a graph of values follows its formula, against another in place of the time") {
   const fs::path file =
       fs::temp_directory_path() / ("tumble-" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(file) << kBall << "floor = true\n"
+  std::ofstream(file) << kBallOnFloor << "floor = true\n"
                       << R"(
 [[graph]]
 shows = "values"
@@ -198,7 +198,7 @@ curves = [{ label = "a", value = "ball.py / ball.px" }, { label = "b", value = "
 TEST_CASE("values that are no formula, or without one, are refused at their place") {
   const auto complaint = [](const std::string& graph) {
     try {
-      requireKnownChecks(parseScene(kBall + "floor = true\n[[graph]]\n" + graph, "s.toml"));
+      requireKnownChecks(parseScene(kBallOnFloor + "floor = true\n[[graph]]\n" + graph, "s.toml"));
     } catch (const SceneError& error) {
       return std::string(error.what());
     }
@@ -216,7 +216,7 @@ TEST_CASE("values that are no formula, or without one, are refused at their plac
 
 // A claim about a body and words beside it go with it, so that a panel of the others can be drawn.
 TEST_CASE("a panel without a body is free of what is expected and said of it") {
-  const std::string text = kBall + R"(floor = true
+  const std::string text = kBallOnFloor + R"(floor = true
 [[expect]]
 value = "ball.y"
 equals = 1.0

@@ -29,7 +29,8 @@ kind = "wind"
 force = [1, 0, 0]
 )";
 
-std::string complaint(const std::string& text, const std::vector<std::string>& overrides = {}) {
+std::string panelComplaint(const std::string& text,
+                           const std::vector<std::string>& overrides = {}) {
   try {
     parseScene(kTwo + text, "s.toml", overrides);
   } catch (const SceneError& error) {
@@ -124,7 +125,7 @@ TEST_CASE("a wrong panel or chart is refused at its place, with what is meant") 
     std::string text = chart;
     return text.replace(text.find(what), what.size(), by);
   };
-  REQUIRE(complaint(chart).empty());
+  REQUIRE(panelComplaint(chart).empty());
   const Wrong wrong = GENERATE_REF(
       Wrong{"[[panel]]\ntitel = \"a\"", "22:1", "panel.0.titel: unknown key, did you mean 'title'"},
       Wrong{"[[panel]]\npicture = \"stil\"", "22:11", "did you mean 'still'"},
@@ -162,12 +163,12 @@ TEST_CASE("a wrong panel or chart is refused at its place, with what is meant") 
       Wrong{spoilt("}]", "}]\nfloor = 0"), "26:9", "chart.0.floor: expected a number > 0"},
       Wrong{spoilt("course.step", "course.stp"), "23:9", "(as set in [[chart]] 'E')"});
   CAPTURE(wrong.text);
-  const std::string said = complaint(wrong.text);
+  const std::string said = panelComplaint(wrong.text);
   CAPTURE(said);
   CHECK(said.starts_with("s.toml:" + wrong.place + ": error: "));
   CHECK(said.find(wrong.says) != std::string::npos);
 }
 
 TEST_CASE("a still outlasts its scene where --set cuts the run short") {
-  CHECK(complaint("[[panel]]\npicture = \"still\"\nat = 1.5", {"world.duration=1"}).empty());
+  CHECK(panelComplaint("[[panel]]\npicture = \"still\"\nat = 1.5", {"world.duration=1"}).empty());
 }

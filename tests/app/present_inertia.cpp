@@ -15,7 +15,7 @@ using namespace tumble;
 namespace {
 
 // A book that spins about its middle axis and a ball, free of gravity.
-constexpr const char* kScene = R"(
+constexpr const char* kBook = R"(
 [world]
 gravity = [0, 0, 0]
 duration = 4.0
@@ -36,11 +36,11 @@ position = [0, 2, 0]
 velocity = [0.0, 0.0, 1.0]
 )";
 
-struct Run {
+struct BookRun {
   Scene scene;
   Recording recording;
-  explicit Run(const std::vector<std::string>& overrides)
-      : scene(parseScene(kScene, "book", overrides)), recording(record(scene, 60.0)) {}
+  explicit BookRun(const std::vector<std::string>& overrides)
+      : scene(parseScene(kBook, "book", overrides)), recording(record(scene, 60.0)) {}
   Picture strobe() const { return Presenter(scene, recording).strobe(); }
   Picture image(int k) const { return Presenter(scene, recording).image(k); }
 };
@@ -58,7 +58,7 @@ const Instance& ellipsoid(const Picture& picture, std::size_t index) {
 // Oracles: a solid ball is its own ellipsoid; a box of half extents h has √(5/3) h. Measured 2e-16
 // relative, allowed 1e-14.
 TEST_CASE("the ellipsoid of a body weighs and turns like it") {
-  const Run run({"show.ellipsoid=true"});
+  const BookRun run({"show.ellipsoid=true"});
   const Picture picture = run.image(7);
   const Instance& ball = ellipsoid(picture, 1);
   CHECK((ball.scale - Vec3::Constant(0.2)).norm() < 1e-14 * 0.2);
@@ -78,7 +78,7 @@ TEST_CASE("the ellipsoid of a body weighs and turns like it") {
 // Oracle: invariants. ω·Iω and |Iω|² are the same all along every curve. Measured 1.4e-9 (RK4) for
 // the way of ω and 1.6e-15 for the others, allowed 1e-7 and 1e-12.
 TEST_CASE("the polhode lies on Poinsot's ellipsoid, as do the curves of other momenta") {
-  const Run run({"show.polhode=true", "body.ball.fixed=true"});
+  const BookRun run({"show.polhode=true", "body.ball.fixed=true"});
   const Picture picture = run.image(120);
   const Instance& surface = ellipsoid(picture, 0);
   const Vec3 I(0.2 * 0.2 + 0.05 * 0.05, 0.3 * 0.3 + 0.05 * 0.05, 0.3 * 0.3 + 0.2 * 0.2);
@@ -108,7 +108,7 @@ TEST_CASE("the polhode lies on Poinsot's ellipsoid, as do the curves of other mo
 }
 
 TEST_CASE("momenta are drawn along, each kind as long as it is large") {
-  const Run run({"show.momenta=true"});
+  const BookRun run({"show.momenta=true"});
   const Picture first = run.image(0), later = run.image(130);
   // Book: P, L and ω; the ball does not spin.
   REQUIRE(first.arrows.size() == 4);
@@ -127,7 +127,7 @@ TEST_CASE("momenta are drawn along, each kind as long as it is large") {
 }
 
 TEST_CASE("a box in body axes turns with the body, and does not shear with its matrix") {
-  const Run run({"body.ball.fixed=true"});
+  const BookRun run({"body.ball.fixed=true"});
   Sample sample = run.recording.samples[30];
   const auto lengths = [&] {
     Picture picture;
@@ -144,7 +144,7 @@ TEST_CASE("a box in body axes turns with the body, and does not shear with its m
 }
 
 TEST_CASE("speed runs from one end of the scale to the other") {
-  const Run run({"show.speed=true", "body.book.velocity=[0, 0, 0]"});
+  const BookRun run({"show.speed=true", "body.book.velocity=[0, 0, 0]"});
   const Picture picture = run.strobe();
   REQUIRE(picture.bar);
   CHECK(picture.bar->caption == "speed / m/s");
@@ -156,7 +156,7 @@ TEST_CASE("speed runs from one end of the scale to the other") {
 }
 
 TEST_CASE("a body with two sides keeps its colours in a strobe") {
-  const Run run({"body.ball.fixed=true"});
+  const BookRun run({"body.ball.fixed=true"});
   const Picture picture = run.strobe();
   CHECK_FALSE(picture.bar);
   for (const Instance& instance : picture.instances) {
@@ -193,7 +193,7 @@ TEST_CASE("the camera sees ellipsoids and the ends of arrows inside the page") {
                      {"body.book.orientation=[1, 0, 0, 0]", {}},
                      {"body.book.angular_velocity_body=[6, 0, 0]", {}}},
                     {"book"}};
-  const Scene scene = parseScene(kScene, "rod", {flag, "body.book.velocity=[0, 0, 0]"}, &rod);
+  const Scene scene = parseScene(kBook, "rod", {flag, "body.book.velocity=[0, 0, 0]"}, &rod);
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   for (const int k : {0, 60, 120}) {

@@ -13,7 +13,7 @@ using namespace tumble;
 
 namespace {
 
-constexpr const char* kScene = R"(
+constexpr const char* kFalling = R"(
 title = "Falling"
 [world]
 duration = 1.0
@@ -41,7 +41,7 @@ int countOf(const Picture& picture, Finish finish) {
 }  // namespace
 
 TEST_CASE("a strobe shows a ghost every interval, older ones paler, and the last pose solid") {
-  const Scene scene = parseScene(kScene, "falling");
+  const Scene scene = parseScene(kFalling, "falling");
   const Recording recording = record(scene, 60.0);
   const Picture picture = Presenter(scene, recording).strobe();
   CHECK(countOf(picture, Finish::Ghost) == 10);
@@ -58,7 +58,7 @@ TEST_CASE("a strobe shows a ghost every interval, older ones paler, and the last
 }
 
 TEST_CASE("an image shows its sample's poses and time, on the floor where the scene has it") {
-  const Scene scene = parseScene(kScene, "falling");
+  const Scene scene = parseScene(kFalling, "falling");
   const Recording recording = record(scene, 60.0);
   const Presenter presenter(scene, recording);
   REQUIRE(presenter.count() == 61);
@@ -78,7 +78,7 @@ TEST_CASE("an image shows its sample's poses and time, on the floor where the sc
 }
 
 TEST_CASE("the camera sees every pose of the whole motion inside the page") {
-  const Scene scene = parseScene(kScene, "falling");
+  const Scene scene = parseScene(kFalling, "falling");
   const Recording recording = record(scene, 60.0);
   const Picture picture = Presenter(scene, recording).image(0);
   const Projection projection(picture.camera, 1280.0, 720.0);
@@ -94,7 +94,7 @@ TEST_CASE("the camera sees every pose of the whole motion inside the page") {
 
 // Twelve edges, each of the box's own length: 4 (a + b + c) in all, drawn without gaps.
 TEST_CASE("a bounding box is drawn with all its edges") {
-  const Scene scene = parseScene(kScene, "falling", {"show.boxes=true", "show.path=false"});
+  const Scene scene = parseScene(kFalling, "falling", {"show.boxes=true", "show.path=false"});
   const Recording recording = record(scene, 60.0);
   const Picture picture = Presenter(scene, recording).image(0);
   double length = 0.0;
@@ -105,7 +105,7 @@ TEST_CASE("a bounding box is drawn with all its edges") {
 }
 
 TEST_CASE("wind and velocity arrows point along, end on the body and grow with what they show") {
-  const Scene scene = parseScene(kScene, "falling");
+  const Scene scene = parseScene(kFalling, "falling");
   Sample sample;
   sample.bodies.resize(2);
   sample.bodies[1].v = {3.0, 0.0, 0.0};
@@ -128,7 +128,7 @@ TEST_CASE("wind and velocity arrows point along, end on the body and grow with w
 }
 
 TEST_CASE("labels give the values of their body") {
-  const Scene scene = parseScene(kScene, "falling");
+  const Scene scene = parseScene(kFalling, "falling");
   CHECK(labelOf(scene, 1) == "brick: 0.25");
   CHECK(labelOf(scene, 0).empty());
 }

@@ -14,15 +14,15 @@ namespace {
 constexpr int kApart = 10;
 
 /// A run to the end of its duration: its hashes and its certificate.
-struct Run {
+struct HashedRun {
   RunHashes hashes;
   Report report;
 };
 
 /// The run of a world that is at its start. With `returns` the world goes on at every tenth sample
 /// for ten samples, and then back.
-Run runOf(World& world, const Scene& scene, bool returns) {
-  Run run{hashesFor(scene, scene.image.rate), {}};
+HashedRun hashedRun(World& world, const Scene& scene, bool returns) {
+  HashedRun run{hashesFor(scene, scene.image.rate), {}};
   const int count = sampleCount(scene, scene.image.rate);
   const auto advanced = [&](int k) {
     const double t = static_cast<double>(k) / scene.image.rate;
@@ -83,9 +83,9 @@ void requireReturns(const std::string& name, const std::vector<std::string>& ove
         continue;
       World world = makeWorld(scene);
       const SavedWorld start = world.save();
-      const Run expected = runOf(world, scene, false);
+      const HashedRun expected = hashedRun(world, scene, false);
       world.restore(start);
-      const Run actual = runOf(world, scene, true);
+      const HashedRun actual = hashedRun(world, scene, true);
       const auto difference = firstDifference(expected.hashes, actual.hashes, scene);
       CHECK(difference.value_or("") == "");
       requireSameCertificate(expected.report, actual.report);

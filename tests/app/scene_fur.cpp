@@ -23,16 +23,17 @@ std::string ballWith(const std::string& keys, const std::string& body = "fixed =
          "position = [0, 1, 0]\n" +
          body + "[[fur]]\nname = \"hair\"\non = \"ball\"\n" + keys;
 }
-const std::string kFew = "strands = 20\npoints = 6\nlength = 0.1\nthickness = 0.004\n";
+const std::string kFewStrands = "strands = 20\npoints = 6\nlength = 0.1\nthickness = 0.004\n";
 
-bool says(const std::string& text, const std::string& what) {
+bool complaintSays(const std::string& text, const std::string& what) {
   return complaint(text).find(what) != std::string::npos;
 }
 
 }  // namespace
 
 TEST_CASE("a fur is strands that stand out of a body, each a force of its own") {
-  const Scene scene = parseScene(ballWith(kFew + "density = 0.003\nfriction = 0.2\n"), "s.toml");
+  const Scene scene =
+      parseScene(ballWith(kFewStrands + "density = 0.003\nfriction = 0.2\n"), "s.toml");
   REQUIRE(scene.world.bodies.size() == 1 + 20 * 6);
   CHECK(scene.world.forces.size() == 20);
   CHECK(scene.world.joints.empty());
@@ -59,7 +60,7 @@ TEST_CASE("a fur is strands that stand out of a body, each a force of its own") 
 
 TEST_CASE("roots are the same for a seed, and others for another") {
   const auto first = [](const std::string& keys) {
-    return parseScene(ballWith(kFew + keys), "s.toml").world.bodies[1].position;
+    return parseScene(ballWith(kFewStrands + keys), "s.toml").world.bodies[1].position;
   };
   CHECK(first("") == first(""));
   CHECK(first("seed = 1\n") == first("seed = 1\n"));
@@ -96,34 +97,36 @@ TEST_CASE("roots are spread evenly over every shape that has a surface, and stan
 }
 
 TEST_CASE("fur grows where the surface faces a direction, and says where nothing does") {
-  const Scene scene = parseScene(ballWith(kFew + "towards = [1, 0, 0]\nspread = 30\n"), "s.toml");
+  const Scene scene =
+      parseScene(ballWith(kFewStrands + "towards = [1, 0, 0]\nspread = 30\n"), "s.toml");
   for (std::size_t s = 0; s < 20; ++s)
     CHECK(scene.world.bodies[1 + 6 * s + 1].position.x() >= 0.2 * std::cos(30.0 * 3.1415927 / 180));
-  std::string box = ballWith(kFew + "towards = [1, 1, 1]\nspread = 20\n");
+  std::string box = ballWith(kFewStrands + "towards = [1, 1, 1]\nspread = 20\n");
   box.replace(box.find("{ sphere = 0.2 }"), 16, "{ box = [1, 1, 1] }");
-  CHECK(says(box, "take a wider one"));
+  CHECK(complaintSays(box, "take a wider one"));
 }
 
 TEST_CASE("wrong furs are told where and what to do") {
   CHECK(complaint(ballWith("strands = 3\n")) ==
         "s.toml:8:1: error: fur.hair.length: missing; of a strand in m");
-  CHECK(says(ballWith("length = 0.1\n"), "strands: missing; how many"));
-  CHECK(says(ballWith("strands = 3\nlength = 0.1\npoints = 2\n"), "s.toml:13:10"));
-  CHECK(says(ballWith("strands = 3\nlength = -0.1\n"), "s.toml:12:10"));
-  CHECK(says(ballWith("strands = 2500\npoints = 10\nlength = 0.1\n"), "more than 20000 points"));
-  CHECK(says(ballWith(kFew + "towards = [0, 0, 0]\n"), "not all zero"));
-  CHECK(says(ballWith(kFew + "stifness = 1\n"), "s.toml:15:1"));
-  std::string text = ballWith(kFew);
+  CHECK(complaintSays(ballWith("length = 0.1\n"), "strands: missing; how many"));
+  CHECK(complaintSays(ballWith("strands = 3\nlength = 0.1\npoints = 2\n"), "s.toml:13:10"));
+  CHECK(complaintSays(ballWith("strands = 3\nlength = -0.1\n"), "s.toml:12:10"));
+  CHECK(complaintSays(ballWith("strands = 2500\npoints = 10\nlength = 0.1\n"),
+                      "more than 20000 points"));
+  CHECK(complaintSays(ballWith(kFewStrands + "towards = [0, 0, 0]\n"), "not all zero"));
+  CHECK(complaintSays(ballWith(kFewStrands + "stifness = 1\n"), "s.toml:15:1"));
+  std::string text = ballWith(kFewStrands);
   text.replace(text.find("on = \"ball\""), 11, "on = \"bal\"");
-  CHECK(says(text, "did you mean 'ball'"));
-  text = ballWith(kFew);
+  CHECK(complaintSays(text, "did you mean 'ball'"));
+  text = ballWith(kFewStrands);
   text.replace(text.find("{ sphere = 0.2 }"), 16, "{ plane = [0, 1, 0, 0] }");
   text.replace(text.find("position = [0, 1, 0]"), 20, "friction = 0");
-  CHECK(says(text, "nothing grows on"));
+  CHECK(complaintSays(text, "nothing grows on"));
 }
 
 TEST_CASE("points of what bends have a file of their own, if it is asked for") {
-  const Scene scene = parseScene(ballWith(kFew, "mass = 1\n"), "s.toml");
+  const Scene scene = parseScene(ballWith(kFewStrands, "mass = 1\n"), "s.toml");
   const Recording recording = record(scene, 10.0);
   for (const bool nodes : {false, true}) {
     const fs::path folder = fs::temp_directory_path() / "tumble-nodes-test";
@@ -150,7 +153,8 @@ TEST_CASE("points of what bends have a file of their own, if it is asked for") {
 // the fur is pulled by pulls back.
 TEST_CASE("fur goes with a body that tumbles, and none of it sinks in") {
   Scene scene = parseScene(
-      ballWith(kFew + "bend = 1e-6\n", "mass = 1\nangular_velocity = [0, 8, 3]\n"), "s.toml");
+      ballWith(kFewStrands + "bend = 1e-6\n", "mass = 1\nangular_velocity = [0, 8, 3]\n"),
+      "s.toml");
   scene.world.gravity.setZero();
   CHECK(scene.world.joints.size() == 40);
   World world(scene.world);

@@ -42,7 +42,7 @@ Scene with(const std::vector<std::string>& overrides) {
   return parseScene(kText, "s.toml", overrides);
 }
 
-std::string complaint(const std::vector<std::string>& overrides) {
+std::string overrideComplaint(const std::vector<std::string>& overrides) {
   try {
     with(overrides);
   } catch (const SceneError& error) {
@@ -91,31 +91,32 @@ TEST_CASE("a refused override is named as such, beside what the file has wrong i
     INFO(text);
     return text.substr(0, head.size()) == head;
   };
-  CHECK(begins(complaint({"body.brick.mass=-1"}),
+  CHECK(begins(overrideComplaint({"body.brick.mass=-1"}),
                "--set body.brick.mass=-1: error: body.brick.mass: expected a number [kg] > 0"));
-  CHECK(begins(complaint({"body.brick.mas=1"}),
+  CHECK(begins(overrideComplaint({"body.brick.mas=1"}),
                "--set body.brick.mas=1: error: body.brick.mas: unknown key, did you mean 'mass'?"));
-  CHECK(begins(complaint({"body.brik.mass=1"}),
+  CHECK(begins(overrideComplaint({"body.brik.mass=1"}),
                "--set body.brik.mass=1: error: body.brik.mass: "
                "there is no 'brik', did you mean 'brick'?"));
-  CHECK(begins(complaint({"body.7.mass=1"}),
+  CHECK(begins(overrideComplaint({"body.7.mass=1"}),
                "--set body.7.mass=1: error: body.7.mass: "
                "there is no '7'"));
-  CHECK(begins(complaint({"materials.ruber.friction=1"}),
+  CHECK(begins(overrideComplaint({"materials.ruber.friction=1"}),
                "--set materials.ruber.friction=1: error: materials.ruber.friction: "
                "there is no material 'ruber', did you mean 'rubber'?"));
-  CHECK(begins(complaint({"world.gravity=[0, -1"}),
+  CHECK(begins(overrideComplaint({"world.gravity=[0, -1"}),
                "--set world.gravity=[0, -1: error: world.gravity: expected a list of 3 numbers"));
-  CHECK(begins(complaint({"world.gravity.x=1"}), "--set world.gravity.x=1: error: "));
-  CHECK(begins(complaint({"world.duration=2", "world.duration.x=1"}),
+  CHECK(begins(overrideComplaint({"world.gravity.x=1"}), "--set world.gravity.x=1: error: "));
+  CHECK(begins(overrideComplaint({"world.duration=2", "world.duration.x=1"}),
                "--set world.duration.x=1: error: world.duration.x: leads below 2"));
-  CHECK(begins(complaint({"world.method=magic"}),
+  CHECK(begins(overrideComplaint({"world.method=magic"}),
                "--set world.method=magic: error: world.method: unknown value 'magic'"));
-  CHECK(begins(complaint({"title=\"a\"\nx = 1", "nonsense=1"}), "--set nonsense=1: error: "));
-  CHECK(begins(complaint({"pairs.rubber-wood.friction=1"}),
+  CHECK(
+      begins(overrideComplaint({"title=\"a\"\nx = 1", "nonsense=1"}), "--set nonsense=1: error: "));
+  CHECK(begins(overrideComplaint({"pairs.rubber-wood.friction=1"}),
                "--set pairs.rubber-wood.friction=1: "
                "error: "));
-  const std::string both = complaint({"body.brik.mass=1", "camera.fov=0"});
+  const std::string both = overrideComplaint({"body.brik.mass=1", "camera.fov=0"});
   CHECK(both.find("--set body.brik.mass=1: error: ") != std::string::npos);
   CHECK(both.find("--set camera.fov=0: error: ") != std::string::npos);
 }
@@ -137,7 +138,7 @@ TEST_CASE("a sweep's parameter is tried before anything runs") {
   CHECK(scene.sweep->parameter == "materials.rubber.restitution");
   CHECK(scene.sweep->values == std::vector<std::string>{"0", "0.1", "1"});
 
-  CHECK(complaint({"sweep.parameter=world.gravty", "sweep.values=[1]"})
+  CHECK(overrideComplaint({"sweep.parameter=world.gravty", "sweep.values=[1]"})
             .find("--set sweep.parameter=world.gravty: error: world.gravty: unknown key") == 0);
 }
 

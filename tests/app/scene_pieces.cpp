@@ -43,7 +43,7 @@ std::string boxFile(const Vec3& lo, const Vec3& hi, int first, bool inside = fal
   return fileOf(inside ? reversed(box) : box, first);
 }
 
-std::string refusalOf(const std::string& text) {
+std::string meshRefusal(const std::string& text) {
   try {
     parseMesh(text, "m.obj");
   } catch (const MeshError& error) {
@@ -52,7 +52,7 @@ std::string refusalOf(const std::string& text) {
   return "";
 }
 
-std::string why(const std::string& keys, const std::string& file = "ell.obj") {
+std::string whyNoBody(const std::string& keys, const std::string& file = "ell.obj") {
   try {
     meshOf(keys, file);
   } catch (const SceneError& error) {
@@ -78,18 +78,18 @@ TEST_CASE("a scene says how a mesh is taken apart") {
   CHECK(meshOf(", pieces = \"hull\"").pieces->hulls.size() == 1);
   CHECK(meshOf(", pieces = \"slivers\"").pieces->hulls.size() == 8);
   CHECK(meshOf(", pieces_tolerance = 0").pieces->slack == 0.0);
-  CHECK(why(", pieces = \"splinters\"").find("good") != std::string::npos);
-  CHECK(why(", pieces_tolerance = -1").find("pieces_tolerance") != std::string::npos);
-  CHECK(why(", pieces_tolerance = nan").find("pieces_tolerance") != std::string::npos);
+  CHECK(whyNoBody(", pieces = \"splinters\"").find("good") != std::string::npos);
+  CHECK(whyNoBody(", pieces_tolerance = -1").find("pieces_tolerance") != std::string::npos);
+  CHECK(whyNoBody(", pieces_tolerance = nan").find("pieces_tolerance") != std::string::npos);
 }
 
 // What is wrong, and in which line of the file.
 TEST_CASE("a mesh that is no solid is refused in one line that says where") {
   const std::string box = boxFile({0, 0, 0}, {1, 1, 1}, 1);
-  CHECK(refusalOf(box).empty());
-  CHECK(refusalOf(box + boxFile({2, 0, 0}, {3, 1, 1}, 9)).empty());
+  CHECK(meshRefusal(box).empty());
+  CHECK(meshRefusal(box + boxFile({2, 0, 0}, {3, 1, 1}, 9)).empty());
   const auto says = [](const std::string& text, const std::string& line, const std::string& what) {
-    const std::string found = refusalOf(text);
+    const std::string found = meshRefusal(text);
     CAPTURE(found);
     CHECK(found.starts_with("m.obj:" + line + ": "));
     CHECK(found.find(what) != std::string::npos);
@@ -118,7 +118,7 @@ TEST_CASE("a mesh of too many pieces is refused at the line of a face at a notch
   text += fileOf(ell, first);
   const fs::path path = fs::temp_directory_path() / "tumble-many-pieces.obj";
   std::ofstream(path) << text;
-  const std::string found = why("", path.string());
+  const std::string found = whyNoBody("", path.string());
   fs::remove(path);
   CAPTURE(found);
   // Its points 4 and 10 are the notch, and its third face, after twelve points, runs from 4 to 10.

@@ -14,12 +14,12 @@ BodyDef body(const std::string& keys) {
   return read("[[body]]\n" + keys).world.bodies.at(0);
 }
 
-const std::string kBall = "shape = { sphere = 0.5 }\nmass = 1\n";
+const std::string kBallKeys = "shape = { sphere = 0.5 }\nmass = 1\n";
 
 }  // namespace
 
 TEST_CASE("what a scene leaves out has the defaults of the contract") {
-  const Scene scene = read("[[body]]\n" + kBall);
+  const Scene scene = read("[[body]]\n" + kBallKeys);
   CHECK(scene.name == "name");
   CHECK(scene.line == "name");
   CHECK(scene.seed == 42);
@@ -272,15 +272,15 @@ TEST_CASE("a plane's normal is made a unit vector, its distance with it, and it 
 // Oracle: closed form. Measured 1.2e-16, allowed 1e-15 for the rounding of a square root and a
 // sine.
 TEST_CASE("an orientation is the same by axis and degrees and by a quaternion of any length") {
-  const BodyDef turned = body(kBall + "orientation = { axis = [0, 0, 2], degrees = 90 }");
+  const BodyDef turned = body(kBallKeys + "orientation = { axis = [0, 0, 2], degrees = 90 }");
   CHECK((turned.orientation * Vec3::UnitX() - Vec3::UnitY()).norm() < 1e-15);
-  const BodyDef same = body(kBall + "orientation = [3, 0, 0, 3]");
+  const BodyDef same = body(kBallKeys + "orientation = [3, 0, 0, 3]");
   CHECK((turned.orientation.coeffs() - same.orientation.coeffs()).norm() < 1e-15);
 }
 
 // Oracle: closed form. Measured 2.3e-16, allowed 1e-15.
 TEST_CASE("a spin given in the body frame is turned to the world frame") {
-  const BodyDef spun = body(kBall +
+  const BodyDef spun = body(kBallKeys +
                             "orientation = { axis = [0, 0, 1], degrees = 90 }\n"
                             "angular_velocity_body = [2, 0, 0]");
   CHECK((spun.angularVelocity - Vec3(0.0, 2.0, 0.0)).norm() < 1e-15);
@@ -299,7 +299,7 @@ TEST_CASE("bodies stand in the order of the file, arrays behind them") {
       "[[array]]\nname = \"a\"\nkind = \"row\"\ncount = 2\nbody = { shape = { sphere = 1 }, mass = "
       "1 }\n"
       "[[body]]\nname = \"z\"\n" +
-      kBall + "[[body]]\nname = \"y\"\n" + kBall);
+      kBallKeys + "[[body]]\nname = \"y\"\n" + kBallKeys);
   std::vector<std::string> names;
   for (const BodyDef& def : scene.world.bodies) names.push_back(def.name);
   CHECK(names == std::vector<std::string>{"z", "y", "a.0", "a.1"});

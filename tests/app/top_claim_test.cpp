@@ -24,7 +24,7 @@ Scene topScene(const char* method) {
   return scene;
 }
 
-bool holds(const Scene& scene, const Recording& recording) {
+bool topHolds(const Scene& scene, const Recording& recording) {
   return tumble::holds("heavy-top", scene, recording);
 }
 
@@ -34,29 +34,29 @@ bool holds(const Scene& scene, const Recording& recording) {
 // steps, and 5e-15 of what is kept; RK4 at 1/960 s 2.8e-8 rad and 6.4e-10.
 TEST_CASE("tops by the exact method, by series and by fine steps keep the claim") {
   Scene scene = topScene("exact");
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
   scene.world.method = "course";
   scene.world.course.integrator = "taylor";
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
   scene.world.course.integrator = "rk4";
   scene.world.course.step = 1.0 / 960.0;
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
 }
 
 TEST_CASE("the claim of tops holds without gravity, sideways, and for a pendulum let go at rest") {
   Scene scene = topScene("exact");
   scene.world.gravity.setZero();
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
   scene.world.gravity = {3.0, -2.0, 7.0};
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
   scene.world.bodies[0].angularVelocity.setZero();
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
 }
 
 TEST_CASE("the claim of tops fails for coarse steps and for samples that lie") {
   Scene scene = topScene("course");
   scene.world.course.integrator = "euler";
-  CHECK_FALSE(holds(scene, record(scene, 60.0)));
+  CHECK_FALSE(topHolds(scene, record(scene, 60.0)));
 
   scene.world.method = "exact";
   const Recording truth = record(scene, 60.0);
@@ -70,7 +70,7 @@ TEST_CASE("the claim of tops fails for coarse steps and for samples that lie") {
   for (const auto& lie : lies) {
     Recording told = truth;
     lie(told.samples[100].bodies[0]);
-    CHECK_FALSE(holds(scene, told));
+    CHECK_FALSE(topHolds(scene, told));
   }
 }
 
@@ -91,13 +91,13 @@ TEST_CASE("pendulums on thin strings, far levers and far places keep the claim o
   bob.shape = Sphere{0.003};
   bob.angularVelocity.setZero();
   bob.pivot_B = Vec3(-1.0, 0.0, 0.0);
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
   scene = topScene("exact");
   scene.world.bodies[0].pivot_B = Vec3(-100.0, 0.0, 0.0);
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
   scene = topScene("exact");
   scene.world.bodies[0].position = {1e6, -3e5, 7.0};
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
 }
 
 // Joints of other bodies stay behind when a top is cut out of its scene; a top that a joint holds
@@ -121,7 +121,7 @@ TEST_CASE("the claim of tops holds beside bodies with joints, and is none of a t
   scene.world.joints = {glue};
   scene.world.course.integrator = "rk4";
   scene.world.course.step = 1.0 / 960.0;
-  CHECK(holds(scene, record(scene, 60.0)));
+  CHECK(topHolds(scene, record(scene, 60.0)));
 
   glue.a = 0;
   scene.world.joints = {glue};

@@ -9,24 +9,24 @@ namespace tumble {
 namespace {
 
 // Balls, boxes and half-spaces within reach of each other.
-Shape someShape(Random& random, int kind) {
+Shape someBallBoxOrPlane(Random& random, int kind) {
   if (kind == 0) return Sphere{random.uniform(0.1, 1.0)};
   if (kind == 1) return random.box();
   const Vec3 n = random.direction();
   return HalfSpace{n, random.uniform(-0.5, 0.5)};
 }
 
-struct Pair {
+struct ShapePair {
   Shape a, b;
   Pose poseA, poseB;
 };
 
-Pair somePair(Random& random) {
+ShapePair someShapePair(Random& random) {
   for (;;) {
     const int kindA = random.below(3);
     const int kindB = random.below(3);
-    const Shape a = someShape(random, kindA);
-    const Shape b = someShape(random, kindB);
+    const Shape a = someBallBoxOrPlane(random, kindA);
+    const Shape b = someBallBoxOrPlane(random, kindB);
     if (!canCollide(a, b)) continue;
     const Pose poseA = random.pose(1.0);
     const Pose poseB = random.pose(1.0);
@@ -35,8 +35,8 @@ Pair somePair(Random& random) {
 }
 
 // n·(p_a − p_b) > 0 for points inside the bodies: the direction in which parting takes place.
-bool partsAlong(const Pair& pair, const Vec3& n, double step) {
-  Pair apart = pair;
+bool partsAlong(const ShapePair& pair, const Vec3& n, double step) {
+  ShapePair apart = pair;
   if (std::holds_alternative<HalfSpace>(pair.a)) {
     apart.poseB.x -= step * n;
   } else {
@@ -54,7 +54,7 @@ TEST_CASE("pa - pb = (separation + ra + rb) n, and p is midway between the surfa
   double worst = 0.0;
   int points = 0;
   for (int k = 0; k < 20000; ++k) {
-    const Pair pair = somePair(random);
+    const ShapePair pair = someShapePair(random);
     collide(pair.a, pair.poseA, pair.b, pair.poseB, 0.05, manifold);
     for (const ContactPoint& c : manifold) {
       ++points;

@@ -44,7 +44,7 @@ Shape other(Random& random, int kind) {
 constexpr int kOthers = 6;
 
 /// Greatest height of a shape along n above its origin, by 64 bits of mantissa; both in the world.
-long double reach(const Shape& shape, const Pose& pose, const Vec3l& n) {
+long double heightOf(const Shape& shape, const Pose& pose, const Vec3l& n) {
   const Vec3l d = rotationOf(pose.q).transpose() * n;
   if (const auto* s = std::get_if<Sphere>(&shape)) return s->r * n.norm();
   if (const auto* box = std::get_if<Box>(&shape))
@@ -66,8 +66,8 @@ long double reach(const Shape& shape, const Pose& pose, const Vec3l& n) {
 long double gapAlong(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
                      const Vec3& n) {
   const Vec3l m = n.cast<long double>().normalized();
-  return m.dot(poseA.x.cast<long double>() - poseB.x.cast<long double>()) - reach(a, poseA, -m) -
-         reach(b, poseB, m);
+  return m.dot(poseA.x.cast<long double>() - poseB.x.cast<long double>()) - heightOf(a, poseA, -m) -
+         heightOf(b, poseB, m);
 }
 
 struct Found {
@@ -155,7 +155,7 @@ TEST_CASE("an ellipsoid stands above a plane by its closed form") {
     const Pose pose = random.pose(1.0);
     const HalfSpace plane{random.direction().normalized(), random.uniform(-1.0, 1.0)};
     const Vec3l n = plane.n.cast<long double>();
-    const long double exact = n.dot(pose.x.cast<long double>()) - plane.d - reach(e, pose, -n);
+    const long double exact = n.dot(pose.x.cast<long double>()) - plane.d - heightOf(e, pose, -n);
     worst = std::max(worst, std::abs(separation(e, pose, plane, {}) - static_cast<double>(exact)));
     Manifold points;
     collide(e, pose, plane, {}, 10.0, points);

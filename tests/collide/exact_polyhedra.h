@@ -131,7 +131,7 @@ T width(const Placed<T>& solids, const V<T>& n) {
 class Sign {
  public:
   Sign(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB)
-      : a_(outlineOf(a)), b_(outlineOf(b)), poseA_(poseA), poseB_(poseB) {}
+      : a_(exact::outlineOf(a)), b_(exact::outlineOf(b)), poseA_(poseA), poseB_(poseB) {}
 
   int operator()() {
     rough_ = placed<long double>(a_, poseA_, b_, poseB_);

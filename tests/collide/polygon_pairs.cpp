@@ -17,7 +17,7 @@ namespace {
 using Corners = PolygonSoup::Corners;
 
 /// Whether an edge of one triangle passes through another, on corners in the world as rounded.
-bool cross(const Corners& s, const Corners& t) {
+bool crosses(const Corners& s, const Corners& t) {
   for (int k = 0; k < 3; ++k) {
     const Vec3 &p = s.at[k], &q = s.at[(k + 1) % 3];
     if (orientation(t.at[0], t.at[1], t.at[2], p) == orientation(t.at[0], t.at[1], t.at[2], q))
@@ -33,7 +33,7 @@ struct Triangle {
   Corners corners;
   Aabb box;
 };
-std::vector<Triangle> placed(const PolygonSoup& soup, const Pose& pose) {
+std::vector<Triangle> trianglesAt(const PolygonSoup& soup, const Pose& pose) {
   std::vector<Triangle> all;
   for (Corners t : soup.triangles()) {
     for (Vec3& p : t.at) p = toWorld(pose, p);
@@ -46,13 +46,13 @@ std::vector<Triangle> placed(const PolygonSoup& soup, const Pose& pose) {
 
 bool allPairsCross(const PolygonSoup& a, const Pose& poseA, const PolygonSoup& b,
                    const Pose& poseB) {
-  const std::vector<Triangle> ofA = placed(a, poseA), ofB = placed(b, poseB);
+  const std::vector<Triangle> ofA = trianglesAt(a, poseA), ofB = trianglesAt(b, poseB);
   for (const Triangle& s : ofA)
     for (const Triangle& t : ofB) {
       if ((s.box.lo.array() > t.box.hi.array()).any() ||
           (t.box.lo.array() > s.box.hi.array()).any())
         continue;
-      if (cross(s.corners, t.corners) || cross(t.corners, s.corners)) return true;
+      if (crosses(s.corners, t.corners) || crosses(t.corners, s.corners)) return true;
     }
   for (const Vec3& p : a.shells())
     if (b.contains(toBody(poseB, toWorld(poseA, p)))) return true;
@@ -61,12 +61,12 @@ bool allPairsCross(const PolygonSoup& a, const Pose& poseA, const PolygonSoup& b
   return false;
 }
 
-struct Tally {
+struct OverlapTally {
   int poses = 0, overlapping = 0, doubtful = 0;
 };
 
 /// Twenty poses of two meshes. Pieces may stand out of them by what they say.
-void compare(const Mesh& a, const Mesh& b, Random& random, Tally& tally) {
+void comparePoses(const Mesh& a, const Mesh& b, Random& random, OverlapTally& tally) {
   const PolygonSoup soupA(a), soupB(b);
   PolygonPairs pairs(soupA, soupB);
   const Shape partsA = readyShape(contactShape(a)), partsB = readyShape(contactShape(b));
@@ -88,7 +88,7 @@ void compare(const Mesh& a, const Mesh& b, Random& random, Tally& tally) {
   }
 }
 
-void report(const char* what, const Tally& tally) {
+void reportOverlaps(const char* what, const OverlapTally& tally) {
   WARN(tally.poses << " poses of pairs of " << what << ": measured " << tally.overlapping
                    << " overlaps, " << tally.doubtful << " in doubt, no wrong sign");
   CHECK(tally.overlapping > tally.poses / 4);
@@ -98,12 +98,12 @@ void report(const char* what, const Tally& tally) {
 
 void compareMeshes(int pairs) {
   Random random(91);
-  Tally tally;
+  OverlapTally tally;
   for (int k = 0; k < pairs; ++k) {
     const Mesh a = meshes::someMesh(random), b = meshes::someMesh(random);
-    compare(a, b, random, tally);
+    comparePoses(a, b, random, tally);
   }
-  report("meshes", tally);
+  reportOverlaps("meshes", tally);
 }
 
 }  // namespace
@@ -121,9 +121,9 @@ TEST_CASE("a thousand poses of tori: pieces, polygon pairs and all triangles agr
   torus.origin = -torus.solid->points[0];
   torus.pieces = std::make_shared<const Pieces>(piecesOf(*torus.solid, PieceKind::Good, 1.4e-6));
   Random random(92);
-  Tally tally;
-  for (int k = 0; k < 50; ++k) compare(torus, torus, random, tally);
-  report("tori", tally);
+  OverlapTally tally;
+  for (int k = 0; k < 50; ++k) comparePoses(torus, torus, random, tally);
+  reportOverlaps("tori", tally);
 }
 
 // Oracle: all pairs. Boxes by level let fewer through, and nothing that is near is lost.

@@ -145,13 +145,13 @@ double lift(const Shape& a, Pose& poseA, const Shape& b, const Pose& poseB, doub
   return (poseA.x - from).norm();
 }
 
-struct Tally {
+struct TouchTally {
   int poses = 0;
   double least = 1e300, deepest = 0.0, lifted = 0.0;  // per way past the first touch
 };
 
 /// Sends one solid at another, seam on seam, to just past where their polygons first touch.
-void sendOne(int k, Random& random, Tally& tally) {
+void sendOne(int k, Random& random, TouchTally& tally) {
   constexpr double kPast = 1e-4;  // [m]
   const Solid one = solidOf(random.below(4), random.below(2) == 1),
               other = solidOf(random.below(4), random.below(2) == 1);
@@ -199,7 +199,7 @@ void sendOne(int k, Random& random, Tally& tally) {
 
 void send(int count) {
   Random random(7);
-  Tally tally;
+  TouchTally tally;
   for (int k = 0; k < count; ++k) sendOne(k, random, tally);
   WARN(tally.poses << " poses of seams on seams, per way past the first touch: measured overlaps "
                    << tally.least << " to " << tally.deepest << ", lifted by " << tally.lifted
@@ -276,7 +276,7 @@ Compound quarters(const Vec3& half) {
 }
 
 /// The same box as a hull.
-Hull hullOf(const Vec3& half) {
+Hull hullOfBox(const Vec3& half) {
   std::vector<Vec3> points;
   for (int k = 0; k < 8; ++k)
     points.emplace_back(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(),
@@ -314,7 +314,7 @@ TEST_CASE("what stands on flush parts touches them where it touches one part") {
   const Standing all[] = {
       {"a box", Box{half}, Box{half}, 0.25},
       {"a box of four", quarters(half), Box{half}, 0.25},
-      {"a hull", hullOf(half), hullOf(half), 0.25},
+      {"a hull", hullOfBox(half), hullOfBox(half), 0.25},
       {"a ball", Sphere{kHeight}, Sphere{kHeight}, 0.0},
       {"a cylinder", Cylinder{0.2, 2.0 * kHeight}, Cylinder{0.2, 2.0 * kHeight}, 0.2},
       {"a narrow cylinder", Cylinder{0.07, 2.0 * kHeight}, Cylinder{0.07, 2.0 * kHeight}, 0.07},

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-Shape someShape(Random& random) {
+Shape someSolid(Random& random) {
   const int kind = random.below(6);
   if (kind == 0) return Sphere{random.uniform(0.1, 0.5)};
   if (kind == 1) return random.box(0.1, 0.5);
@@ -35,8 +35,8 @@ TEST_CASE("a plane that shows two bodies apart is right, and most often it does"
   Random random(81);
   int shown = 0, apart = 0;
   for (int k = 0; k < 20000; ++k) {
-    const Shape a = someShape(random);
-    const Shape b = someShape(random);
+    const Shape a = someSolid(random);
+    const Shape b = someSolid(random);
     const Pose poseA = random.pose(1.0);
     const Pose poseB = random.pose(0.5);
     const ContactPoint plane = separatingPlane(a, poseA, b, poseB);

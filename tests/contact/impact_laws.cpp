@@ -98,14 +98,14 @@ Heap randomHeap(Random& random, bool friction, bool elastic) {
 }
 
 /// What many random impacts of one law do at worst, relative to what there was.
-struct Worst {
+struct WorstImpact {
   double energy = 0.0, gain = -1.0, momentum = 0.0, spin = 0.0, pull = 0.0, approach = 0.0;
   int unfinished = 0;
 };
 
-Worst worstOf(const char* law, int count, bool friction, bool elastic) {
+WorstImpact worstOf(const char* law, int count, bool friction, bool elastic) {
   Random random(7);
-  Worst worst;
+  WorstImpact worst;
   for (int k = 0; k < count; ++k) {
     Heap heap = randomHeap(random, friction, elastic);
     const bool free = !heap.bodies[0].fixed();
@@ -221,7 +221,7 @@ TEST_CASE("impacts of any law only push, keep momentum, end, and never gain ener
     for (const bool friction : {false, true}) {
       const std::string name(law.name);
       CAPTURE(name, friction);
-      const Worst worst = worstOf(name.c_str(), 300, friction, false);
+      const WorstImpact worst = worstOf(name.c_str(), 300, friction, false);
       CHECK(worst.gain < 1e-12);
       CHECK(worst.momentum < 1e-12);
       CHECK(worst.spin < 1e-12);
@@ -268,7 +268,7 @@ TEST_CASE("the law \"auto\" is reflections as far as they reach, and crowd beyon
 // was compressed with it: where that gave nothing back, a row of twenty lost half its energy.
 // Measured 7e-15, allowed 1e-12.
 TEST_CASE("an elastic blow without friction takes nothing from a crowd") {
-  const Worst worst = worstOf("crowd", 2000, false, true);
+  const WorstImpact worst = worstOf("crowd", 2000, false, true);
   CHECK(worst.energy < 1e-12);
   CHECK(worst.approach < 1e-9);
   for (const int n : {20, 80}) {
@@ -282,7 +282,7 @@ TEST_CASE("an elastic blow without friction takes nothing from a crowd") {
 }
 
 TEST_CASE("elastic reflections in random heaps keep energy and momentum", "[figures]") {
-  const Worst worst = worstOf("reflections", 2000, false, true);
+  const WorstImpact worst = worstOf("reflections", 2000, false, true);
   CHECK(worst.energy < 1e-12);
   CHECK(worst.momentum < 1e-12);
   CHECK(worst.pull < 1e-12);
@@ -290,7 +290,7 @@ TEST_CASE("elastic reflections in random heaps keep energy and momentum", "[figu
 }
 
 TEST_CASE("a hundred thousand of them do", "[long][figures]") {
-  const Worst worst = worstOf("reflections", 100'000, false, true);
+  const WorstImpact worst = worstOf("reflections", 100'000, false, true);
   WARN("reflections in 100,000 random heaps: energy "
        << worst.energy << ", momentum " << worst.momentum << ", angular momentum " << worst.spin
        << ", pull " << worst.pull << " (1e-12 each); left approaching " << worst.approach

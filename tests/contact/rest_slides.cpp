@@ -19,7 +19,7 @@ namespace {
 constexpr double kWeight = 9.81;  // m/s²
 const Vec3 kDown(0.0, -kWeight, 0.0);
 
-RigidBody solid(const Shape& shape, double mass, const Vec3& x) {
+RigidBody restingSolid(const Shape& shape, double mass, const Vec3& x) {
   RigidBody body = makeBody(solidMass(shape, mass));
   body.x = x;
   updateDerived(body);
@@ -66,7 +66,8 @@ struct Scene {
 Scene stack(int count) {
   Scene scene;
   for (int k = 0; k < count; ++k) {
-    const int box = scene.add(solid(Box{{0.5, 0.25, 0.4}}, 1.0 + k, {0.0, 0.25 + 0.5 * k, 0.0}));
+    const int box =
+        scene.add(restingSolid(Box{{0.5, 0.25, 0.4}}, 1.0 + k, {0.0, 0.25 + 0.5 * k, 0.0}));
     for (const double x : {-0.5, 0.5})
       for (const double z : {-0.4, 0.4})
         scene.contacts.push_back(touch(box, box - 1, {x, 0.5 * k, z}));
@@ -78,7 +79,7 @@ Scene stack(int count) {
 Scene tangle() {
   Scene scene;
   for (int k = 0; k < 2; ++k) {
-    RigidBody box = solid(Box{{0.3, 0.2, 0.4}}, 1.0 + k, {0.1 * k, 0.3 + 0.5 * k, -0.1 * k});
+    RigidBody box = restingSolid(Box{{0.3, 0.2, 0.4}}, 1.0 + k, {0.1 * k, 0.3 + 0.5 * k, -0.1 * k});
     box.q = fromAxisAngle({1.0, 2.0, -0.5}, 0.4 + 0.3 * k);
     updateDerived(box);
     setVelocity(box, {0.3, -0.2 * k, 0.1}, {0.7, -1.1, 0.4 + k});
@@ -170,7 +171,7 @@ TEST_CASE("a_ij and b_i of a rod on two feet are as solved by hand") {
   for (const bool ends : {true, false}) {
     CAPTURE(ends);
     Scene scene;
-    scene.add(solid(Box{{1.0, 1e-9, 1e-9}}, m, Vec3::Zero()));
+    scene.add(restingSolid(Box{{1.0, 1e-9, 1e-9}}, m, Vec3::Zero()));
     const double l = ends ? 1.0 : 0.5;
     scene.contacts = {touch(1, 0, {-l, 0.0, 0.0}), touch(1, 0, {l, 0.0, 0.0})};
     const Delassus system = delassus(scene.problem());
@@ -190,7 +191,7 @@ TEST_CASE("a_ij and b_i of a rod on two feet are as solved by hand") {
 TEST_CASE("f of at least 0 and a f + b of at least 0 leave the force open, f a = 0 does not") {
   const double m = 2.0;
   Scene scene;
-  scene.add(solid(Sphere{0.5}, m, {0.0, 0.5, 0.0}));
+  scene.add(restingSolid(Sphere{0.5}, m, {0.0, 0.5, 0.0}));
   scene.contacts = {touch(1, 0, Vec3::Zero())};
   const Delassus system = delassus(scene.problem());
   for (const double s : {0.0, 0.01, 1.0, 50.0}) {
@@ -251,8 +252,8 @@ TEST_CASE("between two planes a particle, a ball and a box are carried alike") {
       const bool box = kind == std::string("box");
       Scene scene;
       scene.add(kind == std::string("particle") ? makeParticle(m)
-                : box                           ? solid(Box{{0.2, 0.3, 0.5}}, m, Vec3::Zero())
-                                                : solid(Sphere{r}, m, Vec3::Zero()));
+                : box ? restingSolid(Box{{0.2, 0.3, 0.5}}, m, Vec3::Zero())
+                      : restingSolid(Sphere{r}, m, Vec3::Zero()));
       const Vec3 na(std::sin(alpha), std::cos(alpha), 0.0),
           nb(-std::sin(beta), std::cos(beta), 0.0);
       const double reach = kind == std::string("particle") ? 0.0 : r;

@@ -9,7 +9,8 @@ using namespace tumble;
 
 namespace {
 
-RigidBody solid(const Shape& shape, double mass, const Vec3& v, const Vec3& omega = Vec3::Zero()) {
+RigidBody movingSolid(const Shape& shape, double mass, const Vec3& v,
+                      const Vec3& omega = Vec3::Zero()) {
   RigidBody body = makeBody(solidMass(shape, mass));
   updateDerived(body);
   setVelocity(body, v, omega);
@@ -29,7 +30,7 @@ ContactPoint at(const Vec3& p, const Vec3& n = Vec3::UnitY()) {
 // that stays, rises or sinks. vrel = 1 − 2, and so on, exactly.
 TEST_CASE("colliding, resting or separating is a matter of the relative velocity along n") {
   const auto kind = [](double up, double floorUp) {
-    const RigidBody a = solid(Sphere{0.5}, 1.0, {3.0, up, -1.0});
+    const RigidBody a = movingSolid(Sphere{0.5}, 1.0, {3.0, up, -1.0});
     const RigidBody b = makeFixedBody({}, {0.5, floorUp, 2.0}, Vec3::Zero());
     CHECK(approachVelocity(a, b, at({0.0, -0.5, 0.0})) == up - floorUp);
     return classify(up - floorUp, 1e-9);
@@ -62,11 +63,11 @@ TEST_CASE("c j + b = d against a fixed body is as solved by hand") {
   const RigidBody floor = makeFixedBody({});
   for (const double e : {0.0, 0.5, 1.0}) {
     CAPTURE(e);
-    const RigidBody ball = solid(Sphere{0.3}, 2.0, {0.0, -3.0, 0.0});
+    const RigidBody ball = movingSolid(Sphere{0.3}, 2.0, {0.0, -3.0, 0.0});
     CHECK(collisionImpulse(ball, floor, at({0.0, -0.3, 0.0}), e) ==
           Approx((1.0 + e) * 2.0 * 3.0).epsilon(1e-14));
 
-    RigidBody rod = solid(Box{{1.0, 1e-9, 1e-9}}, 3.0, {0.0, -2.0, 0.0});
+    RigidBody rod = movingSolid(Box{{1.0, 1e-9, 1e-9}}, 3.0, {0.0, -2.0, 0.0});
     const double j = collisionImpulse(rod, floor, at({1.0, 0.0, 0.0}), e);
     CHECK(j == Approx((1.0 + e) * 3.0 * 2.0 / 4.0).epsilon(1e-14));
     // The end leaves at e · 2 m/s; the centre is slowed by a quarter of what a ball would be.
@@ -74,7 +75,7 @@ TEST_CASE("c j + b = d against a fixed body is as solved by hand") {
     CHECK(rod.v.y() == Approx(-2.0 + (1.0 + e) / 2.0).epsilon(1e-14));
     CHECK(rod.omega.z() == Approx((1.0 + e) * 1.5).epsilon(1e-14));
 
-    const RigidBody cube = solid(Box{{0.4, 0.4, 0.4}}, 5.0, {0.0, -1.0, 0.0});
+    const RigidBody cube = movingSolid(Box{{0.4, 0.4, 0.4}}, 5.0, {0.0, -1.0, 0.0});
     CHECK(collisionImpulse(cube, floor, at({0.4, -0.4, 0.4}), e) ==
           Approx((1.0 + e) * 5.0 / 4.0).epsilon(1e-14));
   }
@@ -85,8 +86,8 @@ TEST_CASE("c j + b = d against a fixed body is as solved by hand") {
 TEST_CASE("c j + b = d between two moving bodies is as solved by hand") {
   for (const double e : {0.0, 0.5, 1.0}) {
     CAPTURE(e);
-    RigidBody a = solid(Sphere{0.5}, 1.0, {0.0, -2.0, 0.0});
-    RigidBody b = solid(Sphere{0.5}, 3.0, {0.0, 1.0, 0.0});
+    RigidBody a = movingSolid(Sphere{0.5}, 1.0, {0.0, -2.0, 0.0});
+    RigidBody b = movingSolid(Sphere{0.5}, 3.0, {0.0, 1.0, 0.0});
     const double j = collisionImpulse(a, b, at({0.0, 0.0, 0.0}), e);
     CHECK(j == Approx((1.0 + e) * 3.0 / (1.0 + 1.0 / 3.0)).epsilon(1e-14));
     applyImpulse(a, Vec3::Zero(), {0.0, j, 0.0});
@@ -95,9 +96,10 @@ TEST_CASE("c j + b = d between two moving bodies is as solved by hand") {
     CHECK(a.v.y() == Approx(0.25 + e * 2.25).epsilon(1e-14));
     CHECK(b.v.y() == Approx(0.25 - e * 0.75).epsilon(1e-14));
 
-    RigidBody ball = solid(Sphere{0.5}, 1.0, {0.0, -2.0, 0.0});
+    RigidBody ball = movingSolid(Sphere{0.5}, 1.0, {0.0, -2.0, 0.0});
     ball.x = {1.0, 0.5, 0.0};
-    const RigidBody rod = solid(Box{{1.0, 1e-9, 1e-9}}, 2.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+    const RigidBody rod =
+        movingSolid(Box{{1.0, 1e-9, 1e-9}}, 2.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
     // The rod's end rises at ω l/2 = 1 m/s.
     CHECK(collisionImpulse(ball, rod, at({1.0, 0.0, 0.0}), e) ==
           Approx((1.0 + e) * 3.0 / (1.0 + 2.0)).epsilon(1e-14));
@@ -107,8 +109,8 @@ TEST_CASE("c j + b = d between two moving bodies is as solved by hand") {
 // Oracle: probing. The relative velocity is linear in j: one unit of impulse changes it by c,
 // whatever the bodies do; allowed 1e-13.
 TEST_CASE("c is what one unit of impulse changes in the relative velocity") {
-  RigidBody a = solid(Box{{0.5, 0.2, 0.3}}, 2.0, {0.3, -0.4, 0.5}, {1.0, -2.0, 0.7});
-  RigidBody b = solid(Box{{0.1, 0.6, 0.2}}, 0.7, {-0.6, 0.2, 0.1}, {-1.2, 0.4, 2.0});
+  RigidBody a = movingSolid(Box{{0.5, 0.2, 0.3}}, 2.0, {0.3, -0.4, 0.5}, {1.0, -2.0, 0.7});
+  RigidBody b = movingSolid(Box{{0.1, 0.6, 0.2}}, 0.7, {-0.6, 0.2, 0.1}, {-1.2, 0.4, 2.0});
   a.q = fromAxisAngle({1.0, 2.0, 0.5}, 0.4);
   b.q = fromAxisAngle({0.2, -1.0, 0.5}, 1.1);
   updateDerived(a);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 const Quat kTurned = fromAxisAngle({1.0, 2.0, -0.5}, 0.8);
 
-RigidBody flown(const RigidBody& start, double t) {
+RigidBody weightless(const RigidBody& start, double t) {
   RigidBody body = start;
   Flight(start, Vec3::Zero(), 0.0).at(t, body);
   return body;
@@ -26,7 +26,7 @@ RigidBody flown(const RigidBody& start, double t) {
 
 /// Angle [rad] between the flight and the reference after t [s].
 double attitudeError(const RigidBody& start, double t) {
-  return angleTo(taylorFlight(freeTop<Extended>(start), Extended(t)).q, flown(start, t).q);
+  return angleTo(taylorFlight(freeTop<Extended>(start), Extended(t)).q, weightless(start, t).q);
 }
 
 /// |I ω|, of the derived quantities, against |L|.
@@ -73,7 +73,7 @@ TEST_CASE("a million seconds of free spin change neither energy nor momentum", "
   double energy = 0.0, momentum = 0.0;
   for (const double t : {1e6, 1e6 + 0.3, 1e6 + 0.7, 1e8}) {
     for (const RigidBody& start : {flippingBrick(1e-3), flippingBrick(3.0), tumblingBrick()}) {
-      const RigidBody body = flown(start, t);
+      const RigidBody body = weightless(start, t);
       energy = std::max(energy, energyError(body, start));
       momentum = std::max(momentum, momentumError(body));
     }
@@ -163,16 +163,17 @@ TEST_CASE("products of inertia turn the frame, not the body") {
   tilted.q = straight.q * tilt.conjugate();
   setVelocity(tilted, Vec3::Zero(), straight.omega);
   for (const double t : {0.0, 0.7, 3.0}) {
-    const Quat difference = (flown(tilted, t).q * tilt).conjugate() * flown(straight, t).q;
+    const Quat difference =
+        (weightless(tilted, t).q * tilt).conjugate() * weightless(straight, t).q;
     CHECK(2.0 * difference.vec().norm() < 1e-13);
   }
 }
 
 TEST_CASE("a body that does not spin stays as it is, and one flight is like another") {
   const RigidBody still = spinning({1, 2, 3}, kTurned, Vec3::Zero());
-  CHECK((flown(still, 7.0).q.coeffs() - kTurned.coeffs()).norm() < 1e-15);
+  CHECK((weightless(still, 7.0).q.coeffs() - kTurned.coeffs()).norm() < 1e-15);
   const RigidBody start = tumblingBrick();
-  CHECK(flown(start, 1.7).q.coeffs() == flown(start, 1.7).q.coeffs());
+  CHECK(weightless(start, 1.7).q.coeffs() == weightless(start, 1.7).q.coeffs());
 }
 
 TEST_CASE("the quaternion of a flight never jumps to its negative") {

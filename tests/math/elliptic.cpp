@@ -8,11 +8,11 @@
 #include "tests/catch.h"
 
 using namespace tumble;
-using Exact = long double;
+using Extended = long double;
 
 namespace {
 
-double relative(double value, const Exact& exact) {
+double relative(double value, const Extended& exact) {
   return static_cast<double>(std::abs((value - exact) / exact));
 }
 
@@ -23,7 +23,7 @@ TEST_CASE("the exponential is right to a unit in the last place") {
   double worst = 0.0;
   for (int n = -7000; n <= 7000; ++n) {
     const double x = 0.1 * n + 0.0123 * (n % 7);
-    worst = std::max(worst, relative(exponential(x), std::exp(Exact(x))));
+    worst = std::max(worst, relative(exponential(x), std::exp(Extended(x))));
   }
   INFO("measured " << worst * 1e16 << "e-16");
   CHECK(worst < 2.2e-16);
@@ -36,8 +36,9 @@ TEST_CASE("the exponential is right to a unit in the last place") {
 TEST_CASE("the arithmetic-geometric mean gives the complete elliptic integral") {
   double worst = 0.0;
   for (double k1 = 1.0; k1 > 1e-12; k1 *= 0.07) {
-    const Exact K = boost::math::ellint_rf(Exact(0), Exact(k1) * k1, Exact(1));
-    worst = std::max(worst, relative(agm(1.0, k1), boost::math::constants::half_pi<Exact>() / K));
+    const Extended K = boost::math::ellint_rf(Extended(0), Extended(k1) * k1, Extended(1));
+    worst =
+        std::max(worst, relative(agm(1.0, k1), boost::math::constants::half_pi<Extended>() / K));
   }
   INFO("measured " << worst * 1e16 << "e-16");
   CHECK(worst < 5e-16);
@@ -54,7 +55,7 @@ TEST_CASE("Carlson's integral of the first kind is right in all its arguments") 
     for (const double y : values) {
       for (const double z : values) {
         if ((x == 0.0) + (y == 0.0) + (z == 0.0) > 1) continue;
-        const Exact exact = boost::math::ellint_rf(Exact(x), Exact(y), Exact(z));
+        const Extended exact = boost::math::ellint_rf(Extended(x), Extended(y), Extended(z));
         worst = std::max(worst, relative(carlsonRF(x, y, z), exact));
       }
     }

@@ -6,12 +6,12 @@
 #include "tests/catch.h"
 
 using namespace tumble;
-using Exact = boost::multiprecision::cpp_bin_float_50;
+using FiftyDigits = boost::multiprecision::cpp_bin_float_50;
 
 namespace {
 
-Exact exact(const DoubleDouble& a) {
-  return Exact(a.hi) + a.lo;
+FiftyDigits exact(const DoubleDouble& a) {
+  return FiftyDigits(a.hi) + a.lo;
 }
 
 }  // namespace
@@ -20,8 +20,8 @@ Exact exact(const DoubleDouble& a) {
 TEST_CASE("a sum and a product of two doubles have no rounding error") {
   for (const double a : {1.0 / 3.0, -7.1e8, 3e-20}) {
     for (const double b : {0.1, 123456789.123, -1.0 / 3.0}) {
-      CHECK(exact(twoSum(a, b)) == Exact(a) + b);
-      CHECK(exact(twoProduct(a, b)) == Exact(a) * b);
+      CHECK(exact(twoSum(a, b)) == FiftyDigits(a) + b);
+      CHECK(exact(twoProduct(a, b)) == FiftyDigits(a) * b);
     }
   }
 }
@@ -29,8 +29,8 @@ TEST_CASE("a sum and a product of two doubles have no rounding error") {
 // Oracle: 50 digits. Measured 1e-32, allowed 1e-31 of the terms.
 TEST_CASE("pairs of doubles carry thirty digits") {
   const DoubleDouble a = twoProduct(1.0 / 3.0, 0.1), b = twoProduct(-0.7, 1.0 / 21.0);
-  const auto near = [](const DoubleDouble& got, const Exact& want) {
-    return abs(exact(got) - want) < Exact(1e-31);
+  const auto near = [](const DoubleDouble& got, const FiftyDigits& want) {
+    return abs(exact(got) - want) < FiftyDigits(1e-31);
   };
   CHECK(near(a + b, exact(a) + exact(b)));
   CHECK(near(a - b, exact(a) - exact(b)));
@@ -40,5 +40,5 @@ TEST_CASE("pairs of doubles carry thirty digits") {
   CHECK(near(DoubleDouble{1.0, 0.0} / a * a, 1));
   // All but the last digits cancel.
   CHECK(exact(a - a) == 0);
-  CHECK_FALSE(near(a + b, Exact(a.hi + b.hi)));
+  CHECK_FALSE(near(a + b, FiftyDigits(a.hi + b.hi)));
 }

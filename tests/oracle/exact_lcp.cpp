@@ -47,7 +47,7 @@ std::optional<Rationals> minimise(const Matrix& A, const Rationals& b,
   return f;
 }
 
-Rational sum(const Rationals& row, const Rationals& f) {
+Rational rowProduct(const Rationals& row, const Rationals& f) {
   Rational result = 0;
   for (std::size_t i = 0; i < f.size(); ++i) result += row[i] * f[i];
   return result;
@@ -74,7 +74,7 @@ Side push(const Problem& problem, int body, const Side& j) {
   return result;
 }
 
-Rational dot(const Side& a, const Side& b) {
+Rational sideProduct(const Side& a, const Side& b) {
   Rational result = 0;
   for (int k = 0; k < 6; ++k) result += a[k] * b[k];
   return result;
@@ -88,10 +88,10 @@ struct Ends {
 
 Rational coupling(const Ends& i, const Ends& j) {
   Rational result = 0;
-  if (i.a == j.a) result += dot(i.Ja, j.pushA);
-  if (i.a == j.b) result += dot(i.Ja, j.pushB);
-  if (i.b == j.a) result += dot(i.Jb, j.pushA);
-  if (i.b == j.b) result += dot(i.Jb, j.pushB);
+  if (i.a == j.a) result += sideProduct(i.Ja, j.pushA);
+  if (i.a == j.b) result += sideProduct(i.Ja, j.pushB);
+  if (i.b == j.a) result += sideProduct(i.Jb, j.pushA);
+  if (i.b == j.b) result += sideProduct(i.Jb, j.pushB);
   return result;
 }
 
@@ -117,7 +117,7 @@ std::optional<VecX> exactAccelerations(const MatX& A, const VecX& b, const VecX&
   const std::optional<Rationals> f = minimise(matrix, vector, bounds);
   if (!f) return {};
   VecX a(n);
-  for (int i = 0; i < n; ++i) a[i] = CGAL::to_double(sum(matrix[i], *f) + vector[i]);
+  for (int i = 0; i < n; ++i) a[i] = CGAL::to_double(rowProduct(matrix[i], *f) + vector[i]);
   return a;
 }
 
@@ -138,7 +138,7 @@ std::optional<std::vector<Vec6>> exactMotion(const Problem& problem) {
   Rationals b(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) A[i][j] = coupling(ends[i], ends[j]);
-    b[i] = dot(ends[i].Ja, v[ends[i].a]) + dot(ends[i].Jb, v[ends[i].b]) +
+    b[i] = sideProduct(ends[i].Ja, v[ends[i].a]) + sideProduct(ends[i].Jb, v[ends[i].b]) +
            rational(problem.rows[i].bias);
   }
   std::vector<Bounds> bounds(n, {-INFINITY, INFINITY});

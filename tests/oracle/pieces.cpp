@@ -25,10 +25,10 @@ using namespace tumble;
 
 namespace {
 
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-using Surface = CGAL::Polyhedron_3<Exact>;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Surface = CGAL::Polyhedron_3<ExactKernel>;
 using Rounded = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Placed = CGAL::Surface_mesh<Rounded::Point_3>;
+using PlacedMesh = CGAL::Surface_mesh<Rounded::Point_3>;
 
 /// The surface as CGAL builds it, from a polyhedron.
 struct Build : CGAL::Modifier_base<Surface::HalfedgeDS> {
@@ -52,7 +52,7 @@ int partsByCgal(const Polyhedron& solid) {
   Surface surface;
   Build build(solid);
   surface.delegate(build);
-  CGAL::Nef_polyhedron_3<Exact> nef(surface);
+  CGAL::Nef_polyhedron_3<ExactKernel> nef(surface);
   CGAL::convex_decomposition_3(nef);
   int parts = 0;
   for (auto v = ++nef.volumes_begin(); v != nef.volumes_end(); ++v) parts += v->mark() ? 1 : 0;
@@ -76,9 +76,9 @@ Polyhedron fromFile(const std::string& name) {
   return raw.made();
 }
 
-Placed placed(const Mesh& mesh, const Pose& pose) {
-  Placed surface;
-  std::vector<Placed::Vertex_index> corners;
+PlacedMesh placed(const Mesh& mesh, const Pose& pose) {
+  PlacedMesh surface;
+  std::vector<PlacedMesh::Vertex_index> corners;
   for (const Vec3& p : mesh.solid->points) {
     const Vec3 q = toWorld(pose, p - mesh.origin);
     corners.push_back(surface.add_vertex({q.x(), q.y(), q.z()}));

@@ -10,7 +10,7 @@ namespace tumble::test {
 namespace {
 
 constexpr int kMostContacts = 24;
-constexpr double kStep = 1.0 / 60.0;  // s
+constexpr double kLongStep = 1.0 / 60.0;  // s
 
 /// What all contacts of one problem have in common.
 struct Scenery {
@@ -90,7 +90,7 @@ void Scene::addBody(bool fixed) {
   if (!fixed) {
     const Vec3 v = inCube(scenery_.speed), omega = inCube(3.0 * scenery_.speed);
     twist << v, omega;
-    twist[1] -= kG * kStep;
+    twist[1] -= kG * kLongStep;
   }
   problem_.vStar.push_back(twist);
 }
@@ -107,7 +107,7 @@ void Scene::touch(int a, int b, const Vec3& ra, const Vec3& rb, const Vec3& n, d
     addContact(problem_, a, b, ra, rb, 1.0, n, t1);
     problem_.cones.back().mu = 0.0;
   }
-  problem_.rows[row].bias = gap / kStep;
+  problem_.rows[row].bias = gap / kLongStep;
   ++contacts_;
 }
 

@@ -4,7 +4,7 @@
 
 namespace {
 
-const std::string kScene = R"(title = "Two bodies"
+const std::string kTwoBodies = R"(title = "Two bodies"
 checks = ["free-spin"]
 [world]
 method = "course"
@@ -33,7 +33,7 @@ position = [10, 0, 0]
 // of ρ about its axes, products of 1/3 ρ, and 5/6, 3/2, 11/6 ρ about its principal axes.
 TEST_CASE("describe says how time runs, and what each body weighs") {
   const Scratch scratch;
-  scratch.file("two.toml", kScene);
+  scratch.file("two.toml", kTwoBodies);
   const Outcome outcome = tumbleRun(scratch, "describe two.toml");
   CHECK(outcome.code == 0);
   CHECK(outcome.lines() == 0);
@@ -72,7 +72,7 @@ TEST_CASE("describe and simulate name settings of methods that auto does not tak
 
 TEST_CASE("a check without claims says that nothing was checked, and how to claim something") {
   const Scratch scratch;
-  scratch.file("two.toml", kScene);
+  scratch.file("two.toml", kTwoBodies);
   const Outcome outcome = tumbleRun(scratch, "check two.toml --set checks=[]");
   CHECK(outcome.code == 0);
   CHECK(outcome.out.find("nothing was checked: no scene names a claim in `checks` or makes one by "

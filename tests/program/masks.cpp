@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const kScene = R"([world]
+const char* const kFloorAndBall = R"([world]
 duration = 0.5
 [[body]]
 name = "floor"
@@ -32,7 +32,7 @@ std::pair<int, int> kindOf(const fs::path& path) {
 
 TEST_CASE("masks stand beside images, are named, and are kept when the run goes on") {
   const Scratch scratch;
-  scratch.file("scene.toml", kScene);
+  scratch.file("scene.toml", kFloorAndBall);
   REQUIRE(tumbleRun(scratch, "render scene.toml --frames 0:2 --masks -o out -q").code == 0);
   CHECK(kindOf(scratch.path / "out/image-000001.depth.png") == std::pair(16, 0));
   CHECK(kindOf(scratch.path / "out/image-000001.identity.png") == std::pair(8, 2));
@@ -54,7 +54,7 @@ TEST_CASE("masks stand beside images, are named, and are kept when the run goes 
 
 TEST_CASE("the line of events is an SVG document with a lane for each kind") {
   const Scratch scratch;
-  scratch.file("scene.toml", kScene);
+  scratch.file("scene.toml", kFloorAndBall);
   REQUIRE(tumbleRun(scratch, "render scene.toml --events -o out -q").code == 0);
   const std::string svg = textOf(scratch.path / "out/events.svg");
   CHECK(svg.starts_with("<svg xmlns="));

@@ -4,7 +4,7 @@
 
 namespace {
 
-const std::string kScene = R"([world]
+const std::string kOrbit = R"([world]
 gravity = [0, 0, 0]
 duration = 0.5
 [[body]]
@@ -33,7 +33,7 @@ std::string with(std::string text, const std::string& what, const std::string& b
 
 TEST_CASE("without gnuplot the numbers are there, and one line says what to install") {
   const Scratch scratch;
-  scratch.file("orbit.toml", kScene + kChart);
+  scratch.file("orbit.toml", kOrbit + kChart);
   const Outcome outcome =
       tumbleRun(scratch, "report orbit.toml -o out --budget 0", "export PATH=/nowhere");
   CHECK(outcome.code == 5);
@@ -45,7 +45,7 @@ TEST_CASE("without gnuplot the numbers are there, and one line says what to inst
 
 TEST_CASE("a report of a scene without a chart is refused") {
   const Scratch scratch;
-  scratch.file("bare.toml", kScene);
+  scratch.file("bare.toml", kOrbit);
   const Outcome outcome = tumbleRun(scratch, "report bare.toml -o out");
   CHECK(outcome.code == 3);
   CHECK(outcome.says("bare.toml: error: there is no [[chart]] in it"));
@@ -55,8 +55,8 @@ TEST_CASE("scenes of the same file name keep their numbers apart") {
   const Scratch scratch;
   std::filesystem::create_directories(scratch / "a");
   std::filesystem::create_directories(scratch / "b");
-  scratch.file("a/st.toml", kScene + with(kChart, "RK4", "first"));
-  scratch.file("b/st.toml", kScene + with(kChart, "RK4", "second"));
+  scratch.file("a/st.toml", kOrbit + with(kChart, "RK4", "first"));
+  scratch.file("b/st.toml", kOrbit + with(kChart, "RK4", "second"));
   tumbleRun(scratch, "report a/st.toml b/st.toml -o out --budget 0", "export PATH=/nowhere");
   CHECK(textOf(scratch / "out/st.csv").find("first") != std::string::npos);
   CHECK(textOf(scratch / "out/st-2.csv").find("second") != std::string::npos);
@@ -74,7 +74,7 @@ TEST_CASE("figures that gnuplot leaves out or unfinished end with 5, and none of
       Gnuplot{svg + "echo PNG >orbit.png", "orbit.png"});
   CAPTURE(gnuplot.script);
   const Scratch scratch;
-  scratch.file("orbit.toml", kScene + kChart);
+  scratch.file("orbit.toml", kOrbit + kChart);
   scratch.file("gnuplot", "#!/bin/sh\n" + gnuplot.script);
   // A figure of an earlier run does not count.
   const Outcome outcome = tumbleRun(
@@ -93,7 +93,7 @@ TEST_CASE("gnuplot runs nothing that a scene's texts say") {
   if (std::system("command -v gnuplot >/dev/null") != 0) return;
   const Scratch scratch;
   const std::string label = R"('''`touch made` $(touch made) "a" 'b' @c \n {d <e> &''')";
-  scratch.file("orbit.toml", kScene + with(with(kChart, "\"RK4\"", label), "\"An orbit\"", label));
+  scratch.file("orbit.toml", kOrbit + with(with(kChart, "\"RK4\"", label), "\"An orbit\"", label));
   const Outcome outcome = tumbleRun(scratch, "report orbit.toml -o out --budget 0");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
@@ -104,7 +104,7 @@ TEST_CASE("gnuplot runs nothing that a scene's texts say") {
 }
 
 TEST_CASE("a chart without an error that can be drawn is refused where its check is named") {
-  const std::string free = kScene.substr(0, kScene.find("[[force]]"));
+  const std::string free = kOrbit.substr(0, kOrbit.find("[[force]]"));
   struct Case {
     std::string scene, says;
   };

@@ -4,7 +4,7 @@
 
 namespace {
 
-const std::string kScene = R"([world]
+const std::string kFallingBrick = R"([world]
 duration = 1.0
 [materials.wood]
 density = 500.0
@@ -24,7 +24,7 @@ size = [160, 90]
 
 TEST_CASE("check --state names the layer of a start that is not legal, and draws it") {
   const Scratch scratch;
-  scratch.file("s.toml", kScene);
+  scratch.file("s.toml", kFallingBrick);
   Outcome outcome = tumbleRun(scratch, "check --state s.toml");
   CHECK(outcome.code == 0);
   CHECK(outcome.lines() == 0);

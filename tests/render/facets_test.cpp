@@ -37,7 +37,7 @@ std::shared_ptr<const Facets> cube() {
   return facets;
 }
 
-Picture scene(Form form, Finish finish) {
+Picture solidAlone(Form form, Finish finish) {
   Picture picture;
   picture.camera = {{3.0, 3.0, 9.0}, {0.0, 0.5, 0.0}, 30.0};
   picture.centre = {0.0, 0.5, 0.0};
@@ -62,7 +62,8 @@ Picture scene(Form form, Finish finish) {
 // of 255.
 TEST_CASE("a cube of facets looks like a box, solid, as a ghost and of glass") {
   for (const Finish finish : {Finish::Solid, Finish::Ghost, Finish::Glass}) {
-    const Picture asFacets = scene(Form::Facets, finish), asBox = scene(Form::Box, finish);
+    const Picture asFacets = solidAlone(Form::Facets, finish),
+                  asBox = solidAlone(Form::Box, finish);
     const Image a = studio().draw(asFacets, {}), b = studio().draw(asBox, {});
     const Projection view(asBox.camera, 1280, 720);
     const Instance& body = asBox.instances[0];
@@ -93,8 +94,8 @@ TEST_CASE("a cube of facets looks like a box, solid, as a ghost and of glass") {
 
 // Oracle: the box of the same pose.
 TEST_CASE("facets know how far they reach") {
-  const Instance facets = scene(Form::Facets, Finish::Solid).instances[0];
-  const Instance box = scene(Form::Box, Finish::Solid).instances[0];
+  const Instance facets = solidAlone(Form::Facets, Finish::Solid).instances[0];
+  const Instance box = solidAlone(Form::Box, Finish::Solid).instances[0];
   CHECK(lowestPoint(facets) == Approx(lowestPoint(box)).epsilon(1e-6));
   CHECK(reachOf(facets) == Approx(reachOf(box)).epsilon(1e-12));
   CHECK(thicknessOf(facets) == Approx(thicknessOf(box)).epsilon(1e-12));

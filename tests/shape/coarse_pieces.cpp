@@ -15,7 +15,7 @@ using namespace tumble;
 
 namespace {
 
-double sizeOf(const Polyhedron& solid) {
+double halfDiagonal(const Polyhedron& solid) {
   Vec3 lo = solid.points[0], hi = lo;
   for (const Vec3& p : solid.points) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
   return 0.5 * (hi - lo).norm();
@@ -111,7 +111,7 @@ void hold(const Polyhedron& mesh, const Pieces& pieces, double tolerance) {
     look((corner(mesh, face[0]) + corner(mesh, face[1]) + corner(mesh, face[2])) / 3.0);
   }
   // Measured 4e-16 of the size.
-  CHECK(out <= 1e-13 * sizeOf(mesh));
+  CHECK(out <= 1e-13 * halfDiagonal(mesh));
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ TEST_CASE("the distance from a mesh is that from the nearest face, edge or corne
 // hardly any volume is a long way; 2e-5 of the size where joints looked at volume alone.
 TEST_CASE("pieces of spikes reach out of them no further than their excess") {
   const Polyhedron mesh = solids::spikes(12).made();
-  const double size = sizeOf(mesh);
+  const double size = halfDiagonal(mesh);
   const Pieces pieces = piecesOf(mesh, PieceKind::Good, 1e-6 * size);
   const MeshDistance distance(mesh);
   std::mt19937 random(3);
@@ -163,7 +163,7 @@ TEST_CASE("pieces of spikes reach out of them no further than their excess") {
 TEST_CASE("scans come apart to a few per cent, as their excess says", "[figures]") {
   const auto check = [](const char* name, const solids::Raw& raw, double share, std::size_t most) {
     const Polyhedron mesh = raw.made();
-    const double size = sizeOf(mesh);
+    const double size = halfDiagonal(mesh);
     const Pieces pieces = piecesOf(mesh, PieceKind::Good, share * size);
     WARN(name << " of " << mesh.faces.size() << " faces to " << 100.0 * share << " %: measured "
               << pieces.hulls.size() << " pieces, excess " << 100.0 * pieces.excess / size << " %");
@@ -190,8 +190,8 @@ TEST_CASE("scans come apart to a few per cent, as their excess says", "[figures]
 TEST_CASE("coarse pieces do not hang on where a mesh stands or what its unit is") {
   const solids::Raw given = solids::bunny(12);
   const Polyhedron mesh = given.made();
-  const Pieces before = piecesOf(mesh, PieceKind::Good, 0.04 * sizeOf(mesh));
-  const Pieces again = piecesOf(mesh, PieceKind::Good, 0.04 * sizeOf(mesh));
+  const Pieces before = piecesOf(mesh, PieceKind::Good, 0.04 * halfDiagonal(mesh));
+  const Pieces again = piecesOf(mesh, PieceKind::Good, 0.04 * halfDiagonal(mesh));
   REQUIRE(before.hulls.size() == again.hulls.size());
   for (std::size_t k = 0; k < before.hulls.size(); ++k)
     CHECK(before.hulls[k].solid->points == again.hulls[k].solid->points);
@@ -200,7 +200,7 @@ TEST_CASE("coarse pieces do not hang on where a mesh stands or what its unit is"
     const Quat q = Quat(0.3, -0.5, 0.7, 0.2).normalized();
     for (Vec3& p : turned.points) p = unit * (q * p);
     const Polyhedron other = turned.made();
-    const double tolerance = 0.04 * unit * sizeOf(mesh);
+    const double tolerance = 0.04 * unit * halfDiagonal(mesh);
     const Pieces pieces = piecesOf(other, PieceKind::Good, tolerance);
     CAPTURE(unit, before.hulls.size(), pieces.hulls.size());
     CHECK(pieces.hulls.size() <= 2 * before.hulls.size());
@@ -237,6 +237,6 @@ TEST_CASE("pieces without a notch are held to their reach") {
                           {4, 2, 1},
                           {4, 1, 0}}};
   const Polyhedron mesh = bent.made();
-  const double tolerance = 0.03 * sizeOf(mesh);
+  const double tolerance = 0.03 * halfDiagonal(mesh);
   CHECK(piecesOf(mesh, PieceKind::Good, tolerance).excess <= tolerance);
 }

@@ -19,17 +19,17 @@ WorldDef brick(double s, const Vec3& origin = Vec3::Zero()) {
 }
 
 /// Where it is at the end, in its own size and from its own origin.
-Vec3 endOf(double s, const Vec3& origin = Vec3::Zero()) {
+Vec3 endPlace(double s, const Vec3& origin = Vec3::Zero()) {
   const WorldDef def = brick(s, origin);
   return (ranTo(def, def.duration).sample(def.duration).bodies[1].x - origin) / s;
 }
 
 double scaled(double s) {
-  return (endOf(s) - endOf(1.0)).norm();
+  return (endPlace(s) - endPlace(1.0)).norm();
 }
 
 double shifted(double by) {
-  return (endOf(1.0, {by, 0.0, by}) - endOf(1.0)).norm();
+  return (endPlace(1.0, {by, 0.0, by}) - endPlace(1.0)).norm();
 }
 
 /// Three boxes on each other, s times as large: how far they go in so many seconds, in their size.

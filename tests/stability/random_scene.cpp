@@ -23,7 +23,7 @@ Vec3 inCube(Draw& draw, double half) {
   return {x, y, z};
 }
 
-std::string box(Draw& draw, double most) {
+std::string boxOf(Draw& draw, double most) {
   const double x = draw(0.3, 1.0), y = draw(0.3, 1.0), z = draw(0.3, 1.0);
   return "box = " + listed(most * Vec3(x, y, z));
 }
@@ -69,7 +69,7 @@ std::string shapeOf(Draw& draw) {
     case 5:
       return compound(draw);
     default:
-      return box(draw, 0.28);
+      return boxOf(draw, 0.28);
   }
 }
 

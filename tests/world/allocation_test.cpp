@@ -28,7 +28,7 @@ WorldDef lasting(std::vector<BodyDef> bodies) {
   return worldOf("stepping", 1e6, std::move(bodies));
 }
 
-WorldDef pendulum() {
+WorldDef hingedPendulum() {
   WorldDef def = lasting({bar("bar", 1.0, 2.0, Vec3::Zero(), 1.0)});
   def.joints = {hinge(0, kNoBody, Vec3::Zero())};
   return def;
@@ -100,7 +100,7 @@ TEST_CASE("stepping: a warm step allocates nothing, at rest or in motion") {
 
 TEST_CASE("stepping: a warm step allocates nothing where joints hold bodies") {
   const std::pair<const char*, WorldDef> scenes[] = {
-      {"hinged pendulum", pendulum()},
+      {"hinged pendulum", hingedPendulum()},
       {"chain of 20 links that hangs", chainOf("stepping", 20, 10.0, 0.0)},
       {"chain of 20 links that swings", chainOf("stepping", 20, 10.0, 0.5)},
       {"four-bar linkage", linkage()},

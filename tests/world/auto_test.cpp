@@ -12,7 +12,7 @@ using namespace tumble::scenes;
 
 namespace {
 
-WorldDef tower(int n) {
+WorldDef towerOf(int n) {
   WorldDef def = worldOf("auto", 1.0, {ground(0.0, 0.5)});
   addColumn(def, n, 0.5, {0.1, 0.25, -0.3}, 0.0, 0.5);
   return def;
@@ -108,8 +108,8 @@ struct Choice {
 
 std::vector<Choice> choices() {
   return {{"a ball on a floor", balls(1, true), "exact"},
-          {"a few boxes", tower(4), "exact"},
-          {"a high tower", tower(20), "stepping"},
+          {"a few boxes", towerOf(4), "exact"},
+          {"a high tower", towerOf(20), "stepping"},
           {"many balls over a floor", balls(40, true), "stepping"},
           {"many balls and no floor", balls(40, false), "exact"},
           {"a spring over a floor", sprung(true), "stepping"},

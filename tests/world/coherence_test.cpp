@@ -26,11 +26,11 @@ WorldDef shower(const std::string& method, int count, double duration) {
   return def;
 }
 
-bool sameBits(double a, double b) {
+bool equalBits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
-bool sameBits(const Vec3& a, const Vec3& b) {
-  return sameBits(a.x(), b.x()) && sameBits(a.y(), b.y()) && sameBits(a.z(), b.z());
+bool equalBits(const Vec3& a, const Vec3& b) {
+  return equalBits(a.x(), b.x()) && equalBits(a.y(), b.y()) && equalBits(a.z(), b.z());
 }
 
 void compare(const WorldDef& def, const char* name) {
@@ -41,24 +41,24 @@ void compare(const WorldDef& def, const char* name) {
   REQUIRE_FALSE(one.report().stopped);
   REQUIRE(end.bodies.size() == again.bodies.size());
   for (std::size_t i = 0; i < end.bodies.size(); ++i) {
-    CHECK(sameBits(end.bodies[i].x, again.bodies[i].x));
-    CHECK(sameBits(end.bodies[i].v, again.bodies[i].v));
-    CHECK(sameBits(end.bodies[i].omega, again.bodies[i].omega));
-    CHECK(sameBits(end.bodies[i].q.w(), again.bodies[i].q.w()));
+    CHECK(equalBits(end.bodies[i].x, again.bodies[i].x));
+    CHECK(equalBits(end.bodies[i].v, again.bodies[i].v));
+    CHECK(equalBits(end.bodies[i].omega, again.bodies[i].omega));
+    CHECK(equalBits(end.bodies[i].q.w(), again.bodies[i].q.w()));
   }
   REQUIRE(end.contacts.size() == again.contacts.size());
   for (std::size_t k = 0; k < end.contacts.size(); ++k)
-    CHECK(sameBits(end.contacts[k].force, again.contacts[k].force));
+    CHECK(equalBits(end.contacts[k].force, again.contacts[k].force));
   REQUIRE(one.report().events.size() == other.report().events.size());
   for (std::size_t k = 0; k < one.report().events.size(); ++k) {
-    CHECK(sameBits(one.report().events[k].t, other.report().events[k].t));
-    CHECK(sameBits(one.report().events[k].j, other.report().events[k].j));
+    CHECK(equalBits(one.report().events[k].t, other.report().events[k].t));
+    CHECK(equalBits(one.report().events[k].j, other.report().events[k].j));
   }
   const Certificate& books = one.report().certificate;
   CHECK(other.report().certificate.plane_tests == 0);
   CHECK(books.plane_hits > 0);
   CHECK(books.plane_hits <= books.plane_tests);
-  CHECK(sameBits(books.max_penetration, other.report().certificate.max_penetration));
+  CHECK(equalBits(books.max_penetration, other.report().certificate.max_penetration));
   WARN("remembered planes, " << name << ": measured hits " << books.plane_hits << " of "
                              << books.plane_tests << " looks, events "
                              << one.report().events.size());

@@ -13,7 +13,7 @@ using namespace tumble::scenes;
 namespace {
 
 /// Twelve bodies of unlike shape and mass that fall on each other, turning.
-WorldDef thrown(std::uint64_t seed, double friction) {
+WorldDef fallingBodies(std::uint64_t seed, double friction) {
   WorldDef def = worldOf("stepping", 1.5, {ground(0.0, friction)});
   test::Draw random(seed);
   const auto draw = [&] { return random(-1.0, 1.0); };
@@ -44,7 +44,7 @@ WorldDef thrown(std::uint64_t seed, double friction) {
 TEST_CASE("stepping: no step gains energy") {
   const double friction = GENERATE(0.0, 0.3, 1.0);
   const std::uint64_t seed = GENERATE(1, 2, 3);
-  World world(thrown(seed, friction));
+  World world(fallingBodies(seed, friction));
   world.advance(1.5);
   const Certificate& books = world.report().certificate;
   CAPTURE(friction, seed, books.max_energy_gain, books.energy_start, books.energy_end);

@@ -12,7 +12,7 @@ BodyDef rod(const std::string& name, const Vec3& x) {
   return {.name = name, .shape = Box{{0.25, 0.02, 0.03}}, .mass = 1.0, .position = x};
 }
 
-WorldDef pendulum() {
+WorldDef doublePendulum() {
   WorldDef def;
   def.method = "stepping";
   def.bodies = {rod("a", {0.25, 2.0, 0.0}), rod("b", {0.75, 2.0, 0.0})};
@@ -76,7 +76,7 @@ double furthest(const Sample& a, const Sample& b) {
 // 1.6e-13, sliding 3.3e-18.
 TEST_CASE("a world that goes on from a sample moves as the one that it was taken from") {
   const double half = 0.5;  // s: whole steps
-  for (const WorldDef& def : {pendulum(), onSpring(), top(), sliding()}) {
+  for (const WorldDef& def : {doublePendulum(), onSpring(), top(), sliding()}) {
     World whole(def);
     whole.advance(half);
     const Sample left = whole.sample(half);
@@ -91,6 +91,6 @@ TEST_CASE("a world that goes on from a sample moves as the one that it was taken
 }
 
 TEST_CASE("a world goes on from samples of its own bodies alone") {
-  const World two(pendulum());
+  const World two(doublePendulum());
   CHECK_THROWS_AS(World(top(), two.sample(0.0)), std::invalid_argument);
 }

@@ -124,7 +124,7 @@ namespace {
 
 /// A rod of 1 m that leans 25 degrees and is thrown at 5 m/s ahead of its two lower corners, in a
 /// world that is turned.
-WorldDef thrownRod(const char* method, const Quat& turn) {
+WorldDef leaningRod(const char* method, const Quat& turn) {
   const double w = 0.02, lean = 25.0 * std::numbers::pi / 180.0;
   WorldDef def = worldOf(method, 0.3, {ground(0.0, 5.0)});
   def.gravity = turn * def.gravity;
@@ -185,8 +185,8 @@ TEST_CASE("in the course a thrown rod jams, and stays in its plane") {
   const Quat about = fromAxisAngle(Vec3::UnitY(), 0.6);
   const Quat back = fromAxisAngle(Vec3::UnitY(), std::numbers::pi);
   for (const Quat& turn : {Quat::Identity(), back, about, leaning}) {
-    const WorldDef def = thrownRod("course", turn);
-    World course(def), exact(thrownRod("exact", turn));
+    const WorldDef def = leaningRod("course", turn);
+    World course(def), exact(leaningRod("exact", turn));
     const Vec3 end = run(course).bodies[1].x, there = run(exact).bodies[1].x;
     const Report& report = course.report();
     const double off = std::abs((turn.conjugate() * end).z()), apart = (end - there).norm();

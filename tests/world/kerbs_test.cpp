@@ -24,7 +24,7 @@ solids::Raw floorWithKerb(bool mirrored) {
   return solids::moved(solids::prism(outline, 2.0), {0.0, 0.0, -1.0});
 }
 
-struct End {
+struct KerbEnd {
   Vec3 x;                // [m] seen from the floor
   double deepest = 0.0;  // [m] by the audit
   double added = 0.0;    // [J]
@@ -32,7 +32,7 @@ struct End {
 };
 
 /// Where a box ends that slides on ice into the kerb; pieces may stand out by `tolerance` [m].
-End endAtKerb(const char* method, double tolerance, bool mirrored, bool turned) {
+KerbEnd endAtKerb(const char* method, double tolerance, bool mirrored, bool turned) {
   const Quat turn =
       turned ? Quat(Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, 3.0).normalized())) : Quat::Identity();
   const double way = mirrored ? -1.0 : 1.0;
@@ -68,8 +68,8 @@ End endAtKerb(const char* method, double tolerance, bool mirrored, bool turned) 
 TEST_CASE("a kerb that is lower than pieces stand out elsewhere stops what runs into it") {
   const char* method = GENERATE("stepping", "exact", "course");
   const bool mirrored = GENERATE(false, true), turned = GENERATE(false, true);
-  const End exact = endAtKerb(method, 0.0, mirrored, turned);
-  const End rough = endAtKerb(method, 1e-3, mirrored, turned);
+  const KerbEnd exact = endAtKerb(method, 0.0, mirrored, turned);
+  const KerbEnd rough = endAtKerb(method, 1e-3, mirrored, turned);
   CAPTURE(method, mirrored, turned);
   REQUIRE(rough.excess == Approx(0.9e-3));
   CHECK(std::abs(exact.x.x()) < 0.3);

@@ -25,14 +25,14 @@ WorldDef heaps(int count) {
 
 using Act = std::function<void(int item, int worker)>;
 
-struct Run {
+struct LentRun {
   Sample end;
   int rounds = 0;
   long solved = 0;
 };
 
-Run runBy(Workers workers) {
-  Run run;
+LentRun runBy(Workers workers) {
+  LentRun run;
   World world(heaps(12));
   world.lend({.count = workers.count, .forEach = [&](int items, const Act& act) {
                 ++run.rounds;
@@ -44,7 +44,7 @@ Run runBy(Workers workers) {
   return run;
 }
 
-bool sameBits(const Sample& p, const Sample& q) {
+bool sameMotion(const Sample& p, const Sample& q) {
   for (std::size_t i = 0; i < p.bodies.size(); ++i)
     if (p.bodies[i].x != q.bodies[i].x || p.bodies[i].q.coeffs() != q.bodies[i].q.coeffs() ||
         p.bodies[i].v != q.bodies[i].v || p.bodies[i].omega != q.bodies[i].omega)
@@ -55,22 +55,22 @@ bool sameBits(const Sample& p, const Sample& q) {
 }  // namespace
 
 TEST_CASE("whoever solves an island, in whatever order, it goes the same way to the bit") {
-  const Run alone = runBy({});
+  const LentRun alone = runBy({});
   CHECK(alone.rounds == 0);
-  const Run turned = runBy({.count = 3, .forEach = [](int items, const Act& act) {
-                              for (int i = items - 1; i >= 0; --i) act(i, i % 3);
-                            }});
-  const Run abreast = runBy({.count = 8, .forEach = [](int items, const Act& act) {
-                               std::vector<std::thread> threads;
-                               for (int k = 0; k < 8; ++k)
-                                 threads.emplace_back([&, k] {
-                                   for (int i = k; i < items; i += 8) act(i, k);
-                                 });
-                               for (std::thread& thread : threads) thread.join();
-                             }});
-  for (const Run* run : {&turned, &abreast}) {
+  const LentRun turned = runBy({.count = 3, .forEach = [](int items, const Act& act) {
+                                  for (int i = items - 1; i >= 0; --i) act(i, i % 3);
+                                }});
+  const LentRun abreast = runBy({.count = 8, .forEach = [](int items, const Act& act) {
+                                   std::vector<std::thread> threads;
+                                   for (int k = 0; k < 8; ++k)
+                                     threads.emplace_back([&, k] {
+                                       for (int i = k; i < items; i += 8) act(i, k);
+                                     });
+                                   for (std::thread& thread : threads) thread.join();
+                                 }});
+  for (const LentRun* run : {&turned, &abreast}) {
     CHECK(run->rounds > 50);
     CHECK(run->solved == alone.solved);
-    CHECK(sameBits(run->end, alone.end));
+    CHECK(sameMotion(run->end, alone.end));
   }
 }

@@ -49,7 +49,7 @@ Mesh linkMesh() {
                         {{-0.5, -1, 0}, {0.5, -1, 0}, {0.5, 1, 0}, {-0.5, 1, 0}}, 0.5));
 }
 
-WorldDef chain(const char* method, int links) {
+WorldDef linkedChain(const char* method, int links) {
   WorldDef def = worldOf(method, 0.5, {});
   for (int k = 0; k <= links; ++k) {
     BodyDef link;
@@ -71,7 +71,7 @@ WorldDef chain(const char* method, int links) {
 TEST_CASE("a chain of interlocked links hangs, and each link carries what hangs below it") {
   const char* method = GENERATE("stepping", "exact", "course");
   const int links = 4;
-  const WorldDef def = chain(method, links);
+  const WorldDef def = linkedChain(method, links);
   World world(def);
   world.advance(def.duration);
   REQUIRE_FALSE(world.report().stopped);
@@ -134,7 +134,8 @@ TEST_CASE("what goes through a hole with a hair to spare meets nothing") {
   const double spare = GENERATE(1e-2, 1e-5, 1e-8);
   WorldDef def = worldOf(method, 1.0, {});
   def.gravity.setZero();
-  BodyDef ring = chain(method, 0).bodies[0], bar = box("bar", {1.0 - 2.0 * spare, 0.3, 0.3}, {});
+  BodyDef ring = linkedChain(method, 0).bodies[0],
+          bar = box("bar", {1.0 - 2.0 * spare, 0.3, 0.3}, {});
   bar.position = {0.0, 0.0, -2.0};
   bar.velocity = {0.0, 0.0, 4.0};
   def.bodies = {ring, bar};

@@ -19,7 +19,7 @@ BodyDef particle(const std::string& name, const Vec3& x, const Vec3& v = Vec3::Z
   return def;
 }
 
-std::string refusedAt(const BodyDef& body) {
+std::string bodyRefusedAt(const BodyDef& body) {
   WorldDef def;
   def.bodies = {body};
   try {
@@ -63,22 +63,22 @@ TEST_CASE("particles overlap as they like; grains of a radius do not") {
 }
 
 TEST_CASE("a particle that turns, has an inertia or no mass is refused") {
-  CHECK(refusedAt(particle("p", Vec3::Zero())).empty());
+  CHECK(bodyRefusedAt(particle("p", Vec3::Zero())).empty());
   BodyDef def = particle("p", Vec3::Zero());
   def.mass.reset();
   def.density = 1000.0;
-  CHECK(refusedAt(def) == "bodies[0]");
+  CHECK(bodyRefusedAt(def) == "bodies[0]");
   def = particle("p", Vec3::Zero());
   def.inertia = Vec3::Ones();
-  CHECK(refusedAt(def) == "bodies[0].inertia");
+  CHECK(bodyRefusedAt(def) == "bodies[0].inertia");
   def = particle("p", Vec3::Zero());
   def.angularVelocity = Vec3::UnitX();
-  CHECK(refusedAt(def) == "bodies[0].angular_velocity");
+  CHECK(bodyRefusedAt(def) == "bodies[0].angular_velocity");
   def = particle("p", Vec3::Zero());
   def.orientation = Quat(0.0, 1.0, 0.0, 0.0);
-  CHECK(refusedAt(def) == "bodies[0].orientation");
+  CHECK(bodyRefusedAt(def) == "bodies[0].orientation");
   def = particle("p", Vec3::Zero(), Vec3::Zero(), -0.1);
-  CHECK(refusedAt(def) == "bodies[0].shape");
+  CHECK(bodyRefusedAt(def) == "bodies[0].shape");
 }
 
 // Oracle: the broad phase is never asked, so there are no pairs to pay for.

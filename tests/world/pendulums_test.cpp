@@ -210,7 +210,7 @@ TEST_CASE("a struck pendulum keeps its pivot, by every impact law") {
 namespace {
 
 /// A chain of links that hangs from the origin at an angle, with a ball of so many link masses.
-WorldDef chain(int links, double ratio, double angle) {
+WorldDef loadedChain(int links, double ratio, double angle) {
   const double l = 0.1;
   const Vec3 along(std::sin(angle), -std::cos(angle), 0.0);
   WorldDef def;
@@ -237,7 +237,7 @@ WorldDef chain(int links, double ratio, double angle) {
 }
 
 /// Sum of all gaps over the length of the chain.
-double stretchOf(const World& world, const Sample& sample) {
+double gapsOf(const World& world, const Sample& sample) {
   std::vector<RigidBody> bodies(sample.bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     bodies[i].x = sample.bodies[i].x;
@@ -257,7 +257,7 @@ double stretchOf(const World& world, const Sample& sample) {
 // apart from their tenths of a metre, in units of rounding, over tau squared; allowed 1e-8.
 TEST_CASE("a hanging chain of 100 links under 1000:1 carries its weight", "[figures]") {
   const std::string method = GENERATE("course", "stepping");
-  WorldDef def = chain(100, 1000.0, 0.0);
+  WorldDef def = loadedChain(100, 1000.0, 0.0);
   def.method = method;
   def.stepping.solver = "pivoting";
   def.duration = 0.05;
@@ -266,7 +266,7 @@ TEST_CASE("a hanging chain of 100 links under 1000:1 carries its weight", "[figu
   for (double t : {0.0, 0.02, 0.05}) {
     world.advance(t);
     const Sample sample = world.sample(t);
-    stretch = std::max(stretch, stretchOf(world, sample));
+    stretch = std::max(stretch, gapsOf(world, sample));
     REQUIRE(sample.joints.size() == 101);
     double below = 100.0 * kG;
     for (int k = 100; k >= 0; --k) {
@@ -284,7 +284,7 @@ TEST_CASE("a hanging chain of 100 links under 1000:1 carries its weight", "[figu
 // (course), 5e-11 (stepping); allowed 1e-6.
 TEST_CASE("a swinging chain of 100 links under 1000:1 does not stretch", "[figures][long]") {
   const std::string method = GENERATE("course", "stepping");
-  WorldDef def = chain(100, 1000.0, 0.4);
+  WorldDef def = loadedChain(100, 1000.0, 0.4);
   def.method = method;
   def.course.step = def.stepping.step = 5e-4;
   def.stepping.solver = "pivoting";
@@ -293,7 +293,7 @@ TEST_CASE("a swinging chain of 100 links under 1000:1 does not stretch", "[figur
   double stretch = 0.0;
   for (int k = 1; k <= 30; ++k) {
     world.advance(0.01 * k);
-    stretch = std::max(stretch, stretchOf(world, world.sample(0.01 * k)));
+    stretch = std::max(stretch, gapsOf(world, world.sample(0.01 * k)));
   }
   const Certificate& books = world.report().certificate;
   WARN("swinging chain of 100, 1000:1, " << method << ": stretch " << stretch

@@ -29,7 +29,7 @@ BodyDef heavyBox(const std::string& name, double mass, const Vec3& edges, const 
 }
 
 /// Cubes of 0.5 m on each other, the first on the ground, off the middle so that nothing is zero.
-WorldDef tower(const std::vector<double>& masses, double duration) {
+WorldDef heavyTower(const std::vector<double>& masses, double duration) {
   WorldDef def = steppingWorld(duration, 1.0 / 240.0);
   def.bodies = {ground(0.0, 0.5)};
   for (std::size_t i = 0; i < masses.size(); ++i)
@@ -86,7 +86,7 @@ std::vector<TowerCase> towers() {
 }
 
 void checkTower(const TowerCase& tower_case, double duration) {
-  World world(tower(tower_case.masses, duration));
+  World world(heavyTower(tower_case.masses, duration));
   const Standing s = stand(world);
   const Certificate& books = world.report().certificate;
   WARN("tower of " << tower_case.name << ", " << duration << " s: drift " << s.drift

@@ -56,7 +56,7 @@ Strayed strayedFrom(const WorldDef& reference, const WorldDef& def, double t) {
 }
 
 /// A rod on a ball joint at the origin, thrown aside.
-WorldDef thrownRod(const char* method, double h) {
+WorldDef swingingRod(const char* method, double h) {
   BodyDef rod = box("rod", {0.02, 1.0, 0.04}, Vec3::Zero());
   rod.orientation = fromAxisAngle(Vec3::UnitZ(), 1.0);
   rod.position = rod.orientation * Vec3(0.0, -0.5, 0.0);
@@ -102,7 +102,7 @@ TEST_CASE("stepping: slender pendulums swing, whatever their azimuth") {
 TEST_CASE("stepping: what joints alone hold is followed to second order") {
   for (const double t : {2.0, 1.999}) {
     const auto at = [&](double rate) {
-      return strayedFrom(thrownRod("exact", 0.0), thrownRod("stepping", 1.0 / rate), t);
+      return strayedFrom(swingingRod("exact", 0.0), swingingRod("stepping", 1.0 / rate), t);
     };
     const Strayed coarse = at(240.0), fine = at(960.0), finest = at(3840.0);
     CAPTURE(t, coarse.place, fine.place, finest.place, fine.spin, finest.spin);
@@ -119,7 +119,7 @@ TEST_CASE("stepping: what joints alone hold is followed to second order") {
 // square of the step. Measured 8.5e-5 m and 1.9e-3 rad/s, and 11 times less.
 TEST_CASE("stepping: what springs and drag drive in joints is followed to second order") {
   const auto driven = [](const char* method, double h) {
-    WorldDef def = thrownRod(method, h);
+    WorldDef def = swingingRod(method, h);
     def.bodies.push_back(ball("ball", 0.05, {0.6, -0.4, 0.5}));
     Spring toWorld{.a = 0, .stiffness = 80.0, .damping = 2.0, .rest = 0.3},
         toBall{.a = 0, .b = 1, .stiffness = 30.0, .damping = 0.5, .rest = 0.5};

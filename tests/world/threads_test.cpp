@@ -45,14 +45,14 @@ Compound thread(int from, int to, double inner, double outer, double up, int fac
   return strip;
 }
 
-struct Run {
+struct NutRun {
   double part = 0.0;   // of g t²/2 / (1 + (2π/p)² I/m) that the nut fell
   double bound = 0.0;  // what may be missing of it
   double aside = 0.0;  // [m]
   double deepest = 0.0, audit = 0.0;
 };
 
-Run runDown(int facets, bool other) {
+NutRun runDown(int facets, bool other) {
   const Quat turn =
       other ? Quat(Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, 3.0).normalized())) : Quat::Identity();
   WorldDef def = worldOf("stepping", 1.0, {});
@@ -91,12 +91,12 @@ Run runDown(int facets, bool other) {
 TEST_CASE("a nut runs down a bolt as its pitch and its inertia let it, turned and mirrored too") {
   const bool other = GENERATE(false, true);
   CAPTURE(other);
-  const Run few = runDown(12, other), more = runDown(24, other);
+  const NutRun few = runDown(12, other), more = runDown(24, other);
   WARN("a nut on a bolt: measured short by "
        << 1.0 - few.part << " of " << few.bound << ", and " << 1.0 - more.part << " of "
        << more.bound << ", overlaps to " << more.deepest << ", " << few.audit << " m, aside by "
        << more.aside << " m");
-  for (const Run& run : {few, more}) {
+  for (const NutRun& run : {few, more}) {
     CHECK(run.part < 1.0);
     CHECK(run.part > 1.0 - run.bound);
     CHECK(run.deepest < 1e-9);

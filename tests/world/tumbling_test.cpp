@@ -19,7 +19,7 @@ std::vector<double> impactsOf(const World& world) {
 }
 
 /// A fast box that tumbles towards a fixed ball of 0.5 m.
-WorldDef thrown(Random& random, const char* method, double e) {
+WorldDef boxAtBall(Random& random, const char* method, double e) {
   BodyDef peg = ball("peg", 0.5, Vec3::Zero(), e);
   peg.fixed = true;
   BodyDef small = box("small", {0.2, 0.3, 0.25}, {0.0, 1.3, 0.0}, e);
@@ -36,8 +36,8 @@ TEST_CASE("a box that tumbles hits when exact says, however long the step, and k
   int several = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
     Random random(seed), same(seed);
-    const WorldDef def = thrown(random, "stepping", 1.0);
-    World world(def), exact(thrown(same, "exact", 1.0));
+    const WorldDef def = boxAtBall(random, "stepping", 1.0);
+    World world(def), exact(boxAtBall(same, "exact", 1.0));
     world.advance(def.duration);
     exact.advance(def.duration);
     const std::vector<double> hits = impactsOf(world), truth = impactsOf(exact);

@@ -7,7 +7,7 @@ using namespace tumble;
 
 namespace {
 
-BodyDef dumbbell(const char* name, const Vec3& x, const Vec3& v) {
+BodyDef dumbbellAt(const char* name, const Vec3& x, const Vec3& v) {
   BodyDef body;
   body.name = name;
   body.shape = solids::dumbbell().mesh();
@@ -23,8 +23,8 @@ WorldDef twoDumbbells(const std::string& method, const Vec3& approach) {
   def.method = method;
   def.gravity.setZero();
   def.duration = 4.0;
-  def.bodies = {dumbbell("left", {-3.0, 0.0, 0.0}, approach),
-                dumbbell("right", {3.0, 0.0, 0.0}, -approach)};
+  def.bodies = {dumbbellAt("left", {-3.0, 0.0, 0.0}, approach),
+                dumbbellAt("right", {3.0, 0.0, 0.0}, -approach)};
   return def;
 }
 
