@@ -48,8 +48,8 @@ fuzz() {
   return $status
 }
 
-# The physics by clang with address and undefined-behaviour checks, each file alone with its own
-# includes. The readers are under the same checks in the fuzzers.
+# The physics by clang with address and undefined-behaviour checks, without precompiled headers. The
+# readers are under the same checks in the fuzzers.
 sanitized_rooms=(math ode shape body flight collide problem contact joint world)
 sanitized_build() {
   cmake -G Ninja -S . -B "$sanitized" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang \
@@ -160,7 +160,7 @@ steps=(
   "warnings:clang builds program and fuzzers without a warning"
   "bits:clang's program has the same bits in every demo"
   "fuzz:scene and mesh files survive a minute of fuzzing"
-  "sanitized_build:each file alone, with sanitizers, without a warning"
+  "sanitized_build:without precompiled headers, with sanitizers, without a warning"
   "sanitized_run:quick tests of physics under sanitizers"
   "oracle:references in many digits"
   "egl_goldens:goldens by EGL"
