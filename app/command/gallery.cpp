@@ -48,7 +48,8 @@ int exhibit(const Options& options, const std::string& asked, Studio& studio,
     shoot.strobe();
     shoot.sheet();
     shown.plates.insert(shown.plates.begin(), {name + "/strobe.png", "the whole motion"});
-    shown.plates.push_back({name + "/sheet.png", "where it has moved on"});
+    shown.plates.push_back(
+        {name + "/sheet.png", "instants, between which it moves by equal amounts"});
   }
   shoot.page(folder + "/page.html");
   writeFile(folder + "/" + name + ".toml", readFile(scene.file));
