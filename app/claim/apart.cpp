@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "app/claim/free_body.h"
 #include "app/claim/parting.h"
 #include "app/claim/rows.h"
+#include "app/record/bodies.h"
 #include "app/scene/piece_store.h"
 #include "sim/collide/collide.h"
 #include "sim/collide/parts.h"

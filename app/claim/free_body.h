@@ -1,22 +1,13 @@
 // What claims ask of a body alone: its acceleration in free flight, how far its shape reaches,
-// until when nothing touches it; and of the bodies of a sample.
+// until when nothing touches it.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "app/record/recording.h"
+#include "app/record/bodies.h"
 
 namespace tumble {
-
-/// Whether forces move the body: neither fixed nor a half-space.
-bool moves(const BodyDef& body);
-
-/// All bodies where a sample has them, moving as there; without forces.
-std::vector<RigidBody> bodiesAt(const WorldDef& world, const Sample& sample);
-
-/// The same with the forces and torques of the world, of contacts and of joints on them.
-std::vector<RigidBody> loadedBodiesAt(const WorldDef& world, const Sample& sample);
 
 /// Acceleration [m/s²] of the centre of mass in free flight: gravity + Σ uniform forces / mass.
 /// Empty if a drag, a spring, a joint or a force off the centre acts, whose motion has no parabola.

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "app/claim/free_body.h"
 #include "app/claim/rows.h"
+#include "app/record/bodies.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "app/claim/free_body.h"
 #include "app/claim/rows.h"
+#include "app/record/bodies.h"
 #include "sim/body/force.h"
 #include "sim/elastic/elastic_body.h"
 

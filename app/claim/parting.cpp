@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/claim/free_body.h"
+#include "app/record/bodies.h"
 #include "sim/collide/collide.h"
 #include "sim/math/frames.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/claim/free_body.h"
+#include "app/record/bodies.h"
 #include "sim/body/principal_axes.h"
 
 namespace tumble {

@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/claim/free_body.h"
 #include "app/claim/verdict.h"
 #include "app/export/drawn.h"
 #include "app/export/pack.h"
@@ -18,6 +17,7 @@
 #include "app/present/bodies.h"
 #include "app/present/joints.h"
 #include "app/present/present.h"
+#include "app/record/bodies.h"
 
 namespace tumble {
 

@@ -1,7 +1,7 @@
 #include "app/present/boxes.h"
 
-#include "app/claim/free_body.h"
 #include "app/present/palette.h"
+#include "app/record/bodies.h"
 #include "sim/collide/parts.h"
 #include "sim/collide/polygon_pairs.h"
 

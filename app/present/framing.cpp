@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/claim/free_body.h"
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
 #include "app/present/diagram.h"
 #include "app/present/labels.h"
+#include "app/record/bodies.h"
 
 namespace tumble {
 

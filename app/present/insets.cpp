@@ -8,9 +8,9 @@
 #include <map>
 #include <utility>
 
-#include "app/claim/free_body.h"
 #include "app/present/digits.h"
 #include "app/present/palette.h"
+#include "app/record/bodies.h"
 #include "sim/contact/rows.h"
 #include "sim/problem/delassus.h"
 

@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "app/claim/free_body.h"
 #include "app/present/arrows.h"
 #include "app/present/digits.h"
 #include "app/present/palette.h"
+#include "app/record/bodies.h"
 #include "render/camera.h"
 
 namespace tumble {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/claim/free_body.h"
 #include "app/present/named.h"
 #include "app/present/palette.h"
+#include "app/record/bodies.h"
 #include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 

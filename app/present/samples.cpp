@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/claim/free_body.h"
 #include "app/present/palette.h"
+#include "app/record/bodies.h"
 #include "sim/math/frames.h"
 
 namespace tumble {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 
-#include "app/claim/free_body.h"
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
 #include "app/present/named.h"
 #include "app/present/palette.h"
 #include "app/present/present.h"
+#include "app/record/bodies.h"
 
 namespace tumble {
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "app/claim/free_body.h"
 #include "app/present/inertia.h"
 #include "app/present/sketch.h"
+#include "app/record/bodies.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {

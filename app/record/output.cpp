@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/file/file.h"
+#include "app/record/bodies.h"
 
 namespace tumble {
 
@@ -42,10 +43,6 @@ void addNames(std::string& out, const Scene& scene, std::initializer_list<int> b
     out += ',';
     out += nameOf(scene, body);
   }
-}
-
-bool moves(const BodyDef& body) {
-  return !body.fixed && !std::holds_alternative<HalfSpace>(body.shape);
 }
 
 // Per body whether it is a point of what bends; of fur only those of strands between every so many.

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "app/claim/free_body.h"
+#include "app/record/bodies.h"
 #include "app/report/bounded.h"
 #include "app/report/nudge.h"
 #include "app/report/swarm.h"

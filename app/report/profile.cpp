@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "app/claim/free_body.h"
+#include "app/record/bodies.h"
 #include "app/record/recording.h"
 #include "app/report/cost.h"
 #include "sim/contact/rows.h"

@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "app/claim/free_body.h"
 #include "app/claim/verdict.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
+#include "app/record/bodies.h"
 #include "app/scene/demos.h"
 #include "app/scene/scene.h"
 #include "tests/app/run_hashes.h"
