@@ -24,7 +24,8 @@ struct ImpactReport {
 /// The contacts struck at one instant, and what they get.
 struct Impact {
   std::span<RigidBody> bodies;
-  std::span<const Contact> contacts;    ///< all that touch, lasting ones too
+  /// All that touch. Those that are lasting, and move no faster than such may, rest beside a hit.
+  std::span<const Contact> contacts;
   std::span<const double> restitution;  ///< [1] per contact, for this instant
   std::span<Vec3> impulse;              ///< [N·s] out: on a, per contact, friction included
   ContactTolerance tolerance;

@@ -3,6 +3,7 @@
 #include "sim/contact/impact_pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string_view>
 
@@ -191,11 +192,22 @@ void strikeOnce(const Impact& impact, PassKind kind, ImpactReport& report) {
     return approachVelocity(impact.bodies[c.a], impact.bodies[c.b], c.point);
   };
   const bool inelastic = kind == PassKind::Inelastic;
-  const bool together = inelastic || std::none_of(reached.begin(), reached.end(), [&](int i) {
-                          return impact.restitution[i] > 0.0 && vrel(i) < -impact.tolerance.rest;
-                        });
+  // Beside a hit, what leans rests, whatever rounding left of its speed.
+  const auto leans = [&](int i) {
+    return impact.contacts[i].lasting && std::abs(vrel(i)) <= impact.tolerance.keep;
+  };
+  const bool hit = std::any_of(reached.begin(), reached.end(), [&](int i) {
+    return vrel(i) < -impact.tolerance.rest && !leans(i);
+  });
+  const auto classNow = [&](int i) {
+    return hit && leans(i) ? ContactClass::Resting : classify(vrel(i), impact.tolerance.rest);
+  };
+  const bool together =
+      inelastic || std::none_of(reached.begin(), reached.end(), [&](int i) {
+        return impact.restitution[i] > 0.0 && classNow(i) == ContactClass::Colliding;
+      });
   for (int i : reached) {
-    const ContactClass now = classify(vrel(i), impact.tolerance.rest);
+    const ContactClass now = classNow(i);
     if (!takesPart(kind, now, impact.restitution[i])) continue;
     const bool bounces = now == ContactClass::Colliding && !inelastic;
     addContact(impact, i, bounces ? impact.restitution[i] * vrel(i) : 0.0, together, pass);

@@ -76,6 +76,8 @@ class Course {
 
   bool collides() const;
   void respond();
+  /// Whether a contact that lasted moves no more than one that lasts.
+  bool leans(const Contact& contact) const;
   double restitutionNow(const Contact& contact) const;
   /// What joints gave to bodies from outside in an impact.
   void recordBonds(const Bonds& bonds);
@@ -138,6 +140,7 @@ class Course {
   const ContactModel& contact_;
   RestForces rest_;
   std::vector<Contact> touching_;
+  bool hits_ = false;  ///< something touches that does not just lean
   std::vector<double> y0_, y_;
   /// Y at the furthest instant [s] of this stretch that is known to be allowed, from where an
   /// adaptive integrator goes on.

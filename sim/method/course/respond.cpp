@@ -40,11 +40,16 @@ bool Course::collides() const {
   });
 }
 
+bool Course::leans(const Contact& c) const {
+  const double vrel = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
+  return wasLasting(c.a, c.b) && std::abs(vrel) <= tolerance_.keep;
+}
+
 double Course::restitutionNow(const Contact& c) const {
   const RigidBody &a = state_.bodies[c.a], &b = state_.bodies[c.b];
   const double rebound = -c.restitution * approachVelocity(a, b, c.point);
   if (rebound <= c.restitution * tolerance_.rest) return c.restitution;  // it does not approach
-  if (wasLasting(c.a, c.b) && rebound < tolerance_.keep) return 0.0;
+  if (wasLasting(c.a, c.b) && rebound < tolerance_.keep) return hits_ ? c.restitution : 0.0;
   const double press = -normalAcceleration(a, b, c.point);
   if (press > 0.0 && rebound * rebound < 2.0 * press * kHeight &&
       2.0 * rebound < press * (1.0 - c.restitution) * kTime)
@@ -63,8 +68,13 @@ void Course::respond() {
     report_.reason = crushed;
     return;
   }
+  hits_ = std::any_of(touching_.begin(), touching_.end(), [&](const Contact& c) {
+    return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < -tolerance_.rest &&
+           !leans(c);
+  });
   std::vector<double> restitution, vrel;
-  for (const Contact& c : touching_) {
+  for (Contact& c : touching_) {
+    c.lasting = leans(c);
     restitution.push_back(restitutionNow(c));
     vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
   }

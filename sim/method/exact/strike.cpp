@@ -146,7 +146,7 @@ std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& co
     const Contact& first = contacts[i];
     const bool lasting = lasts(first.a, first.b);
     double highest = 0.0, end = t;
-    bool hits = false, closes = true, hard = false;
+    bool hits = false, closes = true, hard = false, leansOnly = true;
     const std::size_t begin = i;
     for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b; ++i) {
       const Contact& c = contacts[i];
@@ -158,6 +158,7 @@ std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& co
       hard = hard || (c.restitution == 0.0 && vrel < -tolerance_.keep);
       const bool leans = lasting && -c.restitution * vrel < tolerance_.keep;
       closes = closes && (leans || (bounces && bounces->height < lowest()));
+      leansOnly = leansOnly && leans;
       if (!bounces) continue;
       highest = std::max(highest, bounces->height);
       end = std::max(end, bounces->end);
@@ -165,7 +166,8 @@ std::vector<double> Exact::restitutions(double t, const std::vector<Contact>& co
     all = all && closes && !hard;  // a hard blow goes on through others, though it does not rebound
     any = any || hits;
     if (!closes || !hits) continue;
-    std::fill(e.begin() + static_cast<std::ptrdiff_t>(begin), e.end(), 0.0);
+    // What only leans rests beside another hit, and rebounds if that sends it in.
+    if (!leansOnly) std::fill(e.begin() + static_cast<std::ptrdiff_t>(begin), e.end(), 0.0);
     ends_.push_back({{first.b, first.a}, end});
     report_.certificate.max_closed_height =
         std::max(report_.certificate.max_closed_height, highest);
@@ -194,6 +196,7 @@ void Exact::respond(double t, const Cluster& cluster) {
   std::vector<double> vrel;
   for (Contact& c : contacts) {
     vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
+    c.lasting = lasts(c.a, c.b) && std::abs(vrel.back()) <= tolerance_.keep;
     c.a = local[c.a];
     c.b = local[c.b];
   }
