@@ -279,8 +279,9 @@ void Crossing::take(double most) {
       touches = true;
       constexpr double kShortest = 1e-3;  // of a crossing
       h = std::max(first, kShortest * h);
-    } else if (const double deep = overlap();
-               deep > kDeep * ContactTolerance::scaleOf(model_.size) && deep < kEases * before) {
+    } else if (const double deep = overlap(); deep > kDeep * state_.exact.pace.slackness() *
+                                                         ContactTolerance::scaleOf(model_.size) &&
+                                              deep < kEases * before) {
       before = deep;
       touches = false;
       h *= kShorter;

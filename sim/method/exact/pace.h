@@ -6,12 +6,13 @@ namespace tumble {
 /// Hits of unlike bodies, and contacts that stick and slip in turns, may come faster than any run
 /// could follow: without end in finite time, or as fast as rounding lets them. After kMany events
 /// within kSpan, kMore times as many at each further level, bounces that count as nothing grow by
-/// kCoarser, and contacts that last are crossed in steps; one level is taken back after every kCalm
-/// without another. So a unit of time holds a bounded number of events.
+/// kCoarser, and contacts that last are crossed in steps, with kSlacker times the overlap at each
+/// further level; one level is taken back after every kCalm without another. So a unit of time
+/// holds a bounded number of events.
 struct Pace {
   static constexpr double kSpan = 1.0 / 64.0, kCalm = 1.0 / 8.0;  ///< [s]
   static constexpr long kMany = 1000, kMore = 4, kCoarsest = 4;
-  static constexpr double kCoarser = 30.0;
+  static constexpr double kCoarser = 30.0, kSlacker = 10.0;
   /// [s] a step at the first level, and its growth.
   static constexpr double kStretch = 3e-4, kLonger = 2.0;
 
@@ -42,6 +43,12 @@ struct Pace {
   double coarseness() const {
     double factor = 1.0;
     for (int k = 0; k < level; ++k) factor *= kCoarser;
+    return factor;
+  }
+  /// By how much the overlap has grown that a step across events may leave to be mended.
+  double slackness() const {
+    double factor = 1.0;
+    for (int k = 1; k < level; ++k) factor *= kSlacker;
     return factor;
   }
   /// [s] to cross at once.

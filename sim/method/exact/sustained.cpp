@@ -212,7 +212,7 @@ void Sustained::cross(double most) {
   account(model_, state_, report_);
   state_.effort = system_.effort;
   before_ = system_.evaluations();
-  keepPace(step.touches || state_.exact.lawless);
+  keepPace(step.touches || state_.exact.lawless || step.h < std::min(kShort, left));
   state_.exact.lawless = false;
   if (step.left > kCrushed * ContactTolerance::scaleOf(model_.size)) {
     report_.stopped = true;
