@@ -51,6 +51,25 @@ double largestGain(World& world, double duration) {
   return gain;
 }
 
+/// A box of millimetres that a spring throws about, up to radians of its swing in a step.
+WorldDef pebble(double stiffness, bool floor) {
+  WorldDef def = steps(0.5);
+  if (floor) def.bodies = {ground()};
+  def.bodies.push_back(box("pebble", {0.0053, 0.0093, 0.003}, {0.005, 0.016, -0.0036}));
+  BodyDef& body = def.bodies.back();
+  body.density = 800.0;
+  body.friction = 0.1;
+  body.orientation = Quat(0.42, 0.40, 0.15, -0.80).normalized();
+  body.velocity = {0.36, 0.12, 0.17};
+  body.angularVelocity = {23.0, -4.4, -9.9};
+  Spring spring{
+      .a = static_cast<int>(def.bodies.size()) - 1, .stiffness = stiffness, .rest = 0.017};
+  spring.anchorA_B = {0.0008, 0.0015, 0.0001};
+  spring.anchorB_B = {-0.031, 0.038, 0.0};
+  def.forces = {spring};
+  return def;
+}
+
 }  // namespace
 
 // Oracles: energy, and the equation of motion by another program of steps. Measured 2e-11 J of some
@@ -64,6 +83,24 @@ TEST_CASE("a box hung by its corner on a spring keeps its energy and follows its
   again.advance(2.0);
   reference.advance(2.0);
   CHECK((again.sample(2.0).bodies[1].x - reference.sample(2.0).bodies[1].x).norm() < 1e-9);
+}
+
+// Oracle: energy. In flight it stays, and landings only take: without parts of a step their books
+// are open by 0.95 and 0.75. Measured: gains of less than 1e-13, balance 6e-12 in flight and 0.041
+// with a floor.
+TEST_CASE("stepping: a pebble on a spring gains nothing, in flight or from the floor") {
+  for (const double stiffness : {0.2, 2.0, 20.0, 100.0}) {
+    for (const bool floor : {false, true}) {
+      CAPTURE(stiffness, floor);
+      World world(pebble(stiffness, floor));
+      const double gain = largestGain(world, 0.5);
+      const Certificate& c = world.report().certificate;
+      CHECK_FALSE(world.report().stopped);
+      CAPTURE(gain / c.energy_start, c.energy_balance_error);
+      CHECK(gain <= 1e-9 * c.energy_start);
+      CHECK(c.energy_balance_error <= (floor ? 0.1 : 1e-9));
+    }
+  }
 }
 
 // Invariant: stiff springs give no energy, k h²/m from 10 to 1e7. What is measured is h F·v/2,

@@ -1,7 +1,7 @@
 // Springs and drag in a step. Driven groups that something touches, or that are too stiff to be
-// followed, have their springs solved together with contacts; drag decays on the way. What joints
-// alone hold goes by RATTLE under all forces: half of what they give comes before the move, half
-// after it,
+// followed, have their springs solved together with contacts, in parts of a step where they swing
+// fast; drag decays on the way. What joints alone hold goes by RATTLE under all forces: half of
+// what they give comes before the move, half after it,
 //   M (v½ − v0) = ½ h F(x0, v0) + J0ᵀ λ0,  x1 = x0 + h v½,
 //   M (v1 − v½) = ½ h F(x1, 2 v½ − v0) + J1ᵀ λ1,
 // where 2 v½ − v0 differs from v1 by terms in h².
@@ -15,13 +15,11 @@
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
-
 /// Tells which groups are stiff, and which chains nothing touches: until one of them is seen to
 /// meet what is near it, it goes as joints and springs alone have it.
 void Stepping::freeChains(double h) {
-  constexpr double kStiff =
-      4.0;                       // [rad] in a step; below, some hundred evaluations follow a spring
-  constexpr double kSoft = 0.5;  // [rad] in a part: what is faster is followed by rows
+  constexpr double kStiff = 40.0;  // [rad] in a step: below, some thousand evaluations follow it
+  constexpr double kSoft = 0.5;    // [rad] in a part: what is faster is followed by rows
   Drives& drives = *memory_.drives;
   if (drives.chains.empty()) return;
   for (Chain& chain : drives.chains) chain.soft = true;
@@ -41,6 +39,21 @@ void Stepping::freeChains(double h) {
   for (PairMemory& pair : memory_.pairs)
     for (Touch& touch : pair.touches)
       if (isFree(touch.contact.a) || isFree(touch.contact.b)) touch.impulse.setZero();
+}
+
+bool Stepping::swingsIntoBlow(double h) const {
+  constexpr double kBlow = 0.1;  // [rad] of a swing, in a part of a step
+  if (!tiesRun() || isDrafted()) return false;
+  const Drives& drives = *memory_.drives;
+  const auto moves = [&](int i) {
+    const RigidBody& body = state_.bodies[i];
+    return body.v.norm() + model_.radius[i] * body.omega.norm() > tolerance_.rest;
+  };
+  return std::any_of(drives.groups.begin(), drives.groups.end(), [&](const DrivenGroup& group) {
+    return group.bound && !group.stiff && !group.halved && !group.springs.empty() &&
+           fastestDrive(group, drives.drags, drives.dragOf, state_.bodies) * h > kBlow &&
+           std::any_of(group.bodies.begin(), group.bodies.end(), moves);
+  });
 }
 
 void Stepping::touchChain(int body) {

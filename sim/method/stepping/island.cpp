@@ -24,6 +24,7 @@ void Stepping::solveSteadily(double h) {
   ++step_;
   if (!bends() || bend(h)) solveInTurns(h);
   if (bends() && !misses_) misses_ = isToHalve(h);
+  misses_ = misses_ || swingsIntoBlow(h);
   if (work_.crushed.empty() && !misses_) bookIslands(h);
 }
 

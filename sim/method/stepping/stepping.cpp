@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/body/force.h"
 #include "sim/math/rotation.h"
@@ -128,8 +129,11 @@ void Stepping::stepTo(double t1, double h) {
     stepClusters(t1, h);
   else
     go(t1, h);
-  if (!misses_) return;
-  misses_ = false;
+  if (!std::exchange(misses_, false)) return;
+  stepInHalves(t1);
+}
+
+void Stepping::stepInHalves(double t1) {
   const double half = 0.5 * (t1 - state_.t);
   stepTo(state_.t + half, half);
   if (!report_.stopped) stepTo(t1, t1 - state_.t);

@@ -35,6 +35,7 @@ class Stepping {
 
  private:
   void stepTo(double t1, double h);
+  void stepInHalves(double t1);
   /// Takes the bodies whose clock runs to t1, in as many parts as their hits ask for.
   void go(double t1, double h);
   void moveTo(double t1, double h);
@@ -375,6 +376,9 @@ class Stepping {
   void bindGroups(double h);
   void findHolds(double h);
   void freeChains(double h);
+  /// Whether a fast spring was solved with contacts in too long a step: what a blow does hangs on
+  /// where in a swing it comes.
+  bool swingsIntoBlow(double h) const;
   void touchChain(int body);
   /// Whether joints and springs alone are known to act on a body.
   bool isFree(int body) const {
