@@ -93,14 +93,19 @@ bool restsFreely(const Scene& scene, const Sample& start, const Structure& struc
   return true;
 }
 
-// Until another body that moves touches it [s].
+// Until another body that moves touches it, or strikes it between two samples [s].
 double aloneUntil(const Scene& scene, const Recording& recording, const Structure& structure) {
+  const auto joinsIn = [&](int a, int b) {
+    return moves(scene.world.bodies[a]) && moves(scene.world.bodies[b]) &&
+           structure.has(a) != structure.has(b);
+  };
+  double until = recording.samples.back().t;
+  for (const Event& event : recording.report.events)
+    if (joinsIn(event.a, event.b)) until = std::min(until, event.t);
   for (const Sample& sample : recording.samples)
-    for (const ContactSample& c : sample.contacts) {
-      const bool both = moves(scene.world.bodies[c.a]) && moves(scene.world.bodies[c.b]);
-      if (both && structure.has(c.a) != structure.has(c.b)) return sample.t;
-    }
-  return recording.samples.back().t;
+    for (const ContactSample& c : sample.contacts)
+      if (joinsIn(c.a, c.b)) return std::min(until, sample.t);
+  return until;
 }
 
 // Forces and torques, per radius, on the bodies by a unit force along each edge of each cone.

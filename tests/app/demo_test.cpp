@@ -198,8 +198,12 @@ void requireClaimsButOwn(Scene scene) {
 }
 
 void requireOtherGravity(Copies copies) {
-  for (const std::string& name : namesFor(copies))
-    requireClaimsButOwn(demo(name, {"world.gravity=[0.0, -3.71, 0.0]"}));
+  for (const std::string& name : namesFor(copies)) {
+    Scene scene = demo(name, {"world.gravity=[0.0, -3.71, 0.0]"});
+    // How much each way out of a solid adds to a fall is an experiment with that fall, no law.
+    std::erase(scene.checks, "point-plans");
+    requireClaimsButOwn(scene);
+  }
 }
 
 void requireOtherRestitution(Copies copies) {

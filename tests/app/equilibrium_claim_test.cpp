@@ -144,6 +144,40 @@ TEST_CASE("an arch falls by what statics says, not by what it is named") {
                           [](Recording& r) { r.samples.back().contacts[0].separation = -1e-8; }));
 }
 
+// Oracle: the ball, which touches the post for no time, 0.07 s from the start.
+TEST_CASE("what stands is held to it until something strikes it") {
+  Scene scene = parseScene(R"(
+[world]
+method = "stepping"
+duration = 0.5
+[materials.m]
+density = 1000.0
+restitution = 0.8
+friction = 0.5
+[[body]]
+name = "floor"
+shape = { plane = [0.0, 1.0, 0.0, 0.0] }
+material = "m"
+[[body]]
+name = "post"
+shape = { box = [0.2, 1.0, 0.2] }
+position = [0.0, 0.5, 0.0]
+material = "m"
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+position = [-0.9, 0.8, 0.0]
+velocity = [10.0, 0.0, 0.0]
+material = "m"
+)",
+                           "post.toml");
+  const Recording right = record(scene, 20.0);
+  CHECK((right.samples.back().bodies[1].x - right.samples.front().bodies[1].x).norm() > 0.01);
+  CHECK(holds("equilibrium", scene, right));
+  CHECK_FALSE(holdsBroken("equilibrium", scene, right,
+                          [](Recording& r) { r.samples[1].bodies[1].x.y() += 1e-8; }));
+}
+
 // Oracle: the tampering.
 TEST_CASE("the claim of the end names the body that moves and the pair that overlaps") {
   const Scene scene = blockOn(0.0, 0.5);
