@@ -15,6 +15,7 @@
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
+
 /// Tells which groups are stiff, and which chains nothing touches: until one of them is seen to
 /// meet what is near it, it goes as joints and springs alone have it.
 void Stepping::freeChains(double h) {
@@ -24,9 +25,9 @@ void Stepping::freeChains(double h) {
   if (drives.chains.empty()) return;
   for (Chain& chain : drives.chains) chain.soft = true;
   for (DrivenGroup& group : drives.groups) {
-    const double fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
-    group.stiff = fastest * model_.def.stepping.step > kStiff;
-    if (fastest * h > kSoft) drives.chains[group.chain].soft = false;
+    group.fastest = fastestDrive(group, drives.drags, drives.dragOf, state_.bodies);
+    group.stiff = group.fastest * model_.def.stepping.step > kStiff;
+    if (group.fastest * h > kSoft) drives.chains[group.chain].soft = false;
   }
   for (Chain& chain : drives.chains) chain.free = chain.soft && !bends() && !isDrafted();
   for (const PairMemory& pair : memory_.pairs) {
@@ -44,15 +45,11 @@ void Stepping::freeChains(double h) {
 bool Stepping::swingsIntoBlow(double h) const {
   constexpr double kBlow = 0.1;  // [rad] of a swing, in a part of a step
   if (!tiesRun() || isDrafted()) return false;
-  const Drives& drives = *memory_.drives;
-  const auto moves = [&](int i) {
-    const RigidBody& body = state_.bodies[i];
-    return body.v.norm() + model_.radius[i] * body.omega.norm() > tolerance_.rest;
-  };
-  return std::any_of(drives.groups.begin(), drives.groups.end(), [&](const DrivenGroup& group) {
+  const std::vector<DrivenGroup>& groups = memory_.drives->groups;
+  return std::any_of(groups.begin(), groups.end(), [&](const DrivenGroup& group) {
     return group.bound && !group.stiff && !group.halved && !group.springs.empty() &&
-           fastestDrive(group, drives.drags, drives.dragOf, state_.bodies) * h > kBlow &&
-           std::any_of(group.bodies.begin(), group.bodies.end(), moves);
+           group.fastest * h > kBlow &&
+           std::any_of(group.bodies.begin(), group.bodies.end(), [&](int i) { return moves(i); });
   });
 }
 

@@ -51,6 +51,7 @@ struct DrivenGroup {
   std::vector<Force> stores;    ///< the same
   bool steady = false;          ///< winds and point forces alone: one body, which they turn with
   bool plain = false;           ///< springs, with winds and drag: no field, no grip
+  double fastest = 0.0;         ///< [rad/s] as by fastestDrive, in this part of a step
   bool stiff = false;           ///< faster than a step can follow
   bool bound = false;           ///< something holds it in this step
   bool halved = false;          ///< and forces on it act in halves; else its springs are rows

@@ -69,11 +69,13 @@ bool Stepping::goesOn(const Island& island, double h) const {
   return anyMoves(island);
 }
 
+bool Stepping::moves(int body) const {
+  const Vec6& v = work_.before[body];
+  return v.head<3>().norm() + model_.radius[body] * v.tail<3>().norm() > tolerance_.rest;
+}
+
 bool Stepping::anyMoves(const Island& island) const {
-  return std::any_of(island.movers.begin(), island.movers.end(), [&](int i) {
-    const Vec6& v = work_.before[i];
-    return v.head<3>().norm() + model_.radius[i] * v.tail<3>().norm() > tolerance_.rest;
-  });
+  return std::any_of(island.movers.begin(), island.movers.end(), [&](int i) { return moves(i); });
 }
 
 /// Whether the impulses of the step before, where points are now, change velocities as they did.

@@ -241,8 +241,8 @@ bool Stepping::strike(double within) {
       if (!closed(touch) && !hits) continue;
       if (hits) bookShift(touch);
       contacts.push_back(c);
-      contacts.back().lasting =
-          false;  // it says so of the step, whose end leaves more than rounding
+      // It says so of the step, whose end leaves more than rounding.
+      contacts.back().lasting = false;
       vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
       const bool leans =
           vrel.back() < -tolerance_.rest && -c.restitution * vrel.back() <= tolerance_.keep;

@@ -273,7 +273,8 @@ class Stepping {
   bool looksTheSame(const Island& island, double h) const;
   bool keeps(const Island& island, double h) const;
   bool goesOn(const Island& island, double h) const;
-  /// Whether a body of it is not at rest as the step begins.
+  /// Whether a body is not at rest as the step begins; whether one of an island is.
+  bool moves(int body) const;
   bool anyMoves(const Island& island) const;
   bool rests(const Island& island, double h) const;
   bool pushesAlike(Island& island, double h);
