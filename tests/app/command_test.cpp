@@ -15,10 +15,11 @@
 #include "app/command/sweeping.h"
 #include "app/command/video.h"
 #include "app/file/file.h"
-#include "tests/app/folder.h"
 #include "tests/catch.h"
+#include "tests/folder.h"
 
 using namespace tumble;
+using tumble::test::Folder;
 namespace fs = std::filesystem;
 
 namespace {

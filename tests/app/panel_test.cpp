@@ -12,10 +12,11 @@
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/panel/page.h"
-#include "tests/app/folder.h"
 #include "tests/catch.h"
+#include "tests/folder.h"
 
 using namespace tumble;
+using tumble::test::Folder;
 namespace fs = std::filesystem;
 
 namespace {

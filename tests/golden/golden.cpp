@@ -1,8 +1,6 @@
 // Goldens: what passes, what fails, and what a failure leaves behind.
 #include "app/golden/golden.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -11,8 +9,10 @@
 #include "app/golden/formats.h"
 #include "app/golden/report.h"
 #include "tests/catch.h"
+#include "tests/folder.h"
 
 using namespace tumble;
+using tumble::test::Folder;
 namespace fs = std::filesystem;
 
 namespace {
@@ -25,13 +25,6 @@ Image plain(std::uint8_t level) {
   return image;
 }
 
-// A folder that is gone when the test ends.
-struct Scratch {
-  fs::path path = fs::temp_directory_path() / ("tumble-golden-" + std::to_string(::getpid()));
-  Scratch() { fs::create_directories(path); }
-  ~Scratch() { fs::remove_all(path); }
-};
-
 Golden sample() {
   return {"drop", {{"start", plain(40)}, {"end", plain(90)}}, {{"numbers", "t,y\n0,2\n1,0.5\n"}}};
 }
@@ -43,7 +36,7 @@ bool allPass(const std::vector<Finding>& findings) {
 }  // namespace
 
 TEST_CASE("what was stored is found again to the last bit") {
-  const Scratch scratch;
+  const Folder scratch;
   Manifest manifest;
   storeGolden(sample(), manifest, scratch.path.string());
   writeManifest((scratch.path / "manifest.json").string(), manifest);
@@ -54,14 +47,14 @@ TEST_CASE("what was stored is found again to the last bit") {
 }
 
 TEST_CASE("a subject without goldens fails in every part") {
-  const Scratch scratch;
+  const Folder scratch;
   const auto findings = compareGolden(sample(), Manifest{}, scratch.path.string());
   REQUIRE(findings.size() == 3);
   for (const Finding& finding : findings) CHECK_FALSE(finding.passes());
 }
 
 TEST_CASE("one level more of light, an image gone, and a hand-made golden each fail") {
-  const Scratch scratch;
+  const Folder scratch;
   Manifest manifest;
   const std::string folder = scratch.path.string();
   storeGolden(sample(), manifest, folder);
@@ -79,7 +72,7 @@ TEST_CASE("one level more of light, an image gone, and a hand-made golden each f
 }
 
 TEST_CASE("an update removes images that are no longer drawn") {
-  const Scratch scratch;
+  const Folder scratch;
   Manifest manifest;
   storeGolden(sample(), manifest, scratch.path.string());
   Golden fewer = sample();
@@ -90,7 +83,7 @@ TEST_CASE("an update removes images that are no longer drawn") {
 }
 
 TEST_CASE("an update says what is new, changed, gone, and as it was") {
-  const Scratch scratch;
+  const Folder scratch;
   Manifest manifest;
   const std::string folder = scratch.path.string();
   const auto words = [&](const Golden& now) {
@@ -115,7 +108,7 @@ TEST_CASE("an update says what is new, changed, gone, and as it was") {
 }
 
 TEST_CASE("what an update says is found is what is read again") {
-  const Scratch scratch;
+  const Folder scratch;
   Manifest manifest;
   Golden now = sample();
   now.tables = {{"more", "t,y\n0,1\n"}};
@@ -140,7 +133,7 @@ TEST_CASE("only images that show something new are kept") {
 }
 
 TEST_CASE("the report holds the failing images themselves and no link to anything outside") {
-  const Scratch scratch;
+  const Folder scratch;
   Manifest manifest;
   storeGolden(sample(), manifest, scratch.path.string());
   Golden now = sample();

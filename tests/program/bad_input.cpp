@@ -34,7 +34,7 @@ struct Mistake {
 }  // namespace
 
 TEST_CASE("the scene that the mistakes are made in is itself accepted") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, "simulate scene.toml -o out");
   CAPTURE(outcome.err);
@@ -75,7 +75,7 @@ TEST_CASE("a scene that cannot be is refused with its place, what is wrong and w
       Mistake{"overlapping start", spoilt("[0, 2, 0]", "[0, 0.06, 0]"), {"ball", "floor", "0.04"}},
       Mistake{"not TOML", spoilt("duration = 0.5", "duration = = 0.5"), {"scene.toml:2:"}});
   CAPTURE(mistake.name);
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", mistake.scene);
   const Outcome outcome = tumbleRun(scratch, "simulate scene.toml -o out");
   CAPTURE(outcome.err);
@@ -91,7 +91,7 @@ TEST_CASE("a scene that cannot be is refused with its place, what is wrong and w
 TEST_CASE("a scene that is refused is refused by check too, with claims and without") {
   const std::string checks = GENERATE("", "checks = [\"rest-time\"]\n");
   const std::string wrong = GENERATE(as<std::string>(), "[0, 0.06, 0]", "[0, nan, 0]");
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", checks + spoilt("[0, 2, 0]", wrong));
   const Outcome outcome = tumbleRun(scratch, "check scene.toml");
   CAPTURE(checks, wrong, outcome.err);
@@ -102,7 +102,7 @@ TEST_CASE("a scene that is refused is refused by check too, with claims and with
 }
 
 TEST_CASE("a scene that its method refuses leaves no folder of images") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall + "[[force]]\nkind = \"drag\"\nlinear = 1.0\n");
   const Outcome outcome =
       tumbleRun(scratch, "render scene.toml --set world.method=exact --still 0 -o out");
@@ -112,7 +112,7 @@ TEST_CASE("a scene that its method refuses leaves no folder of images") {
 }
 
 TEST_CASE("several mistakes of one file are told together, first first") {
-  const Scratch scratch;
+  const Folder scratch;
   std::string text = spoilt("mass = 1.0", "mass = -1.0");
   text.replace(text.find("duration = 0.5"), 14, "duration = -1 ");
   scratch.file("scene.toml", text);
@@ -145,7 +145,7 @@ TEST_CASE("a command line that makes no sense ends with 2 and one line") {
       Slip{"report scene.toml --budget inf", "--budget"},
       Slip{"golden no-such-demo", "no-such-demo"});
   CAPTURE(slip.arguments);
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, slip.arguments);
   CAPTURE(outcome.err);
@@ -166,7 +166,7 @@ TEST_CASE("a scene that is neither a demo nor a file, and a refused --set, end w
                Slip{"simulate scene.toml --set body.ball.mass=-1", {"--set", "mass"}},
                Slip{"simulate scene.toml --set world.gravty=1", {"--set", "gravity"}});
   CAPTURE(slip.arguments);
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, slip.arguments + " -o out");
   CAPTURE(outcome.err);
@@ -178,7 +178,7 @@ TEST_CASE("a scene that is neither a demo nor a file, and a refused --set, end w
 
 TEST_CASE("an output folder below a regular file ends with 5, for root too") {
   const std::string command = GENERATE("simulate", "render", "sweep");
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml",
                kBall + "[sweep]\nparameter = \"world.duration\"\nvalues = [0.1, 0.2]\n");
   scratch.file("file", "in the way");
@@ -196,7 +196,7 @@ TEST_CASE("a disk that fills up half-way ends with 5 and leaves no half-written 
   };
   const Run run = GENERATE(Run{"simulate scene.toml --rate 20000 -o out", ".csv"},
                            Run{"render scene.toml --frames 0:2 -o out", ".png"});
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, run.command, "ulimit -f 32");
   CAPTURE(run.command, outcome.err);
@@ -207,7 +207,7 @@ TEST_CASE("a disk that fills up half-way ends with 5 and leaves no half-written 
 }
 
 TEST_CASE("standard output that cannot be written ends with 5") {
-  const Scratch scratch;
+  const Folder scratch;
   const Outcome outcome = tumbleRun(scratch, "list >/dev/full");
   CAPTURE(outcome.err);
   CHECK(outcome.code == kFile);
@@ -215,12 +215,12 @@ TEST_CASE("standard output that cannot be written ends with 5") {
 }
 
 TEST_CASE("an error that cannot be told still ends with its own code") {
-  const Scratch scratch;
+  const Folder scratch;
   CHECK(tumbleRun(scratch, "render nosuch.toml 2>/dev/full").code == kScene);
 }
 
 TEST_CASE("without an OpenGL context nothing is drawn and the program ends with 4") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome =
       tumbleRun(scratch, "render scene.toml -o out", "export TUMBLE_GL=nonsense");
@@ -233,7 +233,7 @@ TEST_CASE("without an OpenGL context nothing is drawn and the program ends with 
 }
 
 TEST_CASE("without a display the window is refused with 4 and the way out") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, "view scene.toml", "unset DISPLAY WAYLAND_DISPLAY");
   CAPTURE(outcome.err);
@@ -243,7 +243,7 @@ TEST_CASE("without a display the window is refused with 4 and the way out") {
 }
 
 TEST_CASE("missing shaders end with 4 or 5 and name the folder, never with a black image") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, "render ./scene.toml -o out",
                                     "mkdir -p data/demos data/fonts; export TUMBLE_DATA=data");

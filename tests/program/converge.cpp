@@ -16,7 +16,7 @@ velocity = [1, 2, 3]
 }  // namespace
 
 TEST_CASE("converge prints a table for each instant and leaves numbers and a figure") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("fall.toml", kFall);
   scratch.file("gnuplot",
                "#!/bin/sh\necho '</svg>' >speed.svg\nprintf 'IEND\\256B\\140\\202' >speed.png\n");
@@ -33,7 +33,7 @@ TEST_CASE("converge prints a table for each instant and leaves numbers and a fig
 
 TEST_CASE(
     "without gnuplot converge prints its tables, keeps its numbers and says how to draw them") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("fall.toml", kFall);
   const Outcome outcome =
       tumbleRun(scratch, "converge fall.toml --at 0.5 -o out", "export PATH=/nowhere");
@@ -60,7 +60,7 @@ TEST_CASE("converge refuses what it cannot do in one line") {
       Case{"converge fall.toml --at 7", 2, "up to the duration of 0.5 s"},
       Case{"converge fall.toml --budget no", 2, "--budget"},
       Case{"converge fall.toml --set course.step=-1", 3, "expected a number"});
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("fall.toml", kFall);
   const Outcome outcome = tumbleRun(scratch, wrong.arguments);
   CAPTURE(wrong.arguments, outcome.err);

@@ -32,7 +32,7 @@ position = [10, 0, 0]
 // Oracle: closed form. A box has m (b² + c²)/12 about a; the L of three unit cubes has 7/6 and 11/6
 // of ρ about its axes, products of 1/3 ρ, and 5/6, 3/2, 11/6 ρ about its principal axes.
 TEST_CASE("describe says how time runs, and what each body weighs") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("two.toml", kTwoBodies);
   const Outcome outcome = tumbleRun(scratch, "describe two.toml");
   CHECK(outcome.code == 0);
@@ -53,7 +53,7 @@ TEST_CASE("describe says how time runs, and what each body weighs") {
 }
 
 TEST_CASE("describe and simulate name settings of methods that auto does not take") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml",
                "[world]\nduration = 0.1\n[stepping]\nstep = 0.05\n[course]\n"
                "integrator = \"euler\"\n[[body]]\nname = \"ball\"\nmass = 1.0\n"
@@ -71,7 +71,7 @@ TEST_CASE("describe and simulate name settings of methods that auto does not tak
 }
 
 TEST_CASE("a check without claims says that nothing was checked, and how to claim something") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("two.toml", kTwoBodies);
   const Outcome outcome = tumbleRun(scratch, "check two.toml --set checks=[]");
   CHECK(outcome.code == 0);
@@ -80,7 +80,7 @@ TEST_CASE("a check without claims says that nothing was checked, and how to clai
 }
 
 TEST_CASE("what simulate writes of joints is told, and where they hold") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("swing.toml",
                "[world]\nduration = 0.1\n[[body]]\nname = \"bob\"\nmass = 1.0\n"
                "shape = { sphere = 0.1 }\nposition = [1, 0, 0]\n[[joint]]\n"

@@ -4,7 +4,7 @@
 
 // Oracle: Assimp's reader of glTF.
 TEST_CASE("a glTF file of a run is read by Assimp with its nodes, meshes and animation") {
-  const Scratch scratch;
+  const Folder scratch;
   REQUIRE(tumbleRun(scratch, "export overhang -o run.glb -q --set world.duration=0.2").code == 0);
   const Outcome read = tumbleRun(scratch, "--version", "assimp info run.glb >said 2>&1");
   const std::string said = textOf(scratch.path / "said");
@@ -15,7 +15,7 @@ TEST_CASE("a glTF file of a run is read by Assimp with its nodes, meshes and ani
 }
 
 TEST_CASE("export writes by the ending of the name, and refuses another") {
-  const Scratch scratch;
+  const Folder scratch;
   CHECK(tumbleRun(scratch, "export overhang -o sub/scene.json").code == 0);
   CHECK(textOf(scratch.path / "sub/scene.json").starts_with("{"));
   const Outcome other = tumbleRun(scratch, "export overhang -o run.obj");
@@ -26,7 +26,7 @@ TEST_CASE("export writes by the ending of the name, and refuses another") {
 
 // A room whose nearest walls no picture shows, and places too small to have all their digits.
 TEST_CASE("a page and a glTF file hold every body, whatever the pictures leave out") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("room.toml", R"([world]
 duration = 0.1
 [[body]]
@@ -72,7 +72,7 @@ position = [0, 0.2, 0]
 }
 
 TEST_CASE("a page of the pile weighs less than half a megabyte") {
-  const Scratch scratch;
+  const Folder scratch;
   CHECK(tumbleRun(scratch, "render pile --html pages/pile.html -q").code == 0);
   const auto size = std::filesystem::file_size(scratch.path / "pages/pile.html");
   CAPTURE(size);
@@ -82,7 +82,7 @@ TEST_CASE("a page of the pile weighs less than half a megabyte") {
 
 // Oracle: one rule for everything that is written.
 TEST_CASE("whatever is written makes the folders that it is to stand in, or says why it cannot") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("drop.toml", R"(
 [world]
 duration = 0.1

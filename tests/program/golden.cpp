@@ -38,7 +38,7 @@ std::string moved(const std::string& text, const std::string& by) {
 }  // namespace
 
 TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of it fails") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("wedge.obj", kWedge);
   scratch.file("mine.toml", kWedgeAndBall);
   const Outcome first = tumbleRun(scratch, "golden --folder kept --update mine.toml");
@@ -85,7 +85,7 @@ TEST_CASE("goldens of one's own scene hold with OSMesa and EGL, and a change of 
 }
 
 TEST_CASE("two processes that enter goldens into one folder both find theirs") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("wedge.obj", kWedge);
   scratch.file("one.toml", kWedgeAndBall);
   scratch.file("two.toml", moved(kWedgeAndBall, "0.4, 0]"));
@@ -110,7 +110,7 @@ TEST_CASE("goldens of scenes that cannot be held are refused in one line, and no
                Slip{"golden --folder kept --update mine.toml sub/mine.toml", 2, "mine"},
                Slip{"golden --folder kept --update mine.toml bad.toml", 3, "bad.toml:1:1"});
   CAPTURE(slip.arguments);
-  const Scratch scratch;
+  const Folder scratch;
   std::filesystem::create_directories(scratch.path / "sub");
   for (const char* name : {"mine.toml", "sub/mine.toml"}) scratch.file(name, kWedgeAndBall);
   for (const char* name : {"wedge.obj", "sub/wedge.obj"}) scratch.file(name, kWedge);

@@ -31,7 +31,7 @@ std::pair<int, int> kindOf(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("masks stand beside images, are named, and are kept when the run goes on") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kFloorAndBall);
   REQUIRE(tumbleRun(scratch, "render scene.toml --frames 0:2 --masks -o out -q").code == 0);
   CHECK(kindOf(scratch.path / "out/image-000001.depth.png") == std::pair(16, 0));
@@ -53,7 +53,7 @@ TEST_CASE("masks stand beside images, are named, and are kept when the run goes 
 }
 
 TEST_CASE("the line of events is an SVG document with a lane for each kind") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("scene.toml", kFloorAndBall);
   REQUIRE(tumbleRun(scratch, "render scene.toml --events -o out -q").code == 0);
   const std::string svg = textOf(scratch.path / "out/events.svg");

@@ -59,7 +59,7 @@ std::string torus(int n) {
 }  // namespace
 
 TEST_CASE("a scene of a mesh that is no solid ends with 3, one line and no file") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("bad.toml", R"([world]
 duration = 0.1
 [[body]]
@@ -98,7 +98,7 @@ shape = { mesh = "m.obj" }
 }
 
 TEST_CASE("a scene of a mesh that is not there ends with 3, one line and no file") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("bad.toml",
                "[world]\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1.0\n"
                "shape = { mesh = \"missing.obj\" }\n");
@@ -111,7 +111,7 @@ TEST_CASE("a scene of a mesh that is not there ends with 3, one line and no file
 
 // Refused by its number of faces, once its surface has been found whole.
 TEST_CASE("a mesh of a million faces is refused in one line", "[long]") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("bad.toml",
                "[world]\nduration = 1\n[[body]]\nname = \"b\"\nmass = 1.0\n"
                "shape = { mesh = \"m.obj\" }\n");

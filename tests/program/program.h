@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,27 +10,11 @@
 #include <sstream>
 #include <string>
 
+#include "tests/folder.h"
 #include "tests/text_of.h"
 
+using tumble::test::Folder;
 using tumble::test::textOf;
-
-/// A folder that is gone when the test ends.
-struct Scratch {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("tumble-program-" + std::to_string(::getpid()));
-  Scratch() {
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  ~Scratch() { std::filesystem::remove_all(path); }
-
-  /// Writes a file here and returns its path.
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name) << text;
-    return (path / name).string();
-  }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 struct Outcome {
   int code = -1;  ///< exit code, or 128 + number of the signal that ended it
@@ -55,7 +38,7 @@ inline bool holds(const std::string& text, const std::string& part) {
 
 /// Runs `before; tumble arguments` in a shell inside the scratch folder.
 /// @param before shell commands such as "ulimit -f 8; export TUMBLE_GL=x"
-inline Outcome tumbleRun(const Scratch& scratch, const std::string& arguments,
+inline Outcome tumbleRun(const Folder& scratch, const std::string& arguments,
                          const std::string& before = ":") {
   const std::filesystem::path out = scratch.path / ".out", err = scratch.path / ".err";
   const std::string command = "cd '" + scratch.path.string() + "' && (" + before + "; exec '" +

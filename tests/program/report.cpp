@@ -32,7 +32,7 @@ std::string with(std::string text, const std::string& what, const std::string& b
 }  // namespace
 
 TEST_CASE("without gnuplot the numbers are there, and one line says what to install") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("orbit.toml", kOrbit + kChart);
   const Outcome outcome =
       tumbleRun(scratch, "report orbit.toml -o out --budget 0", "export PATH=/nowhere");
@@ -44,7 +44,7 @@ TEST_CASE("without gnuplot the numbers are there, and one line says what to inst
 }
 
 TEST_CASE("a report of a scene without a chart is refused") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("bare.toml", kOrbit);
   const Outcome outcome = tumbleRun(scratch, "report bare.toml -o out");
   CHECK(outcome.code == 3);
@@ -52,7 +52,7 @@ TEST_CASE("a report of a scene without a chart is refused") {
 }
 
 TEST_CASE("scenes of the same file name keep their numbers apart") {
-  const Scratch scratch;
+  const Folder scratch;
   std::filesystem::create_directories(scratch / "a");
   std::filesystem::create_directories(scratch / "b");
   scratch.file("a/st.toml", kOrbit + with(kChart, "RK4", "first"));
@@ -73,7 +73,7 @@ TEST_CASE("figures that gnuplot leaves out or unfinished end with 5, and none of
       Gnuplot{png + "echo '<svg>' >orbit.svg", "orbit.svg"}, Gnuplot{svg, "orbit.png"},
       Gnuplot{svg + "echo PNG >orbit.png", "orbit.png"});
   CAPTURE(gnuplot.script);
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("orbit.toml", kOrbit + kChart);
   scratch.file("gnuplot", "#!/bin/sh\n" + gnuplot.script);
   // A figure of an earlier run does not count.
@@ -91,7 +91,7 @@ TEST_CASE("figures that gnuplot leaves out or unfinished end with 5, and none of
 
 TEST_CASE("gnuplot runs nothing that a scene's texts say") {
   if (std::system("command -v gnuplot >/dev/null") != 0) return;
-  const Scratch scratch;
+  const Folder scratch;
   const std::string label = R"('''`touch made` $(touch made) "a" 'b' @c \n {d <e> &''')";
   scratch.file("orbit.toml", kOrbit + with(with(kChart, "\"RK4\"", label), "\"An orbit\"", label));
   const Outcome outcome = tumbleRun(scratch, "report orbit.toml -o out --budget 0");
@@ -112,7 +112,7 @@ TEST_CASE("a chart without an error that can be drawn is refused where its check
       Case{free + kChart, "the check 'orbit' finds nothing in these runs"},
       Case{with(free, "\"particle\"", "{ sphere = 0.5 }") + with(kChart, "\"orbit\"", "\"weight\""),
            "the check 'weight' finds no error in these runs"});
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("orbit.toml", chart.scene);
   const Outcome outcome = tumbleRun(scratch, "report orbit.toml -o out --budget 0");
   CAPTURE(outcome.err);

@@ -33,7 +33,7 @@ std::set<std::string> namesIn(const std::string& text, const std::string& begin)
   return names;
 }
 
-std::vector<std::string> commands(const Scratch& scratch) {
+std::vector<std::string> commands(const Folder& scratch) {
   std::vector<std::string> names;
   std::istringstream lines(tumbleRun(scratch, "--help").out);
   for (std::string line; std::getline(lines, line);)
@@ -54,7 +54,7 @@ std::string untilThereIs(const std::string& file) {
 }  // namespace
 
 TEST_CASE("completions and the manual know every command and every option of its help") {
-  const Scratch scratch;
+  const Folder scratch;
   const std::string manual = tumbleRun(scratch, "man").out;
   const std::string bash = tumbleRun(scratch, "completion bash").out;
   const std::string zsh = tumbleRun(scratch, "completion zsh").out;
@@ -83,7 +83,7 @@ TEST_CASE("completions and the manual know every command and every option of its
 }
 
 TEST_CASE("bash completes commands, options of the command, demos and shells") {
-  const Scratch scratch;
+  const Folder scratch;
   const std::string ask =
       "export PATH=\"$(dirname '" + std::string(TUMBLE_PROGRAM) +
       "'):$PATH\"; bash -c 'source <(tumble completion bash); ask() { COMP_WORDS=(\"$@\"); "
@@ -94,7 +94,7 @@ TEST_CASE("bash completes commands, options of the command, demos and shells") {
 }
 
 TEST_CASE("a misspelt option is answered with the nearest one, a file with the nearest file") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("billiard.toml", kDrawnBall);
   const Outcome option = tumbleRun(scratch, "render billiard.toml --stil 1");
   CHECK(option.code == 2);
@@ -107,7 +107,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a file with the n
 }
 
 TEST_CASE("two shards, three jobs and one run draw the same bytes, and quiet says nothing") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
   CHECK(tumbleRun(scratch, "render ball.toml -o one").code == 0);
   for (const std::string arguments :
@@ -128,7 +128,7 @@ TEST_CASE("two shards, three jobs and one run draw the same bytes, and quiet say
 
 TEST_CASE(
     "what is killed, again and again, leaves whole images alone and goes on to the same bytes") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
   const std::string render = "render ball.toml -q --set image.rate=1000 -o ";
   CHECK(tumbleRun(scratch, render + "whole").code == 0);
@@ -153,7 +153,7 @@ TEST_CASE(
 }
 
 TEST_CASE("numbers of a run that is killed leave no file behind, new or in place of old ones") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
   const std::string simulate = "simulate ball.toml -q -o out";
   const std::string asLong = " --set world.duration=999 --set image.rate=1000";
@@ -168,7 +168,7 @@ TEST_CASE("numbers of a run that is killed leave no file behind, new or in place
 }
 
 TEST_CASE("the first Ctrl-C is answered at once, the second ends a run far from its next sample") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
   const std::string twice = "self=$(exec sh -c 'echo $PPID'); (" + untilThereIs("out") +
                             "; kill -INT $self; n=0; until grep -q again .err || [ $((n += 1)) -gt "
@@ -184,7 +184,7 @@ TEST_CASE("the first Ctrl-C is answered at once, the second ends a run far from 
 }
 
 TEST_CASE("images of another run are named, and so is a range that reaches beyond the end") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
   const Outcome first = tumbleRun(scratch, "render ball.toml -o out --frames 11:50");
   CHECK(first.code == 0);
@@ -196,7 +196,7 @@ TEST_CASE("images of another run are named, and so is a range that reaches beyon
 }
 
 TEST_CASE("Ctrl-C ends between two images, says how many are there, and the next run goes on") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("long.toml", "camera = { elevation = 20 }\n" + kDrawnBall + "rate = 500\n");
   const Outcome outcome =
       tumbleRun(scratch, "render long.toml -o out",
@@ -211,7 +211,7 @@ TEST_CASE("Ctrl-C ends between two images, says how many are there, and the next
 }
 
 TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in which nothing moved") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("rest.toml",
                "checks = [\"settled\"]\n" + kDrawnBall +
                    "[sweep]\nparameter = \"body.ball.position\"\nvalues = [[0, 0.5, 0]]\n");
@@ -224,7 +224,7 @@ TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in whic
 }
 
 TEST_CASE("panels that a scene has not got keep no other picture from being drawn") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
   CHECK(tumbleRun(scratch, "render ball.toml --panels -o out").code == 2);
   const Outcome outcome = tumbleRun(scratch, "render ball.toml --strobe --panels -o out");
@@ -234,7 +234,7 @@ TEST_CASE("panels that a scene has not got keep no other picture from being draw
 }
 
 TEST_CASE("a sweep over fewer values leaves nothing of one over more") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("ball.toml",
                kDrawnBall + "[sweep]\nparameter = \"body.ball.mass\"\nvalues = [1, 2, 3]\n");
   CHECK(tumbleRun(scratch, "sweep ball.toml -o out").code == 0);

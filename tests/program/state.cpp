@@ -23,7 +23,7 @@ size = [160, 90]
 }  // namespace
 
 TEST_CASE("check --state names the layer of a start that is not legal, and draws it") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("s.toml", kFallingBrick);
   Outcome outcome = tumbleRun(scratch, "check --state s.toml");
   CHECK(outcome.code == 0);

@@ -3,7 +3,7 @@
 #include "tests/program/program.h"
 
 TEST_CASE("a run is verified by the hashes of another, and a bit flipped there is told with time") {
-  const Scratch scratch;
+  const Folder scratch;
   REQUIRE(tumbleRun(scratch, "simulate overhang -q -o out --rate 20 --hash bits.txt").code == 0);
   const Outcome same = tumbleRun(scratch, "verify overhang bits.txt");
   CHECK(same.code == 0);
@@ -30,7 +30,7 @@ TEST_CASE("a run is verified by the hashes of another, and a bit flipped there i
 }
 
 TEST_CASE("verify refuses what holds no hashes of this scene in one line with its place") {
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file("garbage.txt", "tumble hashes 1\nrate 10 bodies x\n");
   REQUIRE(tumbleRun(scratch, "simulate cradle -q -o out --rate 10 --hash other.txt").code == 0);
   const auto refused = [&](const std::string& file, const std::string& words) {

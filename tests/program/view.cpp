@@ -7,7 +7,7 @@ TEST_CASE("the window opens on a virtual display, draws and closes") {
     WARN("xvfb is not installed: not tested");
     return;
   }
-  const Scratch scratch;
+  const Folder scratch;
   scratch.file(
       "scene.toml",
       "[world]\nduration = 0.2\n[[body]]\nname = \"a\"\nshape = { sphere = 0.1 }\nmass = 1.0\n");

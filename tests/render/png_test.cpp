@@ -1,6 +1,5 @@
 // Images on disk: the same pixels back, text inside, and nothing half-written.
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -10,8 +9,10 @@
 #include "render/image.h"
 #include "render/png_writer.h"
 #include "tests/catch.h"
+#include "tests/folder.h"
 
 using namespace tumble;
+using tumble::test::Folder;
 namespace fs = std::filesystem;
 
 namespace {
@@ -25,17 +26,6 @@ Image noise(int width, int height) {
   }
   return image;
 }
-
-/// A folder of its own that goes away with the test.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("tumble-png-" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-  long files() const {
-    return std::distance(fs::directory_iterator(path), fs::directory_iterator());
-  }
-};
 
 struct Chunk {
   std::string type, data;
