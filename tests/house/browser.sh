@@ -4,16 +4,21 @@ browser=$(command -v chromium || command -v chromium-browser || command -v googl
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# said FILE WIDTH,HEIGHT: what a page that drives itself says in its <pre id="said">. A browser that says nothing at all
-# tells nothing of the page: it is asked again.
+# said FILE WIDTH,HEIGHT: what a page that drives itself tells the console as "said: …", within two minutes; else the end
+# of what the browser wrote. The clock is the wall's: a virtual one runs out while decoders and the GPU's process work.
 said() {
-  local words='' try
-  for try in 1 2 3 4 5 6; do
-    [[ -n $words ]] && break
-    words=$("$browser" --headless --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-      --hide-scrollbars --window-size="$2" --force-device-scale-factor=1 --virtual-time-budget=60000 \
-      --user-data-dir="$(mktemp -d -p "$scratch")" --dump-dom "file://$1" 2>/dev/null |
-      sed -n 's/.*<pre id="said">\(.*\)<\/pre>.*/\1/p' || true)
+  local log=$scratch/browser.log words='' browserId tenths
+  : >"$log"
+  "$browser" --headless --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
+    --hide-scrollbars --window-size="$2" --force-device-scale-factor=1 --enable-logging=stderr \
+    --remote-debugging-port=0 --user-data-dir="$(mktemp -d -p "$scratch")" "file://$1" >"$log" 2>&1 &
+  browserId=$!
+  for ((tenths = 0; tenths < 1200; ++tenths)); do
+    words=$(sed -n 's/.*"said: \(.*\)", source: .*/\1/p' "$log")
+    [[ -z $words ]] && kill -0 $browserId 2>/dev/null || break
+    sleep 0.1
   done
-  echo "$words"
+  kill $browserId 2>/dev/null || true
+  wait $browserId 2>/dev/null || true
+  echo "${words:-the page did not answer: $(tail -n 5 "$log" | tr '\n' ' ')}"
 }

@@ -1,11 +1,6 @@
-// Drives a page of `tumble render --html` and leaves what came of it in <pre id="said">: "done SHARE
-// MEAN DRAWS DRAG", or what is wrong.
-const said = text => {
-  const pre = document.createElement('pre');
-  pre.id = 'said';
-  pre.textContent = text;
-  document.body.append(pre);
-};
+// Drives a page of `tumble render --html` and tells the console what came of it: "said: done SHARE MEAN
+// DRAWS DRAG", or what is wrong.
+const said = text => console.log('said: ' + text);
 // A browser without a screen takes some of its window for bars that nobody sees.
 Object.defineProperty(window, 'innerWidth', { get: () => 960 });
 Object.defineProperty(window, 'innerHeight', { get: () => 540 });
@@ -14,8 +9,6 @@ addEventListener('error', e => wrongs.push('error: ' + e.message));
 addEventListener('unhandledrejection', e => wrongs.push('error: ' + e.reason));
 const tellError = console.error;
 console.error = (...words) => { wrongs.push('console: ' + words.join(' ')); tellError(...words); };
-// A browser whose time is virtual draws no frames of its own accord: they come by its clock.
-window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);
 const rest = ms => new Promise(done => setTimeout(done, ms));
 
 async function pixels(source, width, height) {
