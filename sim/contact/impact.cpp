@@ -20,14 +20,6 @@ constexpr ImpactLaw kLaws[] = {
     {"poisson", "what compression took is given back in part", impactPoisson},
 };
 
-/// Tangent plane of one struck contact and its Coulomb bound.
-struct Tangential {
-  int contact;
-  double bound;  // [N·s] mu j
-  double step;   // [kg] 1 / largest inverse effective mass in the plane
-  Vec3 sum = Vec3::Zero();
-};
-
 }  // namespace
 
 std::span<const ImpactLaw> impactLaws() {
@@ -106,54 +98,6 @@ ImpulseEnergy applyContactImpulse(const Impact& impact, int contact, const Vec3&
   applyImpulse(b, c.point.p, -J);
   energy.lost = before - (kineticEnergy(a) + kineticEnergy(b)) + energy.work;
   impact.impulse[contact] += J;
-  return energy;
-}
-
-ImpulseEnergy frictionImpulses(const Impact& impact, std::span<const int> contacts,
-                               std::span<const double> j) {
-  constexpr int kSweeps = 200;
-  constexpr double kSettled = 1e-13;   // change of a sweep relative to the largest bound,
-  constexpr double kRounding = 1e-15;  // and to what stops the fastest point: its rounding
-
-  std::vector<Tangential> struck;
-  double largest = 0.0, rounding = 0.0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& c = impact.contacts[contacts[i]];
-    const double bound = c.friction * j[i];
-    if (bound <= 0.0) continue;
-    Vec3 t1, t2;
-    const RigidBody &a = impact.bodies[c.a], &b = impact.bodies[c.b];
-    tangents(c.point.n, slipVelocity(a, b, c.point), t1, t2);
-    const double k =
-        inverseEffectiveMass(a, b, c.point.p, t1) + inverseEffectiveMass(a, b, c.point.p, t2);
-    struck.push_back({contacts[i], bound, 1.0 / k});
-    largest = std::max(largest, bound);
-    const double fast = pointVelocity(a, c.point.p).norm() + pointVelocity(b, c.point.p).norm();
-    rounding = std::max(rounding, kRounding * struck.back().step * fast);
-  }
-
-  // Each contact in turn pulls its slip towards zero, held inside its disc of radius mu j. A first
-  // pull of full strength settles a lone contact whose two tangents weigh the same at once.
-  ImpulseEnergy energy;
-  for (int sweep = 0; sweep < kSweeps && !struck.empty(); ++sweep) {
-    double change = 0.0;
-    for (Tangential& s : struck) {
-      const Contact& c = impact.contacts[s.contact];
-      const RigidBody &a = impact.bodies[c.a], &b = impact.bodies[c.b];
-      const double gain = sweep == 0 ? 2.0 * s.step : s.step;
-      Vec3 wanted = s.sum - gain * slipVelocity(a, b, c.point);
-      const double size = wanted.norm();
-      if (size > s.bound) wanted *= s.bound / size;
-      const Vec3 J = wanted - s.sum;
-      s.sum = wanted;
-      const ImpulseEnergy step = applyContactImpulse(impact, s.contact, J);
-      energy.lost += step.lost;
-      energy.work += step.work;
-      energy.rows += 2;
-      change = std::max(change, J.norm());
-    }
-    if (change <= std::max(kSettled * largest, rounding)) break;
-  }
   return energy;
 }
 

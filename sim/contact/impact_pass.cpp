@@ -3,6 +3,7 @@
 #include "sim/contact/impact_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string_view>
@@ -18,6 +19,7 @@ namespace {
 constexpr double kHopeless = 1e-2;
 constexpr int kSweeps = 500;
 constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is for
+constexpr std::size_t kFace = 3;     // contacts from which on normal impulses can be many
 
 /// The contacts that take part, and their rows.
 struct Strike {
@@ -126,23 +128,34 @@ void keepFromGaining(const Problem& problem, std::span<const int> island, Soluti
   });
 }
 
-/// Solves for the impulses of a pass; those of bonds are given at once. Where a face strikes with
-/// friction its impulses are many: `newton` chooses among them, whatever their order.
+/// The solver of a pass, and the one that tries where it fails. Where a face strikes its impulses
+/// are many, and with friction what moves on depends on which: `newton` chooses among them,
+/// whatever their order.
+std::array<std::string_view, 2> solversOf(const Impact& impact, const Strike& strike) {
+  const bool small = strike.problem.rows.size() <= kDense;
+  const bool cones = strike.problem.rows.size() > strike.problem.cones.size();
+  if (!impact.bound()) {
+    if (cones && strike.contacts.size() == 1) return {"pgs", "newton"};
+    if (cones) return {"newton", "pgs"};
+    const bool rubs = std::any_of(strike.contacts.begin(), strike.contacts.end(),
+                                  [&](int i) { return impact.contacts[i].friction > 0.0; });
+    if (rubs && small && strike.contacts.size() >= kFace) return {"newton", "pivoting"};
+  }
+  if (small) return {"pivoting", "newton"};
+  return {"newton", "pgs"};
+}
+
+/// Solves for the impulses of a pass; those of bonds are given at once.
 SolveReport solvePass(const Impact& impact, Strike& strike, Solution& solution,
                       ImpactReport& report) {
-  const bool friction = strike.problem.rows.size() > strike.problem.cones.size();
   const std::size_t firstBond = strike.problem.rows.size();
   if (impact.bound()) appendBonds(*impact.bonds, strike.problem);
-  const std::string_view first = friction && !impact.bound()
-                                     ? (strike.contacts.size() == 1 ? "pgs" : "newton")
-                                 : strike.problem.rows.size() <= kDense ? "pivoting"
-                                                                        : "newton";
+  const auto [first, second] = solversOf(impact, strike);
   const SolveSettings settings{.maxIterations = kSweeps};
   SolveReport solved = solveByIslands(*findSolver(first), strike.problem, settings, solution);
   if (solved.status != SolveStatus::Solved) {
     Solution other;
-    const SolveReport again = solveByIslands(*findSolver(first == "newton" ? "pgs" : "newton"),
-                                             strike.problem, settings, other);
+    const SolveReport again = solveByIslands(*findSolver(second), strike.problem, settings, other);
     if (again.residual < solved.residual) {
       solved = again;
       solution = std::move(other);
