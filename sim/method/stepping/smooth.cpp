@@ -59,20 +59,25 @@ bool Stepping::keepsMode(const Touch& touch, const Vec3& first, const Vec3& last
   return first.norm() > tolerance_.stick ? first.dot(last) > 0.0 : last.norm() <= tolerance_.stick;
 }
 
+/// Whether what goes round leads what goes round with it by more than contacts at rest may move: of
+/// bodies that slide on each other rounding leaves spins that share a direction, or do not.
+bool Stepping::leads(const Contact& contact, double h) const {
+  return carried(contact, h).norm() > tolerance_.rest;
+}
+
 /// Whether a touch carries its bodies round with each other, along chords.
 bool Stepping::goesRound(const Touch& touch, double h) const {
   const Contact& c = touch.contact;
-  const Vec3 lead = carried(c, h);
-  if (lead.isZero(0.0)) return false;
-  const bool leads = model_.fixed(c.a) || model_.fixed(c.b);
+  if (!leads(c, h)) return false;
+  const bool drives = model_.fixed(c.a) || model_.fixed(c.b);
   return (c.friction > 0.0 && rateAt(c, work_.before).norm() <= tolerance_.stick) ||
-         (leads && std::abs(c.point.n.dot(lead)) > tolerance_.rest);
+         (drives && std::abs(c.point.n.dot(carried(c, h))) > tolerance_.rest);
 }
 
 /// Whether an island moves, and its contacts last and keep their modes if the same acts on its
-/// bodies as in the step before. Crowds jostle.
+/// bodies as in the step before.
 bool Stepping::foreseesSmooth(Island& island, double h) {
-  if ((crowd_ && isCrowd(island)) || !anyMoves(island)) return false;
+  if (!anyMoves(island)) return false;
   for (const int i : island.movers) {
     const Push& last = memory_.pushes[i];
     if (!(last.t1 > last.t0)) return false;
@@ -124,7 +129,7 @@ bool Stepping::isSmooth(const Island& island, double h) const {
       const bool stays =
           lasts(first, left) && (lasts(last, 0.0) || lasts(last + closes * c.point.n, 0.0));
       if (pushes ? !stays : gap + h * parts < -h * tolerance_.rest) return false;
-      if (island.smooth ? !keepsMode(touch, first, last) : !carried(c, h).isZero(0.0)) return false;
+      if (island.smooth ? !keepsMode(touch, first, last) : leads(c, h)) return false;
     }
   }
   return true;

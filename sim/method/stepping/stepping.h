@@ -320,6 +320,7 @@ class Stepping {
   Vec3 rateAtEnd(const Stance& at) const;
   double wanders(const Stance& at) const;
   Vec3 rateIn(const Stance& at, std::span<const Vec6> twists) const;
+  bool leads(const Contact& contact, double h) const;
   bool goesRound(const Touch& touch, double h) const;
   bool keepsMode(const Touch& touch, const Vec3& first, const Vec3& last) const;
   void bookLanding(Island& island, double h) const;
