@@ -17,6 +17,12 @@ bool Stepping::arrives(const Touch& touch) const {
   return touch.contact.point.separation > tolerance_.touch;
 }
 
+/// Whether a hit closes its gap in this step. It has come when it gets more in the next, closed or
+/// not: a point over which a body tips opens a little in every step, and closes in the next.
+bool Stepping::isArriving(const Touch& touch) const {
+  return arrives(touch) && !touch.pushedOpen;
+}
+
 /// What comes to rest at once, and would have bounced for less than a step. Of bodies that are
 /// small against what a step of free fall goes, that is much.
 void Stepping::bookLeftOut(const Touch& touch) {
@@ -44,7 +50,7 @@ void Stepping::recordImpact(double t, const PairMemory& pair, double landing) {
   event.p.setZero();
   for (const Touch& touch : pair.touches) {
     const double pushed = touch.impulse.dot(touch.contact.point.n);
-    if (pushed <= 0.0 || arrives(touch)) continue;
+    if (pushed <= 0.0 || isArriving(touch)) continue;
     const double j = pushed + touch.arrivalImpulse;
     if (event.j == 0.0) {
       event.a = touch.contact.a;
@@ -80,9 +86,10 @@ void Stepping::recordEvents(double t) {
         if (!lasting && touch.contact.lasting) lasting = &touch.contact;
       }
       // What a hit that closes its gap in this step still gets comes in the next.
-      const bool arriving = j > 0.0 && arrives(touch);
-      touch.arrivalImpulse = arriving ? j + touch.arrivalImpulse : 0.0;
+      const bool arriving = j > 0.0 && isArriving(touch);
+      touch.arrivalImpulse = arriving ? j : 0.0;
       touch.arrivalSpeed = arriving ? touch.approach : 0.0;
+      touch.pushedOpen = j > 0.0 && arrives(touch);
       if (arriving) bookLeftOut(touch);
     }
     if (lasting && tells) work_.lasting.push_back(lastingPair(*lasting));

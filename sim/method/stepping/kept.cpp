@@ -54,7 +54,7 @@ bool Stepping::keeps(const Island& island, double h) const {
   }
   for (const Link link : island.links)
     for (const Touch& touch : memory_.pairs[link].touches)
-      if (touch.arrivalSpeed > 0.0) return false;
+      if (touch.pushedOpen) return false;
   return true;
 }
 
@@ -65,7 +65,7 @@ bool Stepping::goesOn(const Island& island, double h) const {
   if (island.memory->cones < 2 || island.memory->rough || !hasSameForm(island)) return false;
   for (const Link link : island.links)
     for (const Touch& touch : memory_.pairs[link].touches)
-      if (touch.length != h || touch.arrivalSpeed > 0.0 || flies(touch, h)) return false;
+      if (touch.length != h || touch.pushedOpen || flies(touch, h)) return false;
   return anyMoves(island);
 }
 

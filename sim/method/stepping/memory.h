@@ -47,6 +47,7 @@ struct Touch {
   bool rebounds = false;        ///< when it is struck
   double due = 0.0;             ///< [s] until it is struck or, of free bodies, until they meet
   double approach = 0.0;        ///< [m/s] how fast it came
+  bool pushedOpen = false;      ///< pushed in the step before, though its gap was open
   double arrivalSpeed = 0.0;    ///< [m/s] of a hit that closed its gap in the step before
   double arrivalImpulse = 0.0;  ///< [N·s] that it got so far
 };

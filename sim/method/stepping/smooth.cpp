@@ -157,7 +157,7 @@ void Stepping::bookLanding(Island& island, double h) const {
   const auto lands = [&](const Touch& touch) {
     const ContactPoint& c = touch.contact.point;
     const bool runs = c.rimA > 0.0 || c.rimB > 0.0;
-    return (runs || arrives(touch) || touch.arrivalSpeed > 0.0) && !touch.impulse.isZero(0.0);
+    return (runs || arrives(touch) || touch.pushedOpen) && !touch.impulse.isZero(0.0);
   };
   if (std::none_of(island.links.begin(), island.links.end(), [&](Link link) {
         const std::vector<Touch>& touches = memory_.pairs[link].touches;

@@ -527,6 +527,7 @@ class Stepping {
   void recordImpact(double t, const PairMemory& pair, double landing);
   void recordLasting(const std::vector<LastingPair>& before, double t);
   bool arrives(const Touch& touch) const;
+  bool isArriving(const Touch& touch) const;
   /// vrel [m/s] < 0 below which a touch is an impact: more than gravity gives in two steps.
   double landingSpeed() const;
   void bookLeftOut(const Touch& touch);

@@ -289,6 +289,7 @@ void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
       memory.touches[i].pull = before.pull;
       memory.touches[i].impulse = before.impulse;
       memory.touches[i].length = before.length;
+      memory.touches[i].pushedOpen = before.pushedOpen;
       memory.touches[i].arrivalSpeed = before.arrivalSpeed;
       memory.touches[i].arrivalImpulse = before.arrivalImpulse;
     }
