@@ -35,6 +35,16 @@ bool hasJoints(const Problem& problem) {
                      [](const Cone& c) { return c.kind == ConeKind::Equality; });
 }
 
+/// slipAccelerationBias as it is seen by an observer who turns with the two bodies, at their mean
+/// ω. What sticks has a slip of rounding and of steps, δ × r of a face that turns with the bodies:
+/// in the world there are no accelerations by which it fades at all points of the face at once, as
+/// δ × (ω × r) is no motion of a rigid body.
+double stickAccelerationBias(const RigidBody& a, const RigidBody& b, const ContactPoint& c,
+                             const Vec3& t) {
+  const Vec3 turn = 0.5 * (a.omega + b.omega);
+  return slipAccelerationBias(a, b, c, t) - t.dot(turn.cross(slipVelocity(a, b, c)));
+}
+
 }  // namespace
 
 Vec3 slidingDirection(std::span<const RigidBody> bodies, const Contact& contact) {
@@ -78,7 +88,7 @@ void RestForces::addFrictionRows(std::span<const RigidBody> bodies, const Contac
   Vec3 t1, t2;
   tangents(c.n, way, t1, t2);
   for (const Vec3& t : {t1, t2}) {
-    const double bias = slipAccelerationBias(a, b, c, t) + contact.slipPull.dot(t);
+    const double bias = stickAccelerationBias(a, b, c, t) + contact.slipPull.dot(t);
     problem_.rows.push_back(pointRow(bodies, contact.a, contact.b, c.p, t, bias));
   }
   problem_.cones.back().kind = ConeKind::Friction;

@@ -125,11 +125,12 @@ double Course::accelerationScale() const {
   return a;
 }
 
-bool Course::wasSticking(const Contact& contact) const {
-  return std::any_of(state_.lasting.begin(), state_.lasting.end(), [&](const Contact& c) {
-    return c.a == contact.a && c.b == contact.b && c.point.feature == contact.point.feature &&
-           !c.sliding;
-  });
+std::optional<double> Course::slipWhereStuck(const Contact& contact) const {
+  for (const Contact& c : state_.lasting)
+    if (c.a == contact.a && c.b == contact.b && c.point.feature == contact.point.feature &&
+        !c.sliding)
+      return pullTime(model_) * c.slipPull.norm();
+  return std::nullopt;
 }
 
 bool Course::wasLasting(int a, int b) const {

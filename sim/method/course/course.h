@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "sim/contact/rest.h"
 #include "sim/joint/joint_rows.h"
@@ -100,8 +101,11 @@ class Course {
   double gapAfter(double h, int a, int b);
   bool wasLasting(int a, int b) const;
   bool isJoined(int body) const;
-  /// Whether the same features stuck to each other in the stretch before.
-  bool wasSticking(const Contact& contact) const;
+  /// Whether nothing that the two bodies touch each other with slips by more than `stick` [m/s].
+  bool pairIsStill(const Contact& contact, double stick) const;
+  /// Slip [m/s] with which the stretch before began, where the same features stuck to each other in
+  /// it.
+  std::optional<double> slipWhereStuck(const Contact& contact) const;
   /// Upper estimate [m/s²] of what outer forces do to any body.
   double accelerationScale() const;
 
@@ -117,7 +121,17 @@ class Course {
   double closingSpeed(std::size_t pair) const;
   /// When [s] the first of these points that dip below their surface turns back.
   double lowestPoint(std::span<const Contact> points, double span) const;
-  /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far.
+  /// What must not fall below `height`, and how far above it is now: a gap [m], or what is left of
+  /// a slip [m/s].
+  struct Floor {
+    double height, now;
+    /// How far above it a value is, as part of how far it is now: of values of any size and unit
+    /// the least is a smooth function of time around its zero.
+    double leeway(double value) const;
+  };
+  static double slipAlong(std::span<const RigidBody> bodies, const Contact& c);
+  /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far. The
+  /// least leeway [1] of all floors.
   double allowance(double h);
   /// The last length of step inside [0, span] that is allowed, to the accuracy of time itself.
   /// @param tooFar  `allowance` of the whole span, < 0
@@ -149,11 +163,10 @@ class Course {
   std::vector<RigidBody> trial_;
   Problem lift_;
   Solution lifted_;
-  std::vector<JointRow> limits_;    ///< those that joints have, at the poses last looked at
-  std::vector<double> limitFloor_;  ///< [m] per limit: gap that must not be passed
-  std::vector<double> gaps_;        ///< [m] per near pair: separation now
-  std::vector<double> floor_;       ///< [m] per near pair: separation that must not be passed
-  double allowanceNow_ = 0.0;       ///< `allowance` of no motion at all
+  std::vector<JointRow> limits_;  ///< those that joints have, at the poses last looked at
+  std::vector<double> gaps_;      ///< [m] per near pair: separation now
+  std::vector<Floor> floors_;     ///< of near pairs, of limits, of slips that may end
+  double allowanceNow_ = 0.0;     ///< `allowance` of no motion at all
 };
 
 }  // namespace tumble

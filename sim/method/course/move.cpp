@@ -87,30 +87,37 @@ void Course::move() {
 
 void Course::setFloors() {
   gaps_.clear();
-  floor_.clear();
-  allowanceNow_ = kInfinity;
+  floors_.clear();
+  const auto setFloor = [&](double now, double slack) {
+    const double floor = locates() ? std::min(-slack, now - kSink * slack) : -kInfinity;
+    floors_.push_back({floor, now - floor});
+  };
   for (const auto& [b, a] : state_.near) {
-    const double now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
-                                  state_.bodies[b].pose());
-    const double slack = wasLasting(a, b) ? tolerance_.drift : tolerance_.root;
-    gaps_.push_back(now);
-    floor_.push_back(locates() ? std::min(-slack, now - kSink * slack) : -kInfinity);
-    allowanceNow_ = std::min(allowanceNow_, now - floor_.back());
+    gaps_.push_back(separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
+                               state_.bodies[b].pose()));
+    setFloor(gaps_.back(), wasLasting(a, b) ? tolerance_.drift : tolerance_.root);
   }
   // Limits of joints are surfaces too.
   lookAtLimits(state_.bodies);
-  limitFloor_.clear();
   for (const JointRow& row : limits_) {
     const double now = row.arm * row.gap;
-    const double slack = now <= tolerance_.touch ? tolerance_.drift : tolerance_.root;
-    limitFloor_.push_back(locates() ? std::min(-slack, now - kSink * slack) : -kInfinity);
-    allowanceNow_ = std::min(allowanceNow_, now - limitFloor_.back());
+    setFloor(now, now <= tolerance_.touch ? tolerance_.drift : tolerance_.root);
   }
   for (const Contact& c : state_.lasting)
-    if (c.mayStick)
-      allowanceNow_ = std::min(
-          allowanceNow_,
-          slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).dot(c.slipDirection));
+    if (c.mayStick) floors_.push_back({0.0, slipAlong(state_.bodies, c)});
+  allowanceNow_ = kInfinity;
+  for (const Floor& floor : floors_)
+    allowanceNow_ = std::min(allowanceNow_, floor.leeway(floor.height + floor.now));
+}
+
+double Course::slipAlong(std::span<const RigidBody> bodies, const Contact& c) {
+  return slipVelocity(bodies[c.a], bodies[c.b], c.point).dot(c.slipDirection);
+}
+
+double Course::Floor::leeway(double value) const {
+  if (!std::isfinite(height)) return kInfinity;
+  const double left = value - height;
+  return now > 0.0 ? left / now : left;
 }
 
 void Course::lookAtLimits(std::span<const RigidBody> bodies) {
@@ -131,23 +138,23 @@ double Course::allowance(double h) {
   if (!allFinite(y_)) return 0.0;  // commit() reports it
   system_.unpack(y_, trial_);
   double least = kInfinity;
-  for (std::size_t k = 0; k < state_.near.size(); ++k) {
+  auto floor = floors_.begin();
+  for (std::size_t k = 0; k < state_.near.size(); ++k, ++floor) {
+    if (!std::isfinite(floor->height)) continue;
     const auto& [b, a] = state_.near[k];
     // A gap is at least 1/√3 of the distance: a plane this wide leaves the least as it is.
-    if (std::isfinite(least) &&
-        planeShowsApart(model_, state_, trial_, k, 2.0 * std::max(0.0, least + floor_[k]), report_))
+    const double enough = std::max(0.0, least * floor->now + floor->height);
+    if (std::isfinite(least) && planeShowsApart(model_, state_, trial_, k, 2.0 * enough, report_))
       continue;
-    const double gap =
-        separation(model_.shapes[a], trial_[a].pose(), model_.shapes[b], trial_[b].pose());
-    least = std::min(least, gap - floor_[k]);
+    least = std::min(least, floor->leeway(separation(model_.shapes[a], trial_[a].pose(),
+                                                     model_.shapes[b], trial_[b].pose())));
   }
-  if (!limitFloor_.empty()) lookAtLimits(trial_);
-  for (std::size_t k = 0; k < limitFloor_.size(); ++k)
-    least = std::min(least, limits_[k].arm * limits_[k].gap - limitFloor_[k]);
+  if (!limits_.empty()) lookAtLimits(trial_);
+  for (const JointRow& row : limits_) least = std::min(least, (floor++)->leeway(row.arm * row.gap));
   for (Contact c : state_.lasting) {
     if (!c.mayStick) continue;
     follow(trial_[c.a], trial_[c.b], c);
-    least = std::min(least, slipVelocity(trial_[c.a], trial_[c.b], c.point).dot(c.slipDirection));
+    least = std::min(least, (floor++)->leeway(slipAlong(trial_, c)));
   }
   if (goesOn && least >= 0.0) {
     allowed_ = h;

@@ -129,6 +129,13 @@ void Course::settleCreep(std::span<Contact> lasting) {
   rest_.settleCreep(state_.bodies, ends, lasting, h, &bonds);
 }
 
+bool Course::pairIsStill(const Contact& contact, double stick) const {
+  return std::all_of(touching_.begin(), touching_.end(), [&](const Contact& c) {
+    return c.a != contact.a || c.b != contact.b ||
+           slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point).norm() <= stick;
+  });
+}
+
 void Course::chooseLasting() {
   const double scale = accelerationScale();
   std::vector<Contact> lasting;
@@ -141,9 +148,11 @@ void Course::chooseLasting() {
     c.anchor = anchorOf(a, b, c.point);
     setPull(a, b, pullTime(model_), c);
     const Vec3 slip = slipVelocity(a, b, c.point);
-    // What an integrator leaves of the slip of a contact that stuck is pulled back.
-    const double stick = wasSticking(c) ? tolerance_.keep : tolerance_.stick;
-    c.sliding = c.friction > 0.0 && slip.norm() > stick;
+    // What an integrator leaves of the slip of a contact that stuck is pulled back, and a slip that
+    // fades with that pull goes on to do so.
+    const std::optional<double> stuck = slipWhereStuck(c);
+    const double stick = stuck ? tolerance_.keep : tolerance_.stick;
+    c.sliding = c.friction > 0.0 && slip.norm() > std::max(stick, stuck.value_or(0.0));
     if (c.sliding) c.slipDirection = slip.normalized();
     c.creeping = c.sliding && slip.norm() < kCreep * c.friction * scale * model_.def.course.step;
     // After many ends of slips in one step a creeping contact is taken as sticking: its slip then
@@ -151,7 +160,7 @@ void Course::chooseLasting() {
     if (c.creeping && state_.course.recentBackUps >= kSticksInStep) c.sliding = c.creeping = false;
     c.mayStick = c.sliding;
     // A wedge that friction locks in its joint cannot be drawn out, however slowly.
-    if (!c.sliding && c.friction > 0.0 && slip.norm() <= stick &&
+    if (!c.sliding && c.friction > 0.0 && slip.norm() <= stick && pairIsStill(c, stick) &&
         (isJoined(c.a) || isJoined(c.b))) {
       c.pull = 0.0;
       c.slipPull.setZero();
