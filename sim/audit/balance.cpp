@@ -341,12 +341,13 @@ double Audit::workOfFixed(int root) const {
     const RigidBody& body = bodies_[i];
     const Recorded &p = last_[i], &q = now_[i];
     const Vec3 loads = h_ * body.M * model_.def.gravity + impulse_[i];
-    // They act along its way, or where it was at the start of an implicit step.
+    // They act along its way, or where it was at the start of an implicit step, whatever shift it
+    // had besides.
     const bool bends = model_.bends(static_cast<int>(i));
     const Vec3 from = bends ? start.x : middle.x;
     const Vec3 at = bends ? p.x : Vec3(0.5 * (p.x + q.x) + h_ / 12.0 * body.invM * (p.P - q.P));
-    moment += q.L - p.L - moment_[i] + (q.x - from).cross(q.P) - (p.x - from).cross(p.P) -
-              (at - from).cross(loads);
+    moment += q.L - p.L - moment_[i] + ((bends ? p.x : q.x) - from).cross(q.P) -
+              (p.x - from).cross(p.P) - (at - from).cross(loads);
     if (bends) moment += toSolid_[i].cross(q.P - p.P - loads);
   }
   return work + moment.dot(start.omega);
