@@ -171,11 +171,11 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
 }
 
 void reach(BendingPart& part, const std::vector<int>& pointOf, std::span<const RigidBody> bodies,
-           std::span<const Vec6> after, double h) {
+           std::span<const Vec6> after, std::span<const Vec3> falls, double h) {
   part.reachedAt.resize(part.bodies.size());
   for (std::size_t p = 0; p < part.bodies.size(); ++p) {
     const int i = part.bodies[p];
-    part.reachedAt[p] = bodies[i].x + h * after[i].head<3>();
+    part.reachedAt[p] = bodies[i].x + h * (after[i].head<3>() - falls[i]);
     if (part.movesOut()) part.reachedAt[p] += h * part.wayOut[p];
   }
   part.reached = 0.0;

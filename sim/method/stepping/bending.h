@@ -49,6 +49,8 @@ struct BendingPart {
   BlockCholesky<3> factor;
 
   bool movesOut() const { return !wayOut.empty(); }
+  /// Whether none of its points is led along.
+  bool flies() const { return moving.size() == bodies.size(); }
   /// K v of the points at these velocities, per point.
   void timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) const;
 };
@@ -69,9 +71,10 @@ Bendings bendingsOf(const Model& model);
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h);
 
-/// Finds the energy where its points are after h seconds at these velocities of bodies, moved out.
+/// Finds the energy where its points are after h seconds at these velocities of bodies, less those
+/// by which they fall, and moved out.
 void reach(BendingPart& part, const std::vector<int>& pointOf, std::span<const RigidBody> bodies,
-           std::span<const Vec6> after, double h);
+           std::span<const Vec6> after, std::span<const Vec3> falls, double h);
 
 /// The right side of the step; and for star how points would move that nothing joined.
 void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h);

@@ -145,6 +145,45 @@ void Stepping::coupleBent(Island& island) {
   });
 }
 
+bool Stepping::isHeld(const Island& island, const Vec3& falls, double h) const {
+  const auto stands = [&](int i) {
+    return i == static_cast<int>(state_.bodies.size()) || model_.fixed(i);
+  };
+  const auto holds = [&](const Touch& touch) {
+    const Contact& c = touch.contact;
+    const double sinks = c.point.n.dot(stands(c.a) ? Vec3(-falls) : falls);
+    return !touch.impulse.isZero(0.0) ||
+           gapAhead(c.point, {c.b, c.a}, h) < h * sinks - tolerance_.drift;
+  };
+  return std::any_of(island.links.begin(), island.links.end(), [&](Link link) {
+    const auto [b, a] = ends(link);
+    if (!stands(a) && !stands(b)) return false;
+    if (!isPair(link)) return true;
+    const std::vector<Touch>& touches = memory_.pairs[link].touches;
+    return std::any_of(touches.begin(), touches.end(), holds);
+  });
+}
+
+/// What nothing that stands holds moves as a whole by the parabola of what is free, whatever its
+/// bodies do to each other: all go by  h v⁺ − ½ h² ΣF/ΣM,  a shift that changes no way of one
+/// against another.
+void Stepping::flyBent(Island& island, double h) {
+  double mass = 0.0;
+  Vec3 force = Vec3::Zero();
+  for (const int i : island.movers) {
+    const RigidBody& body = state_.bodies[i];
+    if (!work_.touched[i]) continue;
+    if (isDriven(i)) return;
+    mass += body.M;
+    force += body.force;
+  }
+  bool pinned = false;
+  forBent(island, [&](const BendingPart& part) { pinned = pinned || !part.flies(); });
+  const Vec3 falls = 0.5 * h / mass * force;
+  if (pinned || isHeld(island, falls, h)) return;
+  for (const int i : island.movers) work_.falls[i] = falls;
+}
+
 /// Whether linear forces twist what flies and turns more than it swings. Forces of energies at the
 /// end of a step have no moment there; linear ones leave one, which a stiff solid that tumbles
 /// keeps as a false spin.
@@ -181,9 +220,9 @@ bool Stepping::twists(const BendingPart& part, std::span<const Vec3> v, std::spa
 
 /// What the implicit step takes [J], by the impulses p of what bends and its energies alone: with
 /// v̄ the mean of the velocities before and after, a point gains p·v̄ while the energies give
-/// −ΔE; gravity acts on the way h v⁺, which is ½ h Δv longer than that of v̄. Points that are led
-/// along take −p from who leads them. On their way out of a solid, points move against p and
-/// gravity.
+/// −ΔE; gravity acts on the way h v⁺, which is ½ h Δv longer than that of v̄, less what the whole
+/// falls. Points that are led along take −p from who leads them. On their way out of a solid,
+/// points move against p and gravity.
 Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   thread_local std::vector<Vec3> v, pull;  // keep their storage from call to call
   v.clear();
@@ -200,16 +239,16 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
       books.external -= impulse;
       continue;
     }
-    gained += impulse.dot(0.5 * (before + v[p])) -
-              0.5 * h * body.M * model_.def.gravity.dot(v[p] - before);
+    gained +=
+        impulse.dot(0.5 * (before + v[p])) -
+        h * body.M * model_.def.gravity.dot(0.5 * (v[p] - before) - work_.falls[part.bodies[p]]);
     books.size += 0.5 * body.M * (v[p].squaredNorm() + before.squaredNorm());
     if (!part.movesOut()) continue;
     gained += impulse.dot(part.wayOut[p]);
     books.movedOut -= (impulse + h * body.M * model_.def.gravity).dot(part.wayOut[p]);
   }
   books.taken = books.led - gained;
-  books.astray =
-      !part.touched && part.moving.size() == part.bodies.size() && twists(part, v, pull, h);
+  books.astray = !part.touched && part.flies() && twists(part, v, pull, h);
   books.size += part.reached + part.stored;
   return books;
 }
@@ -225,7 +264,7 @@ bool Stepping::gains(double h) {
   bentBooks_.resize(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (!parts[k].fresh) continue;
-    reach(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, h);
+    reach(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, work_.falls, h);
     bentBooks_[k] = booksOf(parts[k], h);
     parts[k].newton = parts[k].newton || bentBooks_[k].astray;
     parts[k].fresh = false;

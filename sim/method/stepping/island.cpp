@@ -62,6 +62,7 @@ void Stepping::solveIslands(double h) {
   addSprings(h);
   work_.touched.resize(n);
   work_.later.resize(n);
+  work_.falls.resize(n, Vec3::Zero());
   work_.smooth.resize(n);
   memory_.islands.resize(n);
   memory_.left.resize(n, 0.0);
@@ -69,6 +70,7 @@ void Stepping::solveIslands(double h) {
     work_.after[i] = work_.star[i];
     work_.touched[i] = isHalved(i);
     work_.later[i] = 0.0;
+    work_.falls[i].setZero();
     work_.smooth[i] = 0;
     memory_.left[i] = 0.0;
   }
@@ -263,6 +265,7 @@ void Stepping::fallAsOne(Island& island, double h) {
     work_.touched[island.movers[i]] =
         touched || model_.bends(island.movers[i]) || isHalved(island.movers[i]);
   }
+  if (bent) flyBent(island, h);
   if (bent && solves) bookWays(island, h);  // of the solids in it
   if (!pushed && !island.smooth) return;
   if (isSmooth(island, h))

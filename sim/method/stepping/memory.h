@@ -152,6 +152,9 @@ struct SteppingWork {
   double stored = 0.0;             ///< [J] in the springs of stiff groups, at its start
   std::vector<double> later;  ///< per body: the time [s] for which forces act after it has moved
   std::vector<char> smooth;   ///< per body: it moves with the mean of its velocities
+  /// [m/s] per body: by how much slower it moves than it is at the end, for that is what forces
+  /// give in half the step to the whole that it flies with
+  std::vector<Vec3> falls;
   std::vector<LastingPair> lasting;
 };
 

@@ -176,7 +176,8 @@ void Stepping::bookWays(Island& island, double h) const {
         model_.bends(i))
       continue;
     const RigidBody& body = state_.bodies[i];
-    const Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);
+    Vec6 change = 0.5 * h * (work_.after[i] - work_.before[i]);
+    change.head<3>() -= h * work_.falls[i];
     Vec3 force = body.force, torque = body.torque;
     if (const int drag = memory_.drives->dragOf[i]; drag >= 0) {  // has its own books
       force += memory_.drives->drags[drag].linear * body.v;

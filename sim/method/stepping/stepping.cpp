@@ -364,13 +364,13 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
     } else if (model_.bends(static_cast<int>(i))) {
-      body.x += h * body.v;
+      body.x += h * (body.v - work_.falls[i]);
     } else if (work_.touched[i] && work_.smooth[i]) {
       const Push& push = memory_.pushes[i];
       body.x += 0.5 * h * body.invM * (push.P0 + body.P);
       turn(body, 0.5 * (push.L0 + body.L), h);
     } else if (work_.touched[i]) {  // with the velocity that the contact problem found
-      body.x += h * (body.v - work_.later[i] * body.invM * body.force);
+      body.x += h * (body.v - work_.later[i] * body.invM * body.force - work_.falls[i]);
       turn(body, body.L - work_.later[i] * body.torque, h);
     } else {
       coast(i, h);

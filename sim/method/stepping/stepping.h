@@ -474,6 +474,10 @@ class Stepping {
     }
   }
   bool keepsBent(const Island& island, double h);
+  /// Whether what stands pushes an island or, if that moved by h falls less than its velocities
+  /// say, would be met.
+  bool isHeld(const Island& island, const Vec3& falls, double h) const;
+  void flyBent(Island& island, double h);
 
   // found_inside.cpp: points of what bends, by plans that do not foresee contacts.
   bool findsInside(std::size_t pair) const {
@@ -491,6 +495,7 @@ class Stepping {
   bool canSweep(const Island& island);
   SolveReport sweepBent(Island& island, double h);
   SolveReport sweepBodies(Island& island, double h);
+  void startFlown(BendingPart& part, double h) const;
   void moveAlone(double h);
   void factorSwept(Island& island);
   void leaveSweeps(Island& island);

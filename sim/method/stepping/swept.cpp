@@ -78,6 +78,18 @@ SolveReport Stepping::sweepBent(Island& island, double h) {
   return sweepBodies(island, h);
 }
 
+/// Sweeps of what flies begin with the momentum that it ends with.
+void Stepping::startFlown(BendingPart& part, double h) const {
+  double mass = 0.0;
+  Vec3 open = Vec3::Zero();
+  for (std::size_t p = 0; p < part.bodies.size(); ++p) {
+    const RigidBody& body = state_.bodies[part.bodies[p]];
+    mass += body.M;
+    open += body.P + h * body.force - body.M * part.swept[p];
+  }
+  for (Vec3& v : part.swept) v += open / mass;
+}
+
 /// Parts that nothing touches.
 void Stepping::moveAlone(double h) {
   Island& island = work_.islands.front();
@@ -87,6 +99,7 @@ void Stepping::moveAlone(double h) {
       for (const int p : part.moving) island.movers.push_back(part.bodies[p]);
       build(island, h);
       coupleBent(island);
+      if (part.flies()) startFlown(part, h);
       if (sweepBodies(island, h).status != SolveStatus::Solved) {
         leaveSweeps(island);
         for (const int p : part.moving) work_.after[part.bodies[p]].head<3>() = part.star[p];
@@ -95,6 +108,10 @@ void Stepping::moveAlone(double h) {
     if (part.sweeps && !part.touched)
       for (const int p : part.moving) work_.after[part.bodies[p]].head<3>() = part.swept[p];
     part.anew = false;
+    if (part.touched) continue;
+    startIsland(island, {});
+    for (const int p : part.moving) island.movers.push_back(part.bodies[p]);
+    flyBent(island, h);
   }
 }
 

@@ -123,9 +123,13 @@ bool Stepping::growBoxes(double h, bool fall) {
   return grew;
 }
 
-/// What drives a body alone takes it along a parabola, but for terms in h³.
+/// What drives a body alone takes it along a parabola, but for terms in h³; and that is how a whole
+/// falls.
 Vec6 Stepping::twistAhead(int i) const {
-  return work_.flown[i] ? Vec6(0.5 * (work_.before[i] + work_.after[i])) : work_.after[i];
+  if (work_.flown[i]) return 0.5 * (work_.before[i] + work_.after[i]);
+  Vec6 twist = work_.after[i];
+  twist.head<3>() -= work_.falls[i];
+  return twist;
 }
 
 /// The gap [m] of a point h seconds from now.
