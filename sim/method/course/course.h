@@ -125,8 +125,9 @@ class Course {
   /// a slip [m/s].
   struct Floor {
     double height, now;
-    /// How far above it a value is, as part of how far it is now: of values of any size and unit
-    /// the least is a smooth function of time around its zero.
+    /// How far above it a value is, as part of how far it is now, up to kFar: of values of any size
+    /// and unit the least is a smooth function of time around its zero, and knows nothing of what
+    /// ends much later.
     double leeway(double value) const;
   };
   static double slipAlong(std::span<const RigidBody> bodies, const Contact& c);

@@ -21,6 +21,8 @@ constexpr double kLate = 0.05;
 constexpr int kHasty = 10;
 /// Share of the slack by which a pair that has used it up may sink on.
 constexpr double kSink = 1e-3;
+/// Part of the way to its floor up to which nothing has a say in where another thing ends.
+constexpr double kFar = 0.5;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -105,7 +107,7 @@ void Course::setFloors() {
   }
   for (const Contact& c : state_.lasting)
     if (c.mayStick) floors_.push_back({0.0, slipAlong(state_.bodies, c)});
-  allowanceNow_ = kInfinity;
+  allowanceNow_ = kFar;
   for (const Floor& floor : floors_)
     allowanceNow_ = std::min(allowanceNow_, floor.leeway(floor.height + floor.now));
 }
@@ -115,9 +117,9 @@ double Course::slipAlong(std::span<const RigidBody> bodies, const Contact& c) {
 }
 
 double Course::Floor::leeway(double value) const {
-  if (!std::isfinite(height)) return kInfinity;
+  if (!std::isfinite(height)) return kFar;
   const double left = value - height;
-  return now > 0.0 ? left / now : left;
+  return std::min(kFar, now > 0.0 ? left / now : left);
 }
 
 void Course::lookAtLimits(std::span<const RigidBody> bodies) {
@@ -137,15 +139,14 @@ double Course::allowance(double h) {
   if (h > from) steppers_.of(system_).step(system_, state_.t + from, h - from, y_);
   if (!allFinite(y_)) return 0.0;  // commit() reports it
   system_.unpack(y_, trial_);
-  double least = kInfinity;
+  double least = kFar;
   auto floor = floors_.begin();
   for (std::size_t k = 0; k < state_.near.size(); ++k, ++floor) {
     if (!std::isfinite(floor->height)) continue;
     const auto& [b, a] = state_.near[k];
     // A gap is at least 1/√3 of the distance: a plane this wide leaves the least as it is.
     const double enough = std::max(0.0, least * floor->now + floor->height);
-    if (std::isfinite(least) && planeShowsApart(model_, state_, trial_, k, 2.0 * enough, report_))
-      continue;
+    if (planeShowsApart(model_, state_, trial_, k, 2.0 * enough, report_)) continue;
     least = std::min(least, floor->leeway(separation(model_.shapes[a], trial_[a].pose(),
                                                      model_.shapes[b], trial_[b].pose())));
   }
