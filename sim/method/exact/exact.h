@@ -101,6 +101,7 @@ class Exact {
   /// @return the residual of the contact problem
   double solveForces(std::vector<Contact>& resting);
   void stillContacts(const std::vector<Contact>& resting);
+  bool slipTurned(const std::vector<Contact>& resting) const;
   bool steady(const Contact& contact) const;
   /// @return the contacts of the cluster that lasted before
   std::vector<Contact> changeHolds(double t, const Cluster& cluster,

@@ -211,20 +211,34 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
   return slowly;
 }
 
+/// Whether something slips another way than that for which its friction was found: what is left of
+/// other velocities may be more than a slip, and friction along it would drive it for ever.
+bool Exact::slipTurned(const std::vector<Contact>& resting) const {
+  return std::any_of(resting.begin(), resting.end(), [&](const Contact& c) {
+    const Vec3 slip = slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
+    return c.sliding && !(slip.dot(c.slipDirection) > 0.5 * slip.norm());
+  });
+}
+
 void Exact::hold(double t, Cluster& cluster) {
+  constexpr int kAgain = 3;  // a slip that friction was found for may turn as it is stilled
   std::vector<Contact> resting;
-  const double residual = findForces(t, cluster, resting);
-  if (residual > kLawless) {
-    state_.exact.lawless = true;
-    return sustain(t, cluster);
+  bool slowly = false, turned = true;
+  for (int k = 0; turned && k < kAgain; ++k) {
+    const double residual = findForces(t, cluster, resting);
+    if (residual > kLawless) {
+      state_.exact.lawless = true;
+      return sustain(t, cluster);
+    }
+    double& worst = report_.certificate.max_complementarity;
+    worst = std::max(worst, residual);
+    slowly = letGo(resting);
+    if (!resting.empty()) stillContacts(resting);
+    turned = slipTurned(resting);
   }
-  double& worst = report_.certificate.max_complementarity;
-  worst = std::max(worst, residual);
-  const bool slowly = letGo(resting);
-  if (!resting.empty()) stillContacts(resting);
   const std::vector<Contact> before = changeHolds(t, cluster, resting);
   // What parts as slowly as a push that ends is followed until there is a gap to be seen.
-  if (slowly ||
+  if (slowly || turned ||
       !std::all_of(resting.begin(), resting.end(), [&](const Contact& c) { return steady(c); }))
     return sustain(t, cluster);
   flyOn(t, cluster);
