@@ -1,6 +1,7 @@
 // What bends, by sweeps in place of factors: parts whose factor costs too much, where a preset asks
 // for no more than sweeps give.
 #include <algorithm>
+#include <utility>
 
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/nodes.h"
@@ -94,9 +95,11 @@ void Stepping::startFlown(BendingPart& part, double h) const {
 void Stepping::moveAlone(double h) {
   Island& island = work_.islands.front();
   for (BendingPart& part : memory_.bendings->parts) {
-    if (part.sweeps && !part.touched && part.anew) {
-      startIsland(island, {});
-      for (const int p : part.moving) island.movers.push_back(part.bodies[p]);
+    const bool anew = std::exchange(part.anew, false);
+    if (part.touched) continue;
+    startIsland(island, {});
+    for (const int p : part.moving) island.movers.push_back(part.bodies[p]);
+    if (part.sweeps && anew) {
       build(island, h);
       coupleBent(island);
       if (part.flies()) startFlown(part, h);
@@ -105,12 +108,8 @@ void Stepping::moveAlone(double h) {
         for (const int p : part.moving) work_.after[part.bodies[p]].head<3>() = part.star[p];
       }
     }
-    if (part.sweeps && !part.touched)
+    if (part.sweeps)
       for (const int p : part.moving) work_.after[part.bodies[p]].head<3>() = part.swept[p];
-    part.anew = false;
-    if (part.touched) continue;
-    startIsland(island, {});
-    for (const int p : part.moving) island.movers.push_back(part.bodies[p]);
     flyBent(island, h);
   }
 }
