@@ -148,6 +148,10 @@ ContactTolerance ContactTolerance::forSize(double size) {
   return across(pointVelocity(a, c.p) - pointVelocity(b, c.p), c.n);
 }
 
+bool hasTurned(const Contact& c, const Vec3& slip) {
+  return !(slip.dot(c.slipDirection) > 0.5 * slip.norm());
+}
+
 ContactClass classify(double vrel, double tolerance) {
   if (vrel < -tolerance) return ContactClass::Colliding;
   return vrel > tolerance ? ContactClass::Separating : ContactClass::Resting;

@@ -66,6 +66,10 @@ double approachVelocity(const RigidBody& a, const RigidBody& b, const ContactPoi
 /// Tangential part of ṗa − ṗb [m/s] at the contact point.
 Vec3 slipVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c);
 
+/// Whether a slip [m/s] has ended, or goes by more than 60 degrees another way than the contact
+/// slides.
+bool hasTurned(const Contact& c, const Vec3& slip);
+
 /// Colliding below −tolerance, separating above it, resting between. [m/s]
 ContactClass classify(double vrel, double tolerance);
 

@@ -9,6 +9,7 @@
 
 #include "sim/math/rotation.h"
 #include "sim/world.h"
+#include "tests/world/draws.h"
 
 namespace tumble::scenes {
 
@@ -133,6 +134,20 @@ inline Sample run(World& world) {
   for (int k = 0; k / 60.0 < duration; ++k) world.advance(k / 60.0);
   world.advance(duration);
   return world.sample(duration);
+}
+
+/// Bricks of any shape and spin above a smooth floor that gives all back.
+inline WorldDef thrownBrick(unsigned seed) {
+  Draws draw{std::mt19937(seed)};
+  WorldDef def = worldOf("stepping", 5.0, {ground(1.0)});
+  const double width = draw(0.1, 0.5), height = draw(0.1, 0.5), depth = draw(0.1, 0.5);
+  BodyDef brick = box("brick", {width, height, depth}, {0.0, 1.0, 0.0}, 1.0);
+  const double x = draw(-1, 1), y = draw(-1, 1), z = draw(-1, 1);
+  brick.orientation = Quat(1.0, x, y, z).normalized();
+  const double wx = draw(-5, 5), wy = draw(-5, 5), wz = draw(-5, 5);
+  brick.angularVelocity = {wx, wy, wz};
+  def.bodies.push_back(brick);
+  return def;
 }
 
 }  // namespace tumble::scenes

@@ -128,8 +128,7 @@ bool Sustained::slipTurned() const {
     const Contact& c = system_.contacts()[k];
     if (!c.sliding || slip_[k] <= tolerance_.stick) continue;
     const Vec3 slip = slipVelocity(trial_[c.a], trial_[c.b], c.point);
-    if (slip.norm() > tolerance_.stick && slip.dot(c.slipDirection) < 0.5 * slip.norm())
-      return true;
+    if (slip.norm() > tolerance_.stick && hasTurned(c, slip)) return true;
   }
   return false;
 }

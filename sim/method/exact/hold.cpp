@@ -215,8 +215,7 @@ bool Exact::letGo(std::vector<Contact>& resting) const {
 /// other velocities may be more than a slip, and friction along it would drive it for ever.
 bool Exact::slipTurned(const std::vector<Contact>& resting) const {
   return std::any_of(resting.begin(), resting.end(), [&](const Contact& c) {
-    const Vec3 slip = slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
-    return c.sliding && !(slip.dot(c.slipDirection) > 0.5 * slip.norm());
+    return c.sliding && hasTurned(c, slipVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
   });
 }
 

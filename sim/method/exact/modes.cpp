@@ -58,7 +58,7 @@ void Sustained::chooseModes() {
     // in which it was expected.
     const Vec3 slip = slipVelocity(a, b, c.point);
     const bool grown = c.sliding && c.onset > 0.0 && slip.norm() >= c.onset;
-    if (grown && slip.dot(c.slipDirection) < 0.5 * slip.norm()) c.slipDirection = slip.normalized();
+    if (grown && hasTurned(c, slip)) c.slipDirection = slip.normalized();
     c.creeping = false;
     c.onset = 0.0;
     if (c.sliding) c.slipDirection = slipDirectionOf(a, b, c);
