@@ -67,7 +67,7 @@ class WholeFriction {
     double least = residual(s);
     for (int pass = 0, since = 0; pass < kPasses && since < kPatience; ++pass, ++since) {
       rows += s.size();
-      s -= leastSquares(slope_, G_);
+      s -= step();
       if (!s.allFinite()) break;
       for (int i = 0; i < count(); ++i)
         s.segment<2>(2 * i) = cut(s.segment<2>(2 * i), struck_[i]->bound);
@@ -89,6 +89,15 @@ class WholeFriction {
       s.segment<2>(2 * i) << struck_[i]->t1.dot(struck_[i]->sum),
           struck_[i]->t2.dot(struck_[i]->sum);
     return s;
+  }
+
+  /// Of Newton's method; the shortest where many do the same.
+  VecX step() {
+    constexpr double kFollows = 1e-9;  // of the largest: pivot of a row that follows from others
+    regular_.compute(slope_);
+    const VecX pivots = regular_.matrixLU().diagonal().cwiseAbs();
+    return pivots.minCoeff() > kFollows * pivots.maxCoeff() ? VecX(regular_.solve(G_))
+                                                            : leastSquares(slope_, G_);
   }
 
   /// G and its derivative at s. @return the largest |Gᵢ| [N·s]
@@ -123,6 +132,7 @@ class WholeFriction {
   Delassus system_;
   VecX first_, G_;
   MatX slope_;
+  Eigen::PartialPivLU<MatX> regular_;
 };
 
 /// What the friction of an impact did so far, and one change more of one contact.

@@ -6,11 +6,15 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <string_view>
+#include <utility>
+
+#include <Eigen/Cholesky>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
 #include "sim/problem/cone.h"
+#include "sim/problem/delassus.h"
+#include "sim/problem/solvers.h"
 
 namespace tumble {
 namespace {
@@ -19,7 +23,6 @@ namespace {
 constexpr double kHopeless = 1e-2;
 constexpr int kSweeps = 500;
 constexpr std::size_t kDense = 150;  // rows that pivoting, of third order, is for
-constexpr std::size_t kFace = 3;     // contacts from which on normal impulses can be many
 
 /// The contacts that take part, and their rows.
 struct Strike {
@@ -128,21 +131,52 @@ void keepFromGaining(const Problem& problem, std::span<const int> island, Soluti
   });
 }
 
-/// The solver of a pass, and the one that tries where it fails. Where a face strikes its impulses
-/// are many, and with friction what moves on depends on which: `newton` chooses among them,
-/// whatever their order.
-std::array<std::string_view, 2> solversOf(const Impact& impact, const Strike& strike) {
+/// Whether no other impulses push as well as these: the rows that push or stay closed are
+/// independent.
+bool areOnly(const Problem& problem, const Solution& solution) {
+  constexpr double kClosed = 1e-9;   // of the scale: a row that parts no faster may push
+  constexpr double kFollows = 1e-9;  // pivot of a row that follows from others
+  const double closed = kClosed * velocityScale(problem);
+  Problem pushing = problem;
+  pushing.rows.clear();
+  for (std::size_t r = 0; r < problem.rows.size(); ++r) {
+    const Row& row = problem.rows[r];
+    const double parts = rowSpeed(row, solution.v[row.a], solution.v[row.b]) + row.bias;
+    if (solution.lambda[r] > 0.0 || parts <= closed) pushing.rows.push_back(row);
+  }
+  if (pushing.rows.empty()) return true;
+  MatX A = delassus(pushing).A;
+  const VecX weight = A.diagonal().cwiseSqrt().cwiseInverse();
+  A = weight.asDiagonal() * A * weight.asDiagonal();
+  const Eigen::LDLT<MatX> factor(A);
+  return factor.vectorD().minCoeff() > kFollows;
+}
+
+/// Normal impulses by pivoting; where they are one answer of many, as where a face strikes, by
+/// `newton`, which chooses among them whatever their order: with friction what moves on depends on
+/// them.
+SolveReport solveFaces(const Problem& problem, const SolveSettings& settings, Solution& solution) {
+  const SolveReport pivoted = solvePivoting(problem, settings, solution);
+  if (pivoted.status == SolveStatus::Solved && areOnly(problem, solution)) return pivoted;
+  Solution chosen;
+  const SolveReport report = solveNewton(problem, settings, chosen);
+  if (report.status != SolveStatus::Solved && report.residual >= pivoted.residual) return pivoted;
+  solution = std::move(chosen);
+  return report;
+}
+
+/// The solver of a pass, and the one that tries where it fails.
+std::array<Solver, 2> solversOf(const Impact& impact, const Strike& strike) {
+  const Solver pgs{"pgs", "", solvePgs}, newton{"newton", "", solveNewton},
+      pivoting{"pivoting", "", solvePivoting}, faces{"faces", "", solveFaces};
   const bool small = strike.problem.rows.size() <= kDense;
   const bool cones = strike.problem.rows.size() > strike.problem.cones.size();
-  if (!impact.bound()) {
-    if (cones && strike.contacts.size() == 1) return {"pgs", "newton"};
-    if (cones) return {"newton", "pgs"};
-    const bool rubs = std::any_of(strike.contacts.begin(), strike.contacts.end(),
-                                  [&](int i) { return impact.contacts[i].friction > 0.0; });
-    if (rubs && small && strike.contacts.size() >= kFace) return {"newton", "pivoting"};
-  }
-  if (small) return {"pivoting", "newton"};
-  return {"newton", "pgs"};
+  if (cones && !impact.bound())
+    return strike.contacts.size() == 1 ? std::array{pgs, newton} : std::array{newton, pgs};
+  if (!small) return {newton, pgs};
+  const bool rubs = std::any_of(strike.contacts.begin(), strike.contacts.end(),
+                                [&](int i) { return impact.contacts[i].friction > 0.0; });
+  return {rubs && !impact.bound() ? faces : pivoting, newton};
 }
 
 /// Solves for the impulses of a pass; those of bonds are given at once.
@@ -152,10 +186,10 @@ SolveReport solvePass(const Impact& impact, Strike& strike, Solution& solution,
   if (impact.bound()) appendBonds(*impact.bonds, strike.problem);
   const auto [first, second] = solversOf(impact, strike);
   const SolveSettings settings{.maxIterations = kSweeps};
-  SolveReport solved = solveByIslands(*findSolver(first), strike.problem, settings, solution);
+  SolveReport solved = solveByIslands(first, strike.problem, settings, solution);
   if (solved.status != SolveStatus::Solved) {
     Solution other;
-    const SolveReport again = solveByIslands(*findSolver(second), strike.problem, settings, other);
+    const SolveReport again = solveByIslands(second, strike.problem, settings, other);
     if (again.residual < solved.residual) {
       solved = again;
       solution = std::move(other);
