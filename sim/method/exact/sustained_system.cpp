@@ -35,10 +35,10 @@ std::vector<double> unitsOf(double size, std::span<const RigidBody> bodies, int 
 /// [1] Sine of the angle up to which two axes are one.
 constexpr double kOneAxis = 1e-12;
 
-/// Whether no force depends on how the body is turned.
+/// Whether no force depends on how the body is turned, and it turns.
 bool isBall(const Shape& shape, const RigidBody& body) {
   const Vec3 inertia = body.Ibody.diagonal();
-  return std::holds_alternative<Sphere>(shape) && !body.fixed() &&
+  return std::holds_alternative<Sphere>(shape) && !body.fixed() && !body.particle &&
          body.Ibody == inertia.x() * Mat3::Identity();
 }
 
