@@ -48,6 +48,7 @@ VecX leastSquaresWithin(const MatX& R, const MatX& A, const VecX& b) {
   basis.setThreshold(LeastSquares::kDependent);
   basis.compute(R);
   if (basis.rank() == R.rows()) return leastSquares(A, b);
+  if (basis.rank() == 0) return VecX::Zero(R.rows());
   const MatX Q = basis.householderQ() * MatX::Identity(R.rows(), basis.rank());
   return Q * leastSquares(Q.transpose() * A * Q, Q.transpose() * b);
 }
