@@ -123,21 +123,28 @@ double Sustained::lowestWatched() const {
   return least;
 }
 
+// What begins to slip finds its direction until it is well beyond its onset.
 bool Sustained::slipTurned() const {
+  constexpr double kFar = 2.0;
   for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
     const Contact& c = system_.contacts()[k];
-    if (!c.sliding || slip_[k] <= tolerance_.stick) continue;
+    if (!c.sliding) continue;
     const Vec3 slip = slipVelocity(trial_[c.a], trial_[c.b], c.point);
-    if (slip.norm() > tolerance_.stick && hasTurned(c, slip)) return true;
+    const double told = slip_[k] <= tolerance_.stick ? kFar * onset_ : tolerance_.stick;
+    if (slip.norm() > told && hasTurned(c, slip)) return true;
   }
   return false;
 }
 
 bool Sustained::slipBegan() const {
-  const std::vector<Contact>& contacts = system_.contacts();
-  return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-    return c.onset > 0.0 && slipVelocity(trial_[c.a], trial_[c.b], c.point).norm() >= c.onset;
-  });
+  for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
+    const Contact& c = system_.contacts()[k];
+    if (!c.sliding || c.idle) continue;
+    const Vec3 slip = slipVelocity(trial_[c.a], trial_[c.b], c.point);
+    const bool turns = slip_[k] <= tolerance_.stick && hasTurned(c, slip);
+    if ((c.onset > 0.0 || turns) && slip.norm() >= onset_) return true;
+  }
+  return false;
 }
 
 double Sustained::doubt(const Look& lo, const Look& hi) const {

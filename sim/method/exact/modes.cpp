@@ -15,8 +15,6 @@ namespace {
 constexpr double kMargin = 1e-9;
 /// Accelerations below this part of the largest are rounding.
 constexpr double kRounding = 2e-10;
-/// [m/s] per size of the world: up to this, a slip that begins follows its growth.
-constexpr double kOnset = 1e-4;
 /// What friction must leave of a push; see `pushLeft`.
 constexpr double kPushLeft = 1e-12;
 
@@ -57,7 +55,7 @@ void Sustained::chooseModes() {
     // A slip that has grown beyond its onset has a direction of its own, however far from the one
     // in which it was expected.
     const Vec3 slip = slipVelocity(a, b, c.point);
-    const bool grown = c.sliding && c.onset > 0.0 && slip.norm() >= c.onset;
+    const bool grown = c.sliding && slip.norm() >= onset_;
     if (grown && hasTurned(c, slip)) c.slipDirection = slip.normalized();
     c.creeping = false;
     c.onset = 0.0;
@@ -90,17 +88,16 @@ void Sustained::chooseModes() {
 // Where two begin to slip at once, their directions depend on each other: these are left alone.
 void Sustained::markOnset() {
   Contact* begins = nullptr;
-  const double onset = kOnset * ContactTolerance::scaleOf(model_.size);
   for (std::size_t k = 0; k < state_.lasting.size(); ++k) {
     Contact& c = state_.lasting[k];
-    if (!c.sliding || c.idle || c.friction <= 0.0 || c.creeping || slip_[k] >= onset) continue;
+    if (!c.sliding || c.idle || c.friction <= 0.0 || c.creeping || slip_[k] >= onset_) continue;
     if (begins) return;
     begins = &c;
     const Vec3 rate = slipAcceleration(trial_[c.a], trial_[c.b], c.point);
     if (slip_[k] > tolerance_.stick && !(rate.dot(c.slipDirection) > 0.0)) return;
   }
   if (!begins) return;
-  begins->onset = onset;
+  begins->onset = onset_;
   system_.begin(state_.lasting);
   trial_ = state_.bodies;
   system_.findForces(trial_);

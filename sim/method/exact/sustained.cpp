@@ -17,6 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-13;
 /// [m] per size of the world: overlap that dates an event of a pair that touches already.
 constexpr double kOff = 1e-12;
+/// [m/s] per size of the world: up to this, a slip that begins follows its growth.
+constexpr double kOnset = 1e-4;
 /// [m] per size of the world: overlap that no event explains.
 constexpr double kAstray = 1e-9;
 /// Energy that friction gives, of the kinetic energy: what slides is no longer what was asked.
@@ -67,7 +69,8 @@ Sustained::Sustained(const Model& model, State& state, Report& report)
       integrator_(system_.size(), kTolerance),
       y0_(static_cast<std::size_t>(system_.size())),
       y_(y0_),
-      trial_(state.bodies) {}
+      trial_(state.bodies),
+      onset_(kOnset * ContactTolerance::scaleOf(model.size)) {}
 
 void Sustained::next() {
   system_.effort = state_.effort;

@@ -104,6 +104,7 @@ class Sustained {
   std::vector<Contact> touching_;  ///< points of lasting pairs that touched at the start
   std::vector<double> gaps_;       ///< [m] of near_, where the bodies were last tried
   std::vector<double> slip_;       ///< [m/s] per lasting contact, at the start
+  const double onset_;             ///< [m/s] up to which a slip that begins follows its growth
   double acceleration_ = 1.0;      ///< [m/s²] what counts as large
   double most_ = 0.0;              ///< [s] how far could be looked ahead
   long counted_ = 0;               ///< evaluations of system_ that are in the certificate,
