@@ -1,4 +1,5 @@
 // Chapter 7, contact: friction of an impact, whose normal impulses are known.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

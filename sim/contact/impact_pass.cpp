@@ -2,13 +2,13 @@
 // problem.
 #include "sim/contact/impact_pass.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
-
-#include <Eigen/Cholesky>
+#include <vector>
 
 #include "sim/body/force.h"
 #include "sim/contact/rows.h"
@@ -137,15 +137,14 @@ bool areOnly(const Problem& problem, const Solution& solution) {
   constexpr double kClosed = 1e-9;   // of the scale: a row that parts no faster may push
   constexpr double kFollows = 1e-9;  // pivot of a row that follows from others
   const double closed = kClosed * velocityScale(problem);
-  Problem pushing = problem;
-  pushing.rows.clear();
+  std::vector<int> pushing;
   for (std::size_t r = 0; r < problem.rows.size(); ++r) {
     const Row& row = problem.rows[r];
     const double parts = rowSpeed(row, solution.v[row.a], solution.v[row.b]) + row.bias;
-    if (solution.lambda[r] > 0.0 || parts <= closed) pushing.rows.push_back(row);
+    if (solution.lambda[r] > 0.0 || parts <= closed) pushing.push_back(static_cast<int>(r));
   }
-  if (pushing.rows.empty()) return true;
-  MatX A = delassus(pushing).A;
+  if (pushing.empty()) return true;
+  MatX A = delassus(problem).A(pushing, pushing);
   const VecX weight = A.diagonal().cwiseSqrt().cwiseInverse();
   A = weight.asDiagonal() * A * weight.asDiagonal();
   const Eigen::LDLT<MatX> factor(A);
@@ -167,8 +166,9 @@ SolveReport solveFaces(const Problem& problem, const SolveSettings& settings, So
 
 /// The solver of a pass, and the one that tries where it fails.
 std::array<Solver, 2> solversOf(const Impact& impact, const Strike& strike) {
-  const Solver pgs{"pgs", "", solvePgs}, newton{"newton", "", solveNewton},
-      pivoting{"pivoting", "", solvePivoting}, faces{"faces", "", solveFaces};
+  const Solver &pgs = *findSolver("pgs"), &newton = *findSolver("newton"),
+               &pivoting = *findSolver("pivoting");
+  const Solver faces{"faces", "", solveFaces};
   const bool small = strike.problem.rows.size() <= kDense;
   const bool cones = strike.problem.rows.size() > strike.problem.cones.size();
   if (cones && !impact.bound())

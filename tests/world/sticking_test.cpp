@@ -1,4 +1,4 @@
-// Where a face stops sliding: all of its corners do, at once.
+// Where sliding ends, of all corners of a face at once, and where it begins.
 #include <algorithm>
 #include <cmath>
 
@@ -91,9 +91,8 @@ TEST_CASE("exact: what is a little too far out on a turntable slides off as it s
   CHECK(off < (point ? 1e-6 : 2e-4));
 }
 
-// Oracle: energy and the way of a ball that rolls on a sphere and leaves it. Friction that no load
-// uses up binds what sticks to what presses: rows of a heap that hold nothing have no forces.
-// Measured 4e-8 m/s.
+// Oracle: energy, and where a ball that rolls on a sphere leaves it. While modes are tried, what is
+// left of a heap may hold nothing: its rows have no forces then. Measured 4e-8 m/s.
 TEST_CASE("exact: a ball with friction beyond measure rolls off a sphere") {
   constexpr double kMu = 1e6, kR = 1.0, kRadius = 0.2, kStart = 20.0 * kPi / 180.0;
   BodyDef big = ball("big", kR, Vec3::Zero(), 0.0, kMu);
