@@ -1,5 +1,7 @@
 #include "app/claim/verdict.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "app/claim/expect.h"
@@ -32,6 +34,14 @@ Verdict judge(const Scene& scene, const Recording& recording) {
     verdict.worstShare = share;
   }
   return verdict;
+}
+
+std::string toldOf(const Verdict& verdict) {
+  const std::size_t count = verdict.rows.size();
+  if (count == 0) return "";
+  if (count == 1) return verdict.failed == 0 ? "its claim holds" : "its claim fails";
+  if (verdict.failed > 0) return fmt::format("{} of {} claims fail", verdict.failed, count);
+  return count == 2 ? "both claims hold" : fmt::format("all {} claims hold", count);
 }
 
 void requireKnownChecks(const Scene& scene) {

@@ -20,6 +20,9 @@ struct Verdict {
 /// the scene expects by formulas.
 Verdict judge(const Scene& scene, const Recording& recording);
 
+/// "all 3 claims hold", "2 of 3 claims fail", as many as there are; "" of none.
+std::string toldOf(const Verdict& verdict);
+
 /// @throws SceneError if the scene names a check that the table does not have, or expects something
 /// of what is no formula.
 void requireKnownChecks(const Scene& scene);

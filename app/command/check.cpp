@@ -61,8 +61,9 @@ bool nothingMoved(const Recording& recording) {
 }
 
 // Whether the scene's claims hold; a run that stopped on the way throws none, but fails as
-// kPhysics. What the audit of a run disagrees with fails in any scene, with claims or without.
-int checkScene(const Scene& scene, Json* json) {
+// kPhysics. `rows` counts them. What the audit of a run disagrees with fails in any scene, with
+// claims or without.
+int checkScene(const Scene& scene, Json* json, std::size_t& rows) {
   makeWorld(scene);
   const std::string claim = scene.claim.empty() ? scene.title : scene.claim;
   if (!json) fmt::print("{}: {}\n", scene.name, claim);
@@ -70,6 +71,7 @@ int checkScene(const Scene& scene, Json* json) {
   const Recording recording = recordWithProgress(scene);
   if (const int stopped = exitOf(recording)) return stopped;
   const Verdict verdict = judge(scene, recording);
+  rows += verdict.rows.size();
   const bool still = nothingMoved(recording);
   if (json)
     json->push_back({{"scene", scene.name},
@@ -114,17 +116,20 @@ int check(int argc, char** argv) {
     if (json) fmt::print("{}\n", scenes.dump(2));
     return worst;
   }
-  std::size_t claims = 0;
+  std::size_t claims = 0, rows = 0;
   for (const std::string& name : names) {
     const Scene scene = load({name, overrides});
     claims += scene.checks.size() + scene.expects.size();
-    worst = std::max(worst, checkScene(scene, json ? &scenes : nullptr));
+    worst = std::max(worst, checkScene(scene, json ? &scenes : nullptr, rows));
     std::fflush(stdout);
   }
   if (json)
     fmt::print("{}\n", scenes.dump(2));
   else if (claims > 0)
-    fmt::print("{}\n", worst == kOk ? "all claims hold" : "some claims do NOT hold");
+    fmt::print("{}\n", worst != kOk
+                           ? (rows == 1 ? "the claim does NOT hold" : "some claims do NOT hold")
+                       : rows == 1 ? "the claim holds"
+                                   : "all claims hold");
   else
     fmt::print(
         "nothing was checked: no scene names a claim in `checks` or makes one by [[expect]]\n");

@@ -75,8 +75,8 @@ document.onkeydown = event => {
 
 std::string claimTable(const Verdict& verdict) {
   std::string out =
-      fmt::format("<details{}><summary>{} claims, {} failed</summary><table>\n",
-                  verdict.failed > 0 ? " open" : "", verdict.rows.size(), verdict.failed);
+      fmt::format("<details{}><summary>{}</summary><table>\n", verdict.failed > 0 ? " open" : "",
+                  verdict.rows.empty() ? "no claims" : toldOf(verdict));
   out += "<tr><th>claim</th><th>measured</th><th>exact</th><th>error</th><th>allowed</th></tr>\n";
   for (const ClaimRow& row : verdict.rows)
     out += fmt::format(

@@ -73,9 +73,7 @@ std::string csvRow(const Scene& scene, std::size_t k, const VariantRun& run,
 
 std::string findingOf(const Recording& recording, const Verdict& verdict) {
   if (recording.report.stopped) return "stopped: " + recording.report.reason;
-  if (verdict.rows.empty()) return "";
-  if (verdict.failed == 0) return fmt::format("all {} claims hold", verdict.rows.size());
-  return fmt::format("{} of {} claims fail", verdict.failed, verdict.rows.size());
+  return toldOf(verdict);
 }
 
 // All strobes on one page.

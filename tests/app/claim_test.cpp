@@ -93,6 +93,7 @@ TEST_CASE("claims of rest and of a first hit fail where they say nothing") {
   flying.checks = {"rest-time"};
   const Verdict verdict = judge(flying, record(flying, 60.0));
   CHECK(verdict.failed == 1);
+  CHECK(toldOf(verdict) == "its claim fails");
   CHECK(verdict.worst ==
         "rest-time says nothing here: no body falls onto a floor without spin "
         "before the end");
