@@ -17,7 +17,7 @@ enum Exit : int {
   kUsage = 2,          ///< the command line is wrong
   kScene = 3,          ///< the scene is refused
   kNoContext = 4,      ///< no OpenGL context, or it fails
-  kFile = 5,           ///< a file cannot be read or written
+  kFile = 5,           ///< a file is not there, or cannot be read or written
   kPhysics = 6,        ///< the physics could not go on
   kInterrupted = 130,  ///< Ctrl-C; run again to go on
 };
@@ -27,9 +27,9 @@ inline constexpr std::pair<Exit, std::string_view> kExitMeanings[] = {
     {kOk, "done"},
     {kFailed, "a check or a golden failed"},
     {kUsage, "the command line makes no sense"},
-    {kScene, "the scene is refused; the line says where and why"},
+    {kScene, "the scene, or a mesh it names, is refused; the line says where and why"},
     {kNoContext, "no OpenGL context, or one that cannot draw"},
-    {kFile, "a file cannot be read or written"},
+    {kFile, "a file, that of the scene too, is not there or cannot be read or written"},
     {kPhysics, "the physics could not go on; the certificate says why"},
     {kInterrupted, "stopped by Ctrl-C; run again to go on"}};
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "app/file/data.h"
+#include "app/file/file.h"
 #include "app/scene/findings.h"
-#include "app/scene/scene.h"
 
 namespace tumble {
 
@@ -34,10 +34,9 @@ std::string scenePath(const std::string& scene) {
       near.push_back((folder / entry->path().filename()).string());
   std::string nearest = nearestName(scene, near);
   if (nearest.empty()) nearest = nearestName(scene + ".toml", near);
-  throw SceneError(
-      {{{scene},
-        "neither a demo nor a file" + (nearest.empty() ? "" : ", did you mean '" + nearest + "'?") +
-            " (`tumble list` names the demos)"}});
+  throw FileError(scene + ": neither a demo nor a file" +
+                  (nearest.empty() ? "" : ", did you mean '" + nearest + "'?") +
+                  " (`tumble list` names the demos)");
 }
 
 }  // namespace tumble

@@ -10,7 +10,7 @@ namespace tumble {
 std::vector<std::string> demoNames();
 
 /// Path of the demo of that name, or of the file; what a SCENE argument means.
-/// @throws SceneError if it is neither a demo nor a readable file.
+/// @throws FileError if it is neither.
 std::string scenePath(const std::string& scene);
 
 }  // namespace tumble

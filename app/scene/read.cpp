@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/file/file.h"
 #include "app/scene/array.h"
 #include "app/scene/camera.h"
 #include "app/scene/cloth.h"
@@ -176,12 +177,12 @@ Scene readScene(const std::string& path, const std::vector<std::string>& overrid
                 const Variant* variant) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
-    throw refusal(path, "is a folder; name a scene file, one that ends in .toml");
-  if (!fs::exists(path, ignored)) throw refusal(path, "there is no such file");
+    throw FileError(path + ": is a folder; name a scene file, one that ends in .toml");
+  if (!fs::exists(path, ignored)) throw FileError(path + ": there is no such file");
   std::ifstream in(path, std::ios::binary);
   std::string text(kLargestFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (in.fail() && !in.eof())) throw refusal(path, "cannot be read");
+  if (in.bad() || (in.fail() && !in.eof())) throw FileError(path + ": cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
   return parseScene(text, path, overrides, variant);
 }

@@ -116,6 +116,8 @@ void Viewer::load(const std::string& path) {
   } catch (const SceneError& error) {
     complaint_ = error.what();
     if (same) saved_ = timeOf(path);
+  } catch (const FileError& error) {
+    complaint_ = error.what();
   }
 }
 

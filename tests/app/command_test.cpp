@@ -296,6 +296,6 @@ TEST_CASE("a scene that asks for a check that is none is refused") {
   const Folder folder;
   writeFile(folder / "x.toml", kDrop);
   CHECK_THROWS_AS(load({folder / "x.toml", {"checks=[\"bounce-apexes\"]"}}), SceneError);
-  CHECK_THROWS_AS(load({folder / "none.toml", {}}), SceneError);
+  CHECK_THROWS_AS(load({folder / "none.toml", {}}), FileError);
   CHECK_THROWS_AS(load({folder / "x.toml", {"no equals sign"}}), UsageError);
 }

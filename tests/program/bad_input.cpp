@@ -155,22 +155,24 @@ TEST_CASE("a command line that makes no sense ends with 2 and one line") {
   CHECK(filesBelow(scratch.path) == 1);
 }
 
-TEST_CASE("a scene that is neither a demo nor a file, and a refused --set, end with 3") {
+TEST_CASE("a scene that is neither a demo nor a file ends with 5, and a refused --set with 3") {
   struct Slip {
     std::string arguments;
     std::vector<std::string> says;
+    int code;
   };
   const Slip slip =
-      GENERATE(Slip{"simulate path-of-brik", {"path-of-brik", "path-of-brick"}},
-               Slip{"simulate missing.toml", {"missing.toml"}}, Slip{"simulate .", {"."}},
-               Slip{"simulate scene.toml --set body.ball.mass=-1", {"--set", "mass"}},
-               Slip{"simulate scene.toml --set world.gravty=1", {"--set", "gravity"}});
+      GENERATE(Slip{"simulate path-of-brik", {"path-of-brik", "path-of-brick"}, kFile},
+               Slip{"simulate missing.toml", {"missing.toml"}, kFile},
+               Slip{"simulate .", {"is a folder"}, kFile},
+               Slip{"simulate scene.toml --set body.ball.mass=-1", {"--set", "mass"}, kScene},
+               Slip{"simulate scene.toml --set world.gravty=1", {"--set", "gravity"}, kScene});
   CAPTURE(slip.arguments);
   const Folder scratch;
   scratch.file("scene.toml", kBall);
   const Outcome outcome = tumbleRun(scratch, slip.arguments + " -o out");
   CAPTURE(outcome.err);
-  CHECK(outcome.code == kScene);
+  CHECK(outcome.code == slip.code);
   CHECK(outcome.lines() == 1);
   for (const std::string& text : slip.says) CHECK(outcome.says(text));
   CHECK_FALSE(std::filesystem::exists(scratch / "out"));
