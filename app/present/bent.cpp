@@ -173,7 +173,6 @@ std::span<const Colour> strainStops() {
 
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
                                    const std::vector<Colour>& colours, double top) {
-  constexpr float kShade = 0.72f;  // of the colour: a back that has none of its own
   std::vector<Instance> surfaces;
   for (const BentDef& bent : scene.bent) {
     const Colour front = colours[static_cast<std::size_t>(bent.first)];
@@ -202,7 +201,7 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
     add(std::move(outside), half, front);
     Sheet back;
     addFace(bent, shell, -half, back);
-    add(std::move(back), half, bent.back ? colourOf(*bent.back) : shade(front, kShade));
+    add(std::move(back), half, bent.back ? colourOf(*bent.back) : backOfCloth(front));
   }
   return surfaces;
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/claim/free_body.h"
+#include "app/present/bent.h"
 
 namespace tumble {
 
@@ -55,12 +56,15 @@ bool wholesAndHalves(const std::vector<double>& masses, double low, double high)
                      [&](double mass) { return mass - low < tiny || high - mass < tiny; });
 }
 
-// Where each body of an array stands in [0, 1] by the first quantity that varies within it.
-std::map<std::string, double> placesInArrays(const WorldDef& world) {
+// Where each body of an array stands in [0, 1] by the first quantity that varies within it. Points
+// of a surface are copies of nothing: one at its edge weighs half.
+std::map<std::string, double> placesInArrays(const Scene& scene) {
+  const WorldDef& world = scene.world;
+  const std::vector<bool> inSurface = partsOfSurfaces(scene);
   std::map<std::string, std::vector<int>> arrays;
-  for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i)
-    if (const std::string array = arrayOf(world.bodies[i].name); !array.empty())
-      arrays[array].push_back(i);
+  for (std::size_t i = 0; i < world.bodies.size(); ++i)
+    if (const std::string array = arrayOf(world.bodies[i].name); !array.empty() && !inSurface[i])
+      arrays[array].push_back(static_cast<int>(i));
 
   std::map<std::string, double> places;
   for (const auto& [name, copies] : arrays) {
@@ -116,17 +120,33 @@ bool anyBack(const Scene& scene) {
                      [](const std::optional<Rgb>& back) { return back.has_value(); });
 }
 
+Colour backOfCloth(const Colour& front) {
+  constexpr float kPaler = 0.55f, kDarker = 0.72f, kPale = 0.78f;
+  const float light = 0.30f * front[0] + 0.59f * front[1] + 0.11f * front[2];
+  if (light > kPale) return shade(front, kDarker);
+  const Colour paper = hex(0xF8F8F6);
+  Colour back;
+  for (std::size_t k = 0; k < 3; ++k) back[k] = front[k] + kPaler * (paper[k] - front[k]);
+  return back;
+}
+
 std::vector<Colour> bodyColours(const Scene& scene) {
   std::vector<Colour> colours;
   std::vector<std::string> kinds;
-  const std::map<std::string, double> places = placesInArrays(scene.world);
+  const std::map<std::string, double> places = placesInArrays(scene);
+  // A surface has one colour, whether some of its points stand or not.
+  std::map<std::size_t, std::string> surfaces;
+  for (const BentDef& bent : scene.bent)
+    for (int p = 0; p < bent.count; ++p)
+      surfaces[static_cast<std::size_t>(bent.first + p)] = bent.name;
   for (std::size_t i = 0; i < scene.world.bodies.size(); ++i) {
     const BodyDef& body = scene.world.bodies[i];
     if (i < scene.colours.size() && scene.colours[i]) {
       colours.push_back(single(*scene.colours[i]));
       continue;
     }
-    if (!moves(body)) {
+    const auto surface = surfaces.find(i);
+    if (!moves(body) && surface == surfaces.end()) {
       colours.push_back(colour::kFixed);
       continue;
     }
@@ -135,7 +155,8 @@ std::vector<Colour> bodyColours(const Scene& scene) {
       continue;
     }
     // The copies of an array look the same; every other body is a kind of its own.
-    const std::string array = arrayOf(body.name), kind = array.empty() ? body.name : array;
+    const std::string array = surface == surfaces.end() ? arrayOf(body.name) : surface->second;
+    const std::string kind = array.empty() ? body.name : array;
     const auto found = std::find(kinds.begin(), kinds.end(), kind);
     const std::size_t index = static_cast<std::size_t>(found - kinds.begin());
     if (found == kinds.end()) kinds.push_back(kind);

@@ -40,8 +40,12 @@ Colour seriesColour(std::size_t i);
 std::optional<Colour> backOf(const Scene& scene, std::size_t i);
 bool anyBack(const Scene& scene);
 
-/// A colour for every body: the scene's own; else by material in order of first use; fixed ones
-/// grey.
+/// The back of a cloth that has no colour for it: paler than its front, for it is seen in shadow;
+/// of a pale front, darker.
+Colour backOfCloth(const Colour& front);
+
+/// A colour for every body: the scene's own; else that of its kind – body, array or surface – in
+/// order of first use; fixed ones grey.
 std::vector<Colour> bodyColours(const Scene& scene);
 
 }  // namespace tumble

@@ -161,6 +161,35 @@ body = { shape = { sphere = 0.1 }, material = "rubber", position = [0, 1, 0], la
   CHECK(bodyColours(pair)[1] == bodyColours(pair)[2]);
 }
 
+// Points at the edge of a cloth weigh half of one inside, and pinned ones stand; it is one thing.
+TEST_CASE("a cloth without a colour has that of the palette, and a back that can be told from it") {
+  const std::string sheet = R"([world]
+[[cloth]]
+name = "a"
+columns = 3
+rows = 3
+size = [0.2, 0.2]
+pins = [[0, 0], [2, 0]]
+[[cloth]]
+name = "b"
+columns = 3
+rows = 3
+size = [0.2, 0.2]
+position = [0, 1, 0]
+)";
+  const Scene scene = parseScene(sheet, "sheet");
+  const std::vector<Colour> colours = bodyColours(scene);
+  REQUIRE(colours.size() == 18);
+  for (std::size_t p = 0; p < 9; ++p) {
+    CHECK(colours[p] == hex(0x3A6FA8));
+    CHECK(colours[9 + p] == hex(0xE8BE57));
+  }
+  const auto light = [](const Colour& c) { return (c[0] + c[1] + c[2]) / 3.0f; };
+  CHECK(light(backOfCloth(colours[0])) > light(colours[0]) + 0.2f);
+  const Colour pale = hex(0xF0EEE8);
+  CHECK(light(backOfCloth(pale)) < light(pale) - 0.2f);
+}
+
 TEST_CASE("a half-space that is a wall is a pane, a floor none, and what moves is as it was") {
   const Scene scene = parseScene(R"([world]
 duration = 0.1
