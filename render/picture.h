@@ -103,6 +103,7 @@ struct Label {
   Align align = Align::Left;
   Colour colour = {0.17f, 0.18f, 0.21f};
   bool italic = false;
+  bool apart = false;  ///< keeps off arrows, as all labels do off each other
 };
 
 /// A bar on the page with text behind it, and a leader from a world point: a row of a ladder. It
@@ -148,6 +149,7 @@ struct Floor {
   double grid = 1.0, fineGrid = 0.2;  ///< [m]
   bool rule = true;                   ///< a measured line with numbers in front of the motion
   Eigen::AlignedBox3d motion = {};    ///< [m] that the rule measures; empty: the bodies
+  std::vector<Eigen::AlignedBox3d> ways = {};  ///< [m] of each body in it
   /// Where something is written in some image of the run, for the rule to make room in all of them.
   std::vector<Label> labels = {};
   std::vector<Mark> marks = {};

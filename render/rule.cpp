@@ -97,6 +97,13 @@ Ticks ticksAt(const Rail& rail, double gap, const Picture& picture, const Projec
   return ticks;
 }
 
+/// Whether ticks measure nothing, or leave out more than an eighth of what is to be measured.
+bool tooFew(const Ticks& ticks, const Rail& rail) {
+  const double whole =
+      std::floor(rail.high / rail.step + 1e-9) - std::ceil(rail.low / rail.step - 1e-9) + 1.0;
+  return ticks.size() < kLeast || static_cast<double>(ticks.size()) < 0.875 * whole;
+}
+
 /// Where the labels of points stand, about.
 void addLabelBoxes(const std::vector<Label>& labels, const Projection& projection, Canvas& canvas,
                    Boxes& boxes) {
@@ -129,6 +136,23 @@ Boxes writtenBoxes(const Picture& picture, const Projection& projection, Canvas&
           place->head<2>() + Vector2d(52.0, 40.0 + 18.0 * static_cast<double>(mark.lines.size())));
   if (picture.bar) boxes.emplace_back(corner - Vector2d(340.0, 64.0), corner);
   boxes.emplace_back(Vector2d(0.0, 0.0), Vector2d(corner.x(), 90.0));
+  return boxes;
+}
+
+/// Where bodies are seen in the course of the run, or now.
+Boxes bodyBoxes(const Picture& picture, const Projection& projection) {
+  std::vector<Eigen::AlignedBox3d> ways = picture.floor.ways;
+  if (ways.empty())
+    for (const Instance& body : picture.instances)
+      ways.push_back(boxAround(body.position, std::min(reachOf(body), picture.radius)));
+  Boxes boxes;
+  for (const Eigen::AlignedBox3d& way : ways) {
+    Eigen::AlignedBox2d& box = boxes.emplace_back();
+    for (int corner = 0; corner < 8; ++corner)
+      if (const auto place =
+              projection.project(way.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))))
+        box.extend(Vector2d(place->head<2>()));
+  }
   return boxes;
 }
 
@@ -191,11 +215,15 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
     chosen = ticksAt(*rail, nearest, picture, projection, canvas);
   }
   // What comes nearer than the image reaches leaves no room before it: then further back, up to
-  // half way to the middle.
+  // half way to the middle. Where room is lacking at one end alone, only if no body is in the way.
   const double depth = rail->outward * (rail->start - picture.centre[rail->other]);
-  while (chosen.size() < kLeast && nearest > -0.5 * depth) {
-    nearest -= 0.04 * picture.radius;
-    chosen = ticksAt(*rail, nearest, picture, projection, canvas);
+  const Boxes bodies = tooFew(chosen, *rail) ? bodyBoxes(picture, projection) : Boxes();
+  for (double gap = nearest; tooFew(chosen, *rail) && gap > -0.5 * depth;) {
+    gap -= 0.04 * picture.radius;
+    const Ticks ticks = ticksAt(*rail, gap, picture, projection, canvas);
+    if (chosen.size() >= kLeast && (tooFew(ticks, *rail) || collides(ticks, bodies))) continue;
+    chosen = ticks;
+    nearest = gap;
   }
   for (double gap = nearest; gap < picture.radius; gap += 0.04 * picture.radius) {
     const Ticks ticks = ticksAt(*rail, gap, picture, projection, canvas);

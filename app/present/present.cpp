@@ -184,6 +184,8 @@ Picture Presenter::blank(const Framing& framing) const {
   picture.floor.visible = false;
   picture.floor.rule = scene_.show.ruler;
   picture.floor.motion = extent_;
+  for (const Eigen::AlignedBox3d& way : ways_)
+    if (!way.isEmpty()) picture.floor.ways.push_back(way);
   picture.floor.labels = words_.labels;
   picture.floor.marks = words_.marks;
   for (const BodyDef& body : scene_.world.bodies) {

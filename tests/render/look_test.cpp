@@ -446,6 +446,36 @@ TEST_CASE("the rule is seen even where bodies come nearer than the image reaches
   CHECK_FALSE(compare(without, studio().draw(picture, kFull)).exact);
 }
 
+// Oracle: geometry. From half a metre before the middle the rule's right end, 0.4 m, lies below the
+// image; where no body is in the way it lies further back, on the image, else it is cut off.
+TEST_CASE("a rule reaches both ends of the motion where no body is in the way") {
+  Picture picture;
+  picture.camera = {{0.9, 1.1, 2.4}, {0.0, 0.35, 0.0}, 24.0};
+  picture.centre = {0.0, 0.35, 0.0};
+  picture.radius = 0.8;
+  picture.instances = {box({0.0, 0.6, 0.0}, Finish::Solid)};
+  picture.instances[0].scale.setConstant(0.05);
+  picture.floor.motion = {Vector3d(-0.5, 0.0, -0.5), Vector3d(0.5, 0.7, 0.5)};
+  // The last column that the rule changes.
+  const auto end = [&](const Eigen::AlignedBox3d& way) {
+    picture.floor.ways = {way};
+    picture.floor.rule = false;
+    const Image without = studio().draw(picture, kFull);
+    picture.floor.rule = true;
+    const Image ruled = studio().draw(picture, kFull);
+    int last = 0;
+    for (int y = 0; y < 720; ++y)
+      for (int x = 0; x < 1280; ++x)
+        if (pixel(without, x, y) != pixel(ruled, x, y)) last = std::max(last, x);
+    return last;
+  };
+  const int free = end({Vector3d(-0.1, 0.5, -0.1), Vector3d(0.1, 0.7, 0.1)});
+  const int barred = end({Vector3d(-0.5, 0.0, -0.5), Vector3d(0.5, 0.1, 0.5)});
+  CAPTURE(free, barred);
+  CHECK(free > Projection(picture.camera, 1280, 720).project({0.35, 0.0, 0.3})->x());
+  CHECK(barred < free - 50);
+}
+
 // Ticks of 0.2 m would stand 28 px apart, closer than their numbers are wide.
 TEST_CASE("a rule takes longer steps where its numbers would touch") {
   Picture picture = stage();
