@@ -13,9 +13,10 @@ Eigen::AlignedBox2d inkOf(const Vector2d& pen, double width, double size, Align 
   return {pen + Vector2d(left, -0.7 * size), pen + Vector2d(left + width, 0.1 * size)};
 }
 
-bool LabelPlaces::isFree(const Box& ink) const {
-  return std::none_of(taken_.begin(), taken_.end(),
-                      [&](const Box& other) { return other.intersects(ink); });
+bool LabelPlaces::isFree(const Box& ink, bool apart) const {
+  const auto meets = [&](const Box& other) { return other.intersects(ink); };
+  return std::none_of(taken_.begin(), taken_.end(), meets) &&
+         (!apart || std::none_of(crossed_.begin(), crossed_.end(), meets));
 }
 
 LabelPlaces::Standing LabelPlaces::place(const Label& label, const Vector2d& anchor, double width) {
@@ -24,7 +25,7 @@ LabelPlaces::Standing LabelPlaces::place(const Label& label, const Vector2d& anc
   for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0}) {
     const Vector2d pen = wanted + Vector2d(0.0, lines * label.size);
     const Box ink = inkOf(pen, width, label.size, label.align);
-    if (!isFree(ink) || (lines != 0.0 && !page.contains(ink))) continue;
+    if (!isFree(ink, label.apart) || (lines != 0.0 && !page.contains(ink))) continue;
     take(ink);
     return {pen};
   }
@@ -50,7 +51,7 @@ std::optional<LabelPlaces::Standing> LabelPlaces::onRings(const Label& label,
       Box ink = inkOf(pen, width, label.size, Align::Left);
       if (!page.contains(ink)) continue;
       ink.min() -= Vector2d::Constant(kRoom), ink.max() += Vector2d::Constant(kRoom);
-      if (!isFree(ink)) continue;
+      if (!isFree(ink, label.apart)) continue;
       take(ink);
       const double shift = label.align == Align::Left     ? 0.0
                            : label.align == Align::Centre ? 0.5 * width

@@ -17,6 +17,9 @@ class LabelPlaces {
   /// A place that is given away already.
   void take(const Eigen::AlignedBox2d& ink) { taken_.push_back(ink); }
 
+  /// A place where only labels that keep apart do not stand.
+  void cross(const Eigen::AlignedBox2d& ink) { crossed_.push_back(ink); }
+
   struct Standing {
     Eigen::Vector2d pen;  ///< [px] of the text
     /// Where a line from the anchor meets a label that had to go further away from it.
@@ -31,11 +34,11 @@ class LabelPlaces {
 
  private:
   using Box = Eigen::AlignedBox2d;
-  bool isFree(const Box& ink) const;
+  bool isFree(const Box& ink, bool apart) const;
   std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor, double width);
 
   Eigen::Vector2d page_;
-  std::vector<Box> taken_;
+  std::vector<Box> taken_, crossed_;
 };
 
 /// What the ink of a line of text covers, about [px].

@@ -60,17 +60,35 @@ void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
   }
 }
 
+/// Tells where the arrows are, box by box along each.
+void crossArrows(const std::vector<Arrow>& arrows, const Projection& projection,
+                 LabelPlaces& places) {
+  constexpr double kBox = 8.0;  // [px]
+  for (const Arrow& arrow : arrows) {
+    const auto base = projection.project(arrow.base), tip = projection.project(arrow.tip);
+    if (!base || !tip) continue;
+    const Vector2d way = flat(*tip) - flat(*base), half = Vector2d::Constant(arrow.radius + 3.0);
+    const int count = static_cast<int>(std::min(way.norm() / kBox, 1000.0)) + 1;
+    for (int k = 0; k <= count; ++k) {
+      const Vector2d at = flat(*base) + static_cast<double>(k) / count * way;
+      places.cross({at - half, at + half});
+    }
+  }
+}
+
 /// Labels, none on another or on the words of a mark.
-void drawLabels(const std::vector<Label>& labels, const std::vector<Mark>& marks,
-                const Projection& projection, Canvas& canvas) {
+void drawLabels(const Picture& picture, const Projection& projection, Canvas& canvas) {
   LabelPlaces places({canvas.width(), canvas.height()});
-  for (const Mark& mark : marks) {
+  if (std::any_of(picture.labels.begin(), picture.labels.end(),
+                  [](const Label& label) { return label.apart; }))
+    crossArrows(picture.arrows, projection, places);
+  for (const Mark& mark : picture.marks) {
     const auto place = projection.project(mark.position);
     for (std::size_t i = 0; place && i < mark.lines.size(); ++i)
       places.take(inkOf(flat(*place) + wordsOffset(i), canvas.textWidth(mark.lines[i], kMarkWords),
                         kMarkWords.size, Align::Centre));
   }
-  for (const Label& label : labels) {
+  for (const Label& label : picture.labels) {
     const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
     const Canvas::TextStyle style{label.size, face, label.align, label.colour};
     Vector2d pen = label.offset;
@@ -139,7 +157,7 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
   for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
   for (const PageBar& bar : picture.pageBars) drawBar(bar, projection, canvas);
-  drawLabels(picture.labels, picture.marks, projection, canvas);
+  drawLabels(picture, projection, canvas);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
   drawTitle(picture, canvas);
 }

@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "app/claim/free_body.h"
+#include "render/camera.h"
 
 namespace tumble {
 
 namespace {
+
+constexpr std::array<double, 2> kBeside = {8.0, 5.0};  // [px] from what a text goes with
 
 void replaceAll(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos;
@@ -43,20 +46,28 @@ void addLabels(const Scene& scene, const Sample& sample, Picture& picture) {
     const Shape& shape = scene.world.bodies[static_cast<std::size_t>(i)].shape;
     Label label;
     label.anchor = body.x + Vec3(reach(shape, body.q, Vec3::UnitX()), 0.0, 0.0);
-    label.offset = {8.0, 5.0};
+    label.offset = {kBeside[0], kBeside[1]};
     label.text = text;
     picture.labels.push_back(label);
   }
 }
 
 void addTexts(const Scene& scene, const Sample& sample, Picture& picture) {
+  const Vec3 right = Projection(picture.camera, 1.0, 1.0).right();
   for (const TextDef& def : scene.texts) {
     if (sample.t < def.from || sample.t > def.until) continue;
     Label label;
     label.anchor = def.point;
-    for (std::size_t i = 0; i < sample.bodies.size() && !def.body.empty(); ++i)
-      if (scene.world.bodies[i].name == def.body) label.anchor = sample.bodies[i].x;
-    const std::array<double, 2>& place = label.anchor ? def.offset : def.page;
+    for (std::size_t i = 0; i < sample.bodies.size() && !def.body.empty(); ++i) {
+      const BodyDef& body = scene.world.bodies[i];
+      if (body.name != def.body) continue;
+      label.anchor = sample.bodies[i].x;
+      if (def.offset || std::holds_alternative<HalfSpace>(body.shape)) continue;
+      // Beside it: where its silhouette ends.
+      *label.anchor += reach(body.shape, sample.bodies[i].q, right) * right;
+      label.apart = true;
+    }
+    const std::array<double, 2> place = label.anchor ? def.offset.value_or(kBeside) : def.page;
     label.offset = {place[0], place[1]};
     label.text = def.text;
     label.size = static_cast<float>(def.size);

@@ -61,11 +61,11 @@ struct CameraView {
 /// A [[text]]: words on the pictures, beside a body, at a point or on the page.
 struct TextDef {
   std::string text;
-  std::string body;                            ///< that it goes with, or ""
-  std::optional<Vec3> point;                   ///< [m] or, without it and a body,
-  std::array<double, 2> page = {32.0, 690.0};  ///< [px] of a page 720 high
-  std::array<double, 2> offset = {8.0, 5.0};   ///< [px] from the body or point
-  double size = 16.0;                          ///< [px]
+  std::string body;                                  ///< that it goes with, or ""
+  std::optional<Vec3> point;                         ///< [m] or, without it and a body,
+  std::array<double, 2> page = {32.0, 690.0};        ///< [px] of a page 720 high
+  std::optional<std::array<double, 2>> offset = {};  ///< [px] from the body's centre or the point
+  double size = 16.0;                                ///< [px]
   bool bold = false;
   double from = 0.0, until = 1e6;  ///< [s] when it is seen
   std::optional<Rgb> colour = {};
@@ -186,7 +186,7 @@ struct Scene {
 /// Reads a scene from a file. Overrides are "key.path=value" with a TOML value; a value that is not
 /// TOML is taken as a string. Arrays of tables are addressed by name or number: "body.brick.mass".
 /// A variant is put on top; it has no panels, charts or sweep of its own.
-/// @throws SceneError with every complaint of the file, or if it cannot be read.
+/// @throws SceneError with every complaint of the file; FileError if there is none to read.
 Scene readScene(const std::string& path, const std::vector<std::string>& overrides = {},
                 const Variant* variant = nullptr);
 

@@ -14,7 +14,7 @@ void readPlace(Section& section, const std::vector<BodyDef>& bodies, TextDef& te
   section.read("body", text.body);
   section.read("point", text.point, any("m"));
   section.read("page", text.page.data(), 2, any("px"));
-  section.read("offset", text.offset.data(), 2, any("px"));
+  if (section.find("offset")) section.read("offset", text.offset.emplace().data(), 2, any("px"));
   int given = 0;
   for (const char* key : {"body", "point", "page"}) given += section.find(key) != nullptr;
   if (given != 1)

@@ -82,6 +82,32 @@ TEST_CASE("keys of a camera that make no sense are refused with their place") {
             .find("camera.keys.0.target: missing") != std::string::npos);
 }
 
+// Oracle: geometry. A ball's silhouette ends a radius to the right of its centre, as the camera
+// sees it.
+TEST_CASE("words of a body stand beside it, and keep off arrows, unless they have a place") {
+  const Scene scene = parseScene(kFall + R"(
+[[text]]
+text = "beside"
+body = "ball"
+[[text]]
+text = "where I say"
+body = "ball"
+offset = [8, 5]
+)",
+                                 "words");
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).image(0);
+  const Vec3 centre = recording.samples[0].bodies[0].x;
+  const double radius = std::get<Sphere>(scene.world.bodies[0].shape).r;
+  const Vec3 right = Projection(picture.camera, 1280.0, 720.0).right();
+  REQUIRE(std::abs(right.z()) > 0.1);  // or X would do
+  REQUIRE(picture.labels.size() == 2);
+  CHECK((*picture.labels[0].anchor - centre - radius * right).norm() < 1e-12);
+  CHECK(picture.labels[0].apart);
+  CHECK(*picture.labels[1].anchor == centre);
+  CHECK(!picture.labels[1].apart);
+}
+
 TEST_CASE("words stand on the pictures of their time, with a body, at a point or on the page") {
   const Scene scene = parseScene(kFall + R"(
 [[text]]

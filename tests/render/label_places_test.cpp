@@ -38,6 +38,19 @@ TEST_CASE("44 names in one place all have room on the page, none on another") {
   }
 }
 
+TEST_CASE("what is crossed by an arrow keeps off labels that stand apart, and no others") {
+  LabelPlaces places({1280.0, 720.0});
+  const Eigen::AlignedBox2d arrow(Vector2d(100.0, 80.0), Vector2d(300.0, 120.0));
+  places.cross(arrow);
+  Label label;
+  label.offset = {8.0, 5.0};
+  label.apart = true;
+  const Vector2d pen = places.place(label, {100.0, 100.0}, 90.0).pen;
+  CHECK(!inkOf(pen, 90.0, label.size, label.align).intersects(arrow));
+  label.apart = false;
+  CHECK(places.place(label, {100.0, 100.0}, 90.0).pen == Vector2d(108.0, 105.0));
+}
+
 TEST_CASE("a label that stands alone stays where it wants to be, without a line to it") {
   LabelPlaces places({1280.0, 720.0});
   Label label;
