@@ -218,7 +218,8 @@ TEST_CASE("standard output that cannot be written ends with 5") {
 
 TEST_CASE("an error that cannot be told still ends with its own code") {
   const Folder scratch;
-  CHECK(tumbleRun(scratch, "render nosuch.toml 2>/dev/full").code == kScene);
+  scratch.file("scene.toml", spoilt("mass = 1.0", "mass = 0.0"));
+  CHECK(tumbleRun(scratch, "render scene.toml 2>/dev/full").code == kScene);
 }
 
 TEST_CASE("without an OpenGL context nothing is drawn and the program ends with 4") {

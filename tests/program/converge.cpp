@@ -55,7 +55,7 @@ TEST_CASE("converge refuses what it cannot do in one line") {
     std::string says;
   };
   const Case wrong = GENERATE(
-      Case{"converge", 2, "SCENE"}, Case{"converge nothing.toml", 3, "nothing.toml"},
+      Case{"converge", 2, "SCENE"}, Case{"converge nothing.toml", 5, "nothing.toml"},
       Case{"converge fall.toml --at 0.5,0.2", 2, "--at 0.5,0.2: expected ascending instants"},
       Case{"converge fall.toml --at 7", 2, "up to the duration of 0.5 s"},
       Case{"converge fall.toml --budget no", 2, "--budget"},

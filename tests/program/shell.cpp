@@ -101,7 +101,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a file with the n
   CHECK(option.says("did you mean '--still'"));
   CHECK(option.lines() == 1);
   const Outcome scene = tumbleRun(scratch, "render bilard.toml");
-  CHECK(scene.code == 3);
+  CHECK(scene.code == 5);
   CHECK(scene.says("did you mean 'billiard.toml'"));
   CHECK(tumbleRun(scratch, "render bilard").says("did you mean 'billiard.toml'"));
 }
