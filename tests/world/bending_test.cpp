@@ -198,43 +198,6 @@ TEST_CASE("a lattice is a solid whose Poisson's ratio is a quarter") {
   CHECK_FALSE(hasLattice(bar));
 }
 
-// Oracle: conservation. A free box keeps its momentum to rounding, and its spin to the order of the
-// step: halved steps halve what is lost.
-TEST_CASE("a soft box that tumbles keeps its momentum, and its spin to first order") {
-  const bool rubber = GENERATE(true, false);
-  double off[2] = {};
-  for (int k = 0; k < 2; ++k) {
-    const SoftDef box{.cells = {2, 2, 2},
-                      .size = {0.2, 0.3, 0.25},
-                      .density = 1000.0,
-                      .law = rubber ? SoftLaw::NeoHookean : SoftLaw::Matching,
-                      .solid = solidityOf(1e5, rubber ? 0.4 : 0.0, 10.0)};
-    WorldDef def;
-    def.gravity.setZero();
-    def.duration = 0.25;
-    def.stepping.step = 1.0 / (200.0 * (k + 1));
-    def.stepping.linearisations = 30;
-    addSoft(def, box, Vec3::Zero(), 0.0);
-    for (BodyDef& body : def.bodies)
-      body.velocity = Vec3(0.5, 1.0, 0.0) + Vec3(1.0, 2.0, 0.5).cross(body.position);
-    World world(def);
-    world.advance(def.duration);
-    REQUIRE_FALSE(world.report().stopped);
-    CHECK(world.report().certificate.momentum_error <= 1e-12);
-    CHECK(world.report().certificate.energy_balance_error <= 1e-10);
-    Vec3 spin = Vec3::Zero(), start = Vec3::Zero();
-    const Sample end = world.sample(def.duration);
-    for (std::size_t i = 0; i < def.bodies.size(); ++i) {
-      spin += *def.bodies[i].mass * end.bodies[i].x.cross(end.bodies[i].v);
-      start += *def.bodies[i].mass * def.bodies[i].position.cross(def.bodies[i].velocity);
-    }
-    off[k] = (spin - start).norm() / start.norm();
-  }
-  CAPTURE(rubber, off[0], off[1]);
-  CHECK(off[0] < 0.05);
-  CHECK(off[0] / off[1] == Approx(2.0).epsilon(0.15));
-}
-
 namespace {
 
 /// By how much [m] a soft cube that flies and turns misses the way of the rigid one, at most.
@@ -267,10 +230,9 @@ double missesRigid(SoftLaw law, double young, double step) {
 
 }  // namespace
 
-// Oracle: the rigid cube, whose axes are all principal: it turns steadily. Implicit Euler slows
-// turns by h: measured 5.7 to 6.5 mm and, in half the steps, 3.0 to 4.3 mm, whatever the stiffness,
-// where linear forces are seldom found anew; without Newton's method where they twist it, up to
-// 0.24 m.
+// Oracle: the rigid cube, whose axes are all principal: it turns steadily. What its spin stretches
+// it by goes with one over its stiffness: measured 43 m Pa/E at most, whatever the step, and 1.2e-7
+// m for the stiffest; 6 mm, and half of it in half the steps, where the implicit step turns it.
 TEST_CASE("jello that tumbles goes the way of the rigid cube, however stiff it is") {
   const SoftLaw law =
       GENERATE(SoftLaw::Corotated, SoftLaw::NeoHookean, SoftLaw::Lattice, SoftLaw::Matching);
@@ -278,8 +240,8 @@ TEST_CASE("jello that tumbles goes the way of the rigid cube, however stiff it i
   const double whole = missesRigid(law, young, 1.0 / 120.0),
                half = missesRigid(law, young, 1.0 / 240.0);
   CAPTURE(static_cast<int>(law), young, whole, half);
-  CHECK(whole <= 0.007);
-  CHECK(half <= 0.0047);
+  CHECK(whole <= 50.0 / young + 3e-7);
+  CHECK(half <= 50.0 / young + 3e-7);
 }
 
 // Oracle: invariants of one coupled problem: a ball 60,000 times as heavy as a point of the cloth

@@ -55,6 +55,9 @@ void readPart(const Model& model, std::vector<int>& pointOf, BendingPart& part) 
     part.mover.push_back(model.fixed(i) ? -1 : static_cast<int>(part.moving.size()));
     if (!model.fixed(i)) part.moving.push_back(point);
   }
+  for (const Joint& joint : model.joints)
+    for (const int i : {joint.a, joint.b})
+      part.joined = part.joined || std::binary_search(part.bodies.begin(), part.bodies.end(), i);
   findEdges(pointOf, part);
   findStructure(part);
   part.own.resize(part.bodies.size());
@@ -197,6 +200,7 @@ void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h) {
     if (part.mover[p] < 0) continue;
     part.star[p] += h * body.invM * body.force;
     part.side[part.mover[p]] = body.P + h * body.force + part.constant[p];
+    if (!part.lean.empty()) part.side[part.mover[p]] += body.M * part.lean[p];
   }
   // Points that are led along have a velocity already.
   for (std::size_t e = 0; e < part.edges.size(); ++e) {

@@ -31,14 +31,18 @@ struct BendingPart {
   std::vector<Vec3> constant;  ///< [N·s] c
   std::vector<Vec3> about;     ///< [m/s] u
   std::vector<Vec3> wayOut;    ///< [m/s] w per point, if any is moved out within the step
-  std::vector<Vec3> side;      ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
-  std::vector<Vec3> star;      ///< [m/s] per point: v without λ
-  double stored = 0.0;         ///< [J] at the start of the step
-  double reached = 0.0;        ///< [J] where the velocities found lead,
+  std::vector<Vec3> lean;  ///< [m/s] per point: what v⁻ gains as a chord, if it flies and turns
+  std::vector<Vec3> side;  ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
+  std::vector<Vec3> star;  ///< [m/s] per point: v without λ
+  double stored = 0.0;     ///< [J] at the start of the step
+  double reached = 0.0;    ///< [J] where the velocities found lead,
   std::vector<Vec3> reachedAt;  ///< [m] places of the points there
   double turned = 0.0;          ///< [m/s] by which the last linearisation changed the motion
   bool anew = false;            ///< linear forces are others than when islands were solved last
+  bool joined = false;          ///< a joint holds one of its points
   bool touched = false;         ///< an island with contacts has it
+  bool held = false;            ///< something that stands holds that island
+  bool placed = false;          ///< its points go where reachedAt says
   bool newton = false;          ///< is linearised until Newton's method ends
   bool fresh = false;           ///< velocities may be others than those of its books
   bool costly = false;          ///< a factor of A costs more than a number of sweeps
@@ -48,6 +52,8 @@ struct BendingPart {
   std::unique_ptr<BlockStructure> structure;  ///< of A
   BlockCholesky<3> factor;
 
+  /// v⁻ as the step takes it, but for what a body has of it.
+  Vec3 leanOf(std::size_t p) const { return lean.empty() ? Vec3(Vec3::Zero()) : lean[p]; }
   bool movesOut() const { return !wayOut.empty(); }
   /// Whether none of its points is led along.
   bool flies() const { return moving.size() == bodies.size(); }

@@ -11,6 +11,7 @@ bool Stepping::bend(double h) {
   work_.crushed.clear();
   if (points_.inStep) findWaysOut(h);
   memory_.unswept.resize(memory_.bendings->parts.size());
+  memory_.chords.resize(memory_.bendings->parts.size(), 0);
   for (std::size_t k = 0; k < memory_.unswept.size(); ++k) {
     BendingPart& part = memory_.bendings->parts[k];
     std::fill(part.about.begin(), part.about.end(), Vec3::Zero());
@@ -19,6 +20,7 @@ bool Stepping::bend(double h) {
     int& left = memory_.unswept[k].left;
     part.sweeps = model_.def.stepping.bent > 0.0 && part.costly && left == 0;
     left = std::max(left - 1, 0);
+    lean(part, h);
     part.stored = linearise(part, memory_.bendings->pointOf, state_.bodies, h);
     for (std::size_t p = 0; p < part.bodies.size(); ++p)
       part.swept[p] = state_.bodies[part.bodies[p]].v;
@@ -145,45 +147,6 @@ void Stepping::coupleBent(Island& island) {
   });
 }
 
-bool Stepping::isHeld(const Island& island, const Vec3& falls, double h) const {
-  const auto stands = [&](int i) {
-    return i == static_cast<int>(state_.bodies.size()) || model_.fixed(i);
-  };
-  const auto holds = [&](const Touch& touch) {
-    const Contact& c = touch.contact;
-    const double sinks = c.point.n.dot(stands(c.a) ? Vec3(-falls) : falls);
-    return !touch.impulse.isZero(0.0) ||
-           gapAhead(c.point, {c.b, c.a}, h) < h * sinks - tolerance_.drift;
-  };
-  return std::any_of(island.links.begin(), island.links.end(), [&](Link link) {
-    const auto [b, a] = ends(link);
-    if (!stands(a) && !stands(b)) return false;
-    if (!isPair(link)) return true;
-    const std::vector<Touch>& touches = memory_.pairs[link].touches;
-    return std::any_of(touches.begin(), touches.end(), holds);
-  });
-}
-
-/// What nothing that stands holds moves as a whole by the parabola of what is free, whatever its
-/// bodies do to each other: all go by  h v⁺ − ½ h² ΣF/ΣM,  a shift that changes no way of one
-/// against another.
-void Stepping::flyBent(Island& island, double h) {
-  double mass = 0.0;
-  Vec3 force = Vec3::Zero();
-  for (const int i : island.movers) {
-    const RigidBody& body = state_.bodies[i];
-    if (!work_.touched[i]) continue;
-    if (isDriven(i)) return;
-    mass += body.M;
-    force += body.force;
-  }
-  bool pinned = false;
-  forBent(island, [&](const BendingPart& part) { pinned = pinned || !part.flies(); });
-  const Vec3 falls = 0.5 * h / mass * force;
-  if (pinned || isHeld(island, falls, h)) return;
-  for (const int i : island.movers) work_.falls[i] = falls;
-}
-
 /// Whether linear forces twist what flies and turns more than it swings. Forces of energies at the
 /// end of a step have no moment there; linear ones leave one, which a stiff solid that tumbles
 /// keeps as a false spin.
@@ -218,6 +181,17 @@ bool Stepping::twists(const BendingPart& part, std::span<const Vec3> v, std::spa
          moment.norm() > std::max(kTwist * turned * spin, kFlight * flight);
 }
 
+/// What a point gains [J] because a step takes its velocity before it for another: beside the
+/// change itself, work of contacts and winds is booked by the velocity that it has.
+double Stepping::leaned(const BendingPart& part, std::size_t p, const Vec3& impulse, const Vec3& v,
+                        double h) const {
+  if (part.lean.empty()) return 0.0;
+  const RigidBody& body = state_.bodies[part.bodies[p]];
+  const Vec3& lean = part.lean[p];
+  const Vec3 others = body.M * (v - body.v - lean - h * model_.def.gravity) - impulse;
+  return 0.5 * lean.dot(body.M * (2.0 * body.v + lean) + others);
+}
+
 /// What the implicit step takes [J], by the impulses p of what bends and its energies alone: with
 /// v̄ the mean of the velocities before and after, a point gains p·v̄ while the energies give
 /// −ΔE; gravity acts on the way h v⁺, which is ½ h Δv longer than that of v̄, less what the whole
@@ -233,7 +207,7 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   for (std::size_t p = 0; p < part.bodies.size(); ++p) {
     const RigidBody& body = state_.bodies[part.bodies[p]];
     const Vec3 impulse = part.constant[p] - pull[p];
-    const Vec3 before = work_.before[part.bodies[p]].head<3>();
+    const Vec3 before = work_.before[part.bodies[p]].head<3>() + part.leanOf(p);
     if (part.mover[p] < 0) {
       books.led -= impulse.dot(body.v);
       books.external -= impulse;
@@ -243,6 +217,7 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
         impulse.dot(0.5 * (before + v[p])) -
         h * body.M * model_.def.gravity.dot(0.5 * (v[p] - before) - work_.falls[part.bodies[p]]);
     books.size += 0.5 * body.M * (v[p].squaredNorm() + before.squaredNorm());
+    books.turned += leaned(part, p, impulse, v[p], h);
     if (!part.movesOut()) continue;
     gained += impulse.dot(part.wayOut[p]);
     books.movedOut -= (impulse + h * body.M * model_.def.gravity).dot(part.wayOut[p]);
@@ -319,7 +294,7 @@ void Stepping::bookBent() {
   for (const BentBooks& books : bentBooks_) {
     state_.externalImpulse += books.external;
     report_.certificate.work_of_forces += books.led;
-    report_.certificate.energy_lost_bending += books.taken;
+    report_.certificate.energy_lost_bending += books.taken - books.turned;
     report_.certificate.energy_added_repair += books.movedOut;
   }
 }

@@ -200,6 +200,7 @@ void Stepping::save() {
   start.known.lasting = memory_.lasting;
   start.islands = memory_.islands;
   start.pushes = memory_.pushes;
+  start.chords = memory_.chords;
   start.certificate = report_.certificate;
   start.externalImpulse = state_.externalImpulse;
   start.events = report_.events.size();
@@ -217,6 +218,7 @@ void Stepping::restore() {
   memory_.lasting = start.known.lasting;
   memory_.islands = start.islands;
   memory_.pushes = start.pushes;
+  memory_.chords = start.chords;
   report_.certificate = start.certificate;
   state_.externalImpulse = start.externalImpulse;
   report_.events.resize(start.events);

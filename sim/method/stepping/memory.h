@@ -97,6 +97,7 @@ struct StepStart {
   NearPairs known;
   std::vector<IslandMemory> islands;
   std::vector<Push> pushes;
+  std::vector<char> chords;
   Certificate certificate;
   Vec3 externalImpulse = Vec3::Zero();
   std::size_t events = 0;
@@ -175,8 +176,10 @@ struct SteppingMemory {
   std::vector<int> tied;               ///< bodies that more acts on than contacts, gravity and wind
   std::shared_ptr<Bendings> bendings;  ///< once dealt out
   std::vector<Unswept> unswept;        ///< per part of what bends
-  std::vector<FreeSpin> spins;         ///< per body
-  std::vector<Push> pushes;            ///< per body
+  std::vector<char> chords;  ///< per part: its velocities are those of chords, as an implicit step
+                             ///< leaves them
+  std::vector<FreeSpin> spins;             ///< per body
+  std::vector<Push> pushes;                ///< per body
   std::vector<std::vector<Convex>> parts;  ///< per body, once asked for
   SteppingWork work;
   long looks = 0;

@@ -173,6 +173,7 @@ void Stepping::moveTo(double t1, double h) {
   }
   if (report_.stopped) return stop(report_.reason);
   if (!work_.crushed.empty()) return stop(work_.crushed);
+  if (bends()) turnBent(h);
   applyTwists(h);
   recordEvents(t1);
   moveBodies(h);
@@ -364,7 +365,11 @@ void Stepping::turn(RigidBody& body, const Vec3& L, double h) const {
       body.x += h * body.v;
       body.q = rotated(body.q, h * body.omega);
     } else if (model_.bends(static_cast<int>(i))) {
-      body.x += h * (body.v - work_.falls[i]);
+      const BendingPart& part = memory_.bendings->partWith(i);
+      if (part.placed)
+        body.x = part.reachedAt[memory_.bendings->pointOf[i]];
+      else
+        body.x += h * (body.v - work_.falls[i]);
     } else if (work_.touched[i] && work_.smooth[i]) {
       const Push& push = memory_.pushes[i];
       body.x += 0.5 * h * body.invM * (push.P0 + body.P);

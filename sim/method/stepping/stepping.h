@@ -451,6 +451,7 @@ class Stepping {
     double led = 0.0;              ///< [J] work of points that are led along
     double size = 0.0;             ///< [J] of the energies that make it up
     double movedOut = 0.0;         ///< [J] that the way out of solids gives
+    double turned = 0.0;           ///< [J] that it gets back where it turns as a whole
     Vec3 external = Vec3::Zero();  ///< [N·s] on the points that move, by those
     bool astray = false;           ///< linear forces twist what flies
 
@@ -458,6 +459,8 @@ class Stepping {
     /// about the motion that they give they do not, but for what is left of Newton's method.
     bool gained() const;
   };
+  double leaned(const BendingPart& part, std::size_t p, const Vec3& impulse, const Vec3& v,
+                double h) const;
   BentBooks booksOf(const BendingPart& part, double h) const;
   bool gains(double h);
   bool anyByNewton() const;
@@ -474,10 +477,16 @@ class Stepping {
     }
   }
   bool keepsBent(const Island& island, double h);
+
+  // whole.cpp: what flies as a whole.
   /// Whether what stands pushes an island or, if that moved by h falls less than its velocities
   /// say, would be met.
   bool isHeld(const Island& island, const Vec3& falls, double h) const;
   void flyBent(Island& island, double h);
+  void lean(BendingPart& part, double h);
+  void turnBent(double h);
+  Vec3 momentOn(const BendingPart& part, const Vec3& centre, bool& pushed) const;
+  void turnWhole(BendingPart& part, double h);
 
   // found_inside.cpp: points of what bends, by plans that do not foresee contacts.
   bool findsInside(std::size_t pair) const {
