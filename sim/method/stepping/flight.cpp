@@ -45,12 +45,15 @@ void Stepping::coast(int i, double h) {
     work += turning - 0.5 * omega.dot(body.Ibody * omega);
     return;
   }
-  // Half of the decay, the free turn, the other half (Strang).
+  // Half of the decay, the free turn, the other half (Strang); the turn by the mean of what decays,
+  // which about a principal axis is where it comes to, however soon it stops.
   const Mat3 I = body.R * body.Ibody * body.R.transpose();
   const double turningBefore = 0.5 * omega.dot(I * omega);
-  body.L = I * (step.halfLeft * omega);
+  const Vec3 half = I * (step.halfLeft * omega);
+  body.L = I * (step.Iinv * (I * omega));
   updateVelocities(body);
   spin(i, h);
+  body.L = half;
   updateDerived(body);
   body.L =
       body.R * body.Ibody * body.R.transpose() * (dragStep(law, body, h).halfLeft * body.omega);
