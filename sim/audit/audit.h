@@ -50,9 +50,8 @@ class Audit {
     bool held = false;               ///< by a fixed body, a joint to one or to the world
     bool unlike = false;             ///< by several that move unlike
     bool springy = false;            ///< contacts in it are springs
-    bool lost = false;               ///< loads along the way are unknown
-    bool bends = false;              ///< its spin changes in implicit steps
-    bool swings = false;             ///< springs in it swing faster than the way is known
+    bool lost = false;               ///< work of loads along the way is unknown,
+    bool unseen = false;             ///< and so are their impulses
     double mass = 0.0, gain = 0.0;   ///< [kg], [J] Δ(T + V) − work of loads
     Vec3 P = Vec3::Zero(), L = Vec3::Zero();  ///< [N s], [N m s] not explained by loads
     Vec3 X0 = Vec3::Zero(), X1 = Vec3::Zero(), P0 = Vec3::Zero(), P1 = Vec3::Zero();
@@ -69,17 +68,21 @@ class Audit {
 
   void addWays();
 
-  // balance.cpp
+  // impulses.cpp
+  double sameWorkOf(int body) const;
   void findSwings();
+  void findStops(const LinearDrag& drag);
+  void addLoads();
+  void addBent();
+  void addElement(const Element& element, ElementTerms& start, ElementTerms& end);
+
+  // balance.cpp
   void group(const std::vector<Nearness::Pair>& touched);
   void join(int a, int b);
   void findFoot(int point, int solid);
   void joinBent(const std::vector<int>& points);
   void holdBent(const std::vector<int>& points);
   void holdBy(int body, int fixed);
-  void addLoads();
-  void addBent();
-  void addElement(const Element& element, ElementTerms& start, ElementTerms& end);
   void addStates();
   void addTurns();
   double workOfFixed(int root) const;
@@ -99,9 +102,9 @@ class Audit {
     return bodies_[body].v.isZero(0.0) && bodies_[body].omega.isZero(0.0);
   }
   void addMotions();
+  double turnOf(const ElasticBody& body) const;
   void countCrossings();
   void addKinetic(std::span<const RigidBody> bodies);
-  double sameWorkOf(int body) const;
   double relative(double open, double has, double wouldHave) const;
 
   const Model& model_;
@@ -133,6 +136,7 @@ class Audit {
   std::vector<Vec3> impulse_, moment_;          ///< [N s], [N m s] of loads in this part
   std::vector<char> pushed_;  ///< per body whether anything may have pushed it, or a joint holds it
   std::vector<Vec3> bentFirst_, bentMore_;  ///< [N s] of what bends; see addBent
+  std::vector<Vec3> inside_;                ///< what of impulse_ it is
   std::vector<Vec3> toSolid_;  ///< [m] per point of what bends: from it to where it is pushed
   std::vector<double> work_;   ///< [J] of loads in this part
   Loads loads_;

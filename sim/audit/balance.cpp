@@ -109,11 +109,10 @@ void Audit::joinBent(const std::vector<int>& points) {
   }
 }
 
-/// held by those that do not; an implicit step turns it less than its forces would.
+/// held by those that do not.
 void Audit::holdBent(const std::vector<int>& points) {
   const auto moving = std::find_if(points.begin(), points.end(), [&](int i) { return moves(i); });
   if (moving == points.end()) return;
-  groups_[rootOf(*moving)].bends = true;
   for (const int i : points)
     if (!moves(i)) holdBy(*moving, i);
 }
@@ -123,128 +122,6 @@ RigidBody Audit::fixedAt(int body, double t) const {
   fixed.x += t * fixed.v;
   if (!fixed.omega.isZero(0.0)) fixed.q = rotated(fixed.q, t * fixed.omega);
   return fixed;
-}
-
-/// Work [J] of the loads on a body that are the same all the way: winds and point forces.
-double Audit::sameWorkOf(int i) const {
-  double sum = 0.0;
-  for (const Force& force : model_.def.forces) {
-    const auto* wind = std::get_if<UniformWind>(&force);
-    const auto* point = std::get_if<PointForce>(&force);
-    if (wind && (wind->body == kNoBody || wind->body == i))
-      sum += wind->force.dot(now_[i].x - last_[i].x);
-    if (point && point->body == i)
-      sum += point->force.dot(now_[i].x + now_[i].q * point->point_B - last_[i].x -
-                              last_[i].q * point->point_B);
-  }
-  return sum;
-}
-
-/// The way between two ends is a cubic: of a spring that swings faster, or of a damper that stops
-/// what it moves within it, neither impulse nor loss is known.
-void Audit::findSwings() {
-  constexpr double kSwing = 0.3, kLoss = 0.1;  // h² k/m and h c/m
-  for (const Force& force : model_.def.forces) {
-    const auto* spring = std::get_if<Spring>(&force);
-    if (!spring) continue;
-    for (const int i : {spring->a, spring->b}) {
-      if (i == kNoBody || !moves(i)) continue;
-      Group& g = groups_[rootOf(i)];
-      g.swings = g.swings || h_ * h_ * spring->stiffness * bodies_[i].invM > kSwing;
-      g.lost = g.lost || h_ * spring->damping * bodies_[i].invM > kLoss;
-    }
-  }
-}
-
-/// ∫F dt, ∫τ dt and work of the loads, by three Gauss nodes.
-void Audit::addLoads() {
-  constexpr double kNode = 0.1127016653792583, kEnds = 5.0 / 18.0, kMiddle = 8.0 / 18.0;
-  const std::size_t n = bodies_.size();
-  impulse_.assign(n, Vec3::Zero());
-  moment_.assign(n, Vec3::Zero());
-  work_.assign(n, 0.0);
-  if (alone_.empty() || h_ == 0.0) return;  // what bends is a potential, as gravity is
-  if (many_ && !winds_) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (moves(i)) work_[i] = sameWorkOf(i);
-    return;
-  }
-  findSwings();
-  std::vector<BodyPath>& paths = paths_;
-  paths.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    const int body = static_cast<int>(i);
-    paths.push_back(moves(body) ? BodyPath(bodies_[i], last_[i], now_[i], h_, struck_)
-                                : BodyPath(fixedAt(body, t_ - h_), h_));
-    if (!winds_ && moves(body) && paths.back().lost()) groups_[rootOf(body)].lost = true;
-  }
-  points_.resize(n);
-  for (const auto& [share, weight] :
-       {std::pair(kNode, kEnds), {0.5, kMiddle}, {1.0 - kNode, kEnds}}) {
-    for (std::size_t i = 0; i < n; ++i) points_[i] = paths[i].at(share);
-    loads_.sum(model_.def.forces, bodies_, points_);
-    // Torques count about the centre of mass of a group.
-    centre_.assign(n, Vec3::Zero());
-    for (std::size_t i = 0; i < n; ++i)
-      if (moves(i)) centre_[rootOf(i)] += bodies_[i].M / groups_[rootOf(i)].mass * points_[i].x;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!moves(i)) continue;
-      const Vec3 arm = points_[i].x - centre_[rootOf(i)];
-      impulse_[i] += h_ * weight * loads_.force[i];
-      if (!bodies_[i].particle) moment_[i] += h_ * weight * loads_.torque[i];
-      if (groups_[rootOf(i)].count > 1)
-        groups_[rootOf(i)].L -= h_ * weight * arm.cross(loads_.force[i]);
-      work_[i] += h_ * weight * loads_.power[i];
-    }
-  }
-}
-
-/// What an implicit step gives the points of what bends, where they were at its start: forces at
-/// its end, linear about its start, or about its end, or between the two: what no solid and no
-/// joint holds tells by how much.
-void Audit::addBent() {
-  std::vector<Vec3>&first = bentFirst_, &more = bentMore_;
-  ElementTerms start, end;
-  for (const Force& force : model_.def.forces) {
-    const Bending* bending = std::get_if<Bending>(&force);
-    if (!bending) continue;
-    const std::vector<int>& points = bending->body->bodies;
-    first.assign(bodies_.size(), Vec3::Zero());
-    more.assign(bodies_.size(), Vec3::Zero());
-    for (const Element& element : bending->body->elements) addElement(element, start, end);
-    double both = 0.0, size = 0.0;
-    for (const int i : points) {
-      if (!moves(i) || pushed_[i]) continue;
-      const Vec3 gained =
-          now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
-      both += more[i].dot(gained - first[i]);
-      size += more[i].squaredNorm();
-    }
-    const double share = both > 0.0 ? std::min(both / size, 1.0) : 0.0;
-    for (const int i : points) impulse_[i] += first[i] + share * more[i];
-  }
-}
-
-void Audit::addElement(const Element& element, ElementTerms& start, ElementTerms& end) {
-  ElementPlaces from, to;
-  from.fill(Vec3::Zero());
-  to.fill(Vec3::Zero());
-  ElementVector way = ElementVector::Zero();
-  for (int k = 0; k < element.count; ++k) {
-    const int i = element.points[k];
-    from[k] = last_[i].x;
-    to[k] = now_[i].x;
-    way.segment<3>(3 * k) = to[k] - from[k];
-  }
-  differentiate(element.energy, from, ElementAsk::Projected, start);
-  differentiate(element.energy, to, ElementAsk::Forces, end);
-  const ElementVector linear = start.gradient + elementTimes(start.hessian, way, element.count),
-                      damped = elementTimes(start.damping, way, element.count);
-  for (int k = 0; k < element.count; ++k) {
-    const auto at = [k](const ElementVector& v) { return v.segment<3>(3 * k); };
-    bentFirst_[element.points[k]] -= h_ * at(linear) + at(damped);
-    bentMore_[element.points[k]] -= h_ * (at(end.gradient) - at(linear));
-  }
 }
 
 /// What bends is booked with the first of its points that moves, and asked of no other.
@@ -269,6 +146,22 @@ double Audit::potentialOf(int i, std::span<const Recorded> states) const {
   return sum;
 }
 
+/// Angular momentum [N m s] of what bends about the centre of its points that move.
+double Audit::turnOf(const ElasticBody& body) const {
+  double mass = 0.0;
+  Vec3 x = Vec3::Zero(), P = Vec3::Zero(), L = Vec3::Zero();
+  for (const int i : body.bodies) {
+    if (!moves(i)) continue;
+    mass += bodies_[i].M;
+    x += bodies_[i].M * now_[i].x;
+    P += now_[i].P;
+  }
+  if (mass == 0.0) return 0.0;
+  for (const int i : body.bodies)
+    if (moves(i)) L += (now_[i].x - x / mass).cross(now_[i].P - bodies_[i].M / mass * P);
+  return L.norm();
+}
+
 /// T + V of each body, and what the scene has at most.
 void Audit::addMotions() {
   double kinetic = 0.0, momentum = 0.0, spin = 0.0;
@@ -283,6 +176,8 @@ void Audit::addMotions() {
     momentum += P;
     spin += r.L.norm() + kLever * nearness_.radius(i) * P;
   }
+  for (const Force& force : model_.def.forces)
+    if (const Bending* bending = std::get_if<Bending>(&force)) spin += turnOf(*bending->body);
   kineticMax_ = std::max(kineticMax_, kinetic);
   momentumMax_ = std::max(momentumMax_, momentum);
   spinMax_ = std::max(spinMax_, spin);
@@ -333,7 +228,8 @@ double Audit::workOfFixed(int root) const {
   const RigidBody start = fixedAt(g.fixed, t_ - h_), middle = fixedAt(g.fixed, t_ - 0.5 * h_);
   const double work = g.P.dot(start.v);
   if (start.omega.isZero(0.0)) return work;
-  Vec3 moment = Vec3::Zero();
+  Vec3 moment = Vec3::Zero(), turn = Vec3::Zero();
+  double momenta = 0.0, levers = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     int r = static_cast<int>(i);
     while (root_[r] != r) r = root_[r];
@@ -341,15 +237,23 @@ double Audit::workOfFixed(int root) const {
     const RigidBody& body = bodies_[i];
     const Recorded &p = last_[i], &q = now_[i];
     const Vec3 loads = h_ * body.M * model_.def.gravity + impulse_[i];
+    const Vec3 way = 0.5 * (p.x + q.x) + h_ / 12.0 * body.invM * (p.P - q.P);
     // They act along its way, or where it was at the start of an implicit step, whatever shift it
     // had besides.
     const bool bends = model_.bends(static_cast<int>(i));
     const Vec3 from = bends ? start.x : middle.x;
-    const Vec3 at = bends ? p.x : Vec3(0.5 * (p.x + q.x) + h_ / 12.0 * body.invM * (p.P - q.P));
+    const Vec3 at = bends ? p.x : way;
+    turn += q.L - p.L - moment_[i] + (q.x - middle.x).cross(q.P) - (p.x - middle.x).cross(p.P) -
+            (way - middle.x).cross(loads - inside_[i]);
+    momenta += p.P.norm();
+    levers += (p.x - middle.x).norm() * p.P.norm() + p.L.norm();
     moment += q.L - p.L - moment_[i] + ((bends ? p.x : q.x) - from).cross(q.P) -
               (p.x - from).cross(p.P) - (at - from).cross(loads);
     if (bends) moment += toSolid_[i].cross(q.P - p.P - loads);
   }
+  // What gained neither momentum nor spin was pushed by nothing, whatever went on inside.
+  constexpr double kNone = 1e-9;
+  if (g.P.norm() <= kNone * momenta && turn.norm() <= kNone * levers) return 0.0;
   return work + moment.dot(start.omega);
 }
 
@@ -370,9 +274,9 @@ void Audit::settle() {
       told = told && known;
       if (known) book(root, led ? workOfFixed(root) : 0.0);
     }
-    if (g.held || g.lost || g.swings || (many_ && !winds_)) continue;
+    if (g.held || g.unseen || (many_ && !winds_)) continue;
     driftP_[i] += bodies_[i].M / g.mass * g.P;
-    if (!g.bends) driftL_[i] += bodies_[i].M / g.mass * g.L;
+    driftL_[i] += bodies_[i].M / g.mass * g.L;
   }
   if (!told) ++untold_;
 
