@@ -95,6 +95,7 @@ BentDef addBent(Section& section, const BentTable& bent, const std::vector<Vec3>
     section.findings().note(bodies.nextPath(), section.spot());
     if (pinned && !stands) pin(section, bent, entry.def, body->bodies.back(), scene);
     bodies.add(std::move(entry), section.spot(), section);
+    if (!section.good()) return {};  // what is wrong with a point's name is so with all
   }
   fill(*body, first);
   std::vector<Force>& forces = scene.world.forces;

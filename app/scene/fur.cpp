@@ -33,12 +33,12 @@ void readStrand(Section& section, StrandDef& strand) {
 }
 
 void readArea(Section& section, RootArea& area) {
+  double degrees = 180.0;
+  section.read("spread", degrees, {0.0, 180.0, true, "degrees"});
   section.read("towards", area.towards, any({}));
   if (area.towards.stableNorm() < 1e-9)
     return section.complain("towards", "expected a direction, three numbers that are not all zero");
   area.towards.stableNormalize();
-  double degrees = 180.0;
-  section.read("spread", degrees, {0.0, 180.0, true, "degrees"});
   if (degrees < 180.0) area.least = std::cos(degrees * kRadians);
 }
 

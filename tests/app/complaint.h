@@ -23,4 +23,14 @@ inline std::string complaint(const std::string& text) {
   return "";
 }
 
+/// How many complaints there are of a scene.
+inline std::size_t countOfComplaints(const std::string& text) {
+  try {
+    parseScene(text, "s.toml");
+  } catch (const SceneError& error) {
+    return error.diagnostics().size();
+  }
+  return 0;
+}
+
 }  // namespace tumble

@@ -19,6 +19,14 @@ const std::string kSoft = "[world]\n[[soft]]\nname = \"s\"\n";
 
 }  // namespace
 
+TEST_CASE("two cloths of one name are told once, not once a point") {
+  const std::string twice =
+      kCloth + kGrid + "[[cloth]]\nname = \"c\"\n" + kGrid + "position = [0, 3, 0]\n";
+  CAPTURE(twice);
+  CHECK(complaint(twice).find("already") != std::string::npos);
+  CHECK(countOfComplaints(twice) == 1);
+}
+
 TEST_CASE("a cloth is points, a force between them and a surface") {
   const Scene scene = parseScene(
       kCloth + kGrid + "density = 0.5\nthickness = 0.02\npins = [[0, 0], [3, 2]]\nfriction = 0.4\n",

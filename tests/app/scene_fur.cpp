@@ -110,6 +110,9 @@ TEST_CASE("wrong furs are told where and what to do") {
   CHECK(complaint(ballWith("strands = 3\n")) ==
         "s.toml:8:1: error: fur.hair.length: missing; of a strand in m");
   CHECK(complaintSays(ballWith("length = 0.1\n"), "strands: missing; how many"));
+  const std::string nowhere = ballWith(kFewStrands + "towards = [0, 0, 0]\nspread = 30\n");
+  CHECK(complaintSays(nowhere, "expected a direction"));
+  CHECK(countOfComplaints(nowhere) == 1);
   CHECK(complaintSays(ballWith("strands = 3\nlength = 0.1\npoints = 2\n"), "s.toml:13:10"));
   CHECK(complaintSays(ballWith("strands = 3\nlength = -0.1\n"), "s.toml:12:10"));
   CHECK(complaintSays(ballWith("strands = 2500\npoints = 10\nlength = 0.1\n"),
