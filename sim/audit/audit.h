@@ -54,6 +54,7 @@ class Audit {
     bool unseen = false;             ///< and so are their impulses
     double mass = 0.0, gain = 0.0;   ///< [kg], [J] Δ(T + V) − work of loads
     Vec3 P = Vec3::Zero(), L = Vec3::Zero();  ///< [N s], [N m s] not explained by loads
+    Vec3 turn = Vec3::Zero();  ///< [N m s] what it had about its centre, if several flew
     Vec3 X0 = Vec3::Zero(), X1 = Vec3::Zero(), P0 = Vec3::Zero(), P1 = Vec3::Zero();
   };
   /// What bodies that ever met have gained.

@@ -216,9 +216,13 @@ void Audit::addTurns() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Group& g = groups_[rootOf(i)];
     if (!moves(i) || g.count < 2 || g.held) continue;
-    g.L += (now_[i].x - g.X1).cross(now_[i].P - bodies_[i].M * g.P1) -
-           (last_[i].x - g.X0).cross(last_[i].P - bodies_[i].M * g.P0);
+    const Vec3 before = (last_[i].x - g.X0).cross(last_[i].P - bodies_[i].M * g.P0);
+    g.L += (now_[i].x - g.X1).cross(now_[i].P - bodies_[i].M * g.P1) - before;
+    g.turn += before + last_[i].L;
   }
+  double spin = 0.0;
+  for (const Group& g : groups_) spin += g.turn.norm();
+  spinMax_ = std::max(spinMax_, spin);
 }
 
 /// What a fixed body that moves gives the group it touches: the momentum that nothing else gave, in
