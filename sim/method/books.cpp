@@ -1,7 +1,9 @@
 // The grid of steps, the trail of the motion, and the books behind the certificate.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <tuple>
+#include <variant>
 
 #include "sim/body/force.h"
 #include "sim/joint/joint_rows.h"
@@ -37,6 +39,18 @@ double relative(double open, double has, double wouldHave) {
 }
 
 }  // namespace
+
+void Certificate::add(const Certificate& part) {
+  for (const auto& [key, number] : kCertificateFields) {
+    const bool largest = std::string_view(key).starts_with("max_");
+    std::visit(
+        [&](auto field) {
+          auto& own = this->*field;
+          own = largest ? std::max(own, part.*field) : own + part.*field;
+        },
+        number);
+  }
+}
 
 const char* eventName(EventKind kind) {
   switch (kind) {

@@ -65,6 +65,10 @@ struct Certificate {
   double audit_max_penetration = 0.0;                         ///< [m] at the end of any part
   double audit_penetration_between = 0.0;                     ///< [m] in the midst of any part
   double audit_joint_gap = 0.0;                               ///< [m]
+
+  /// Takes in what bodies did beside others: counts and energies add up, of each `max_` the larger
+  /// stays.
+  void add(const Certificate& part);
 };
 
 /// A number of the certificate and its key in summary.json and in tables.

@@ -21,14 +21,6 @@
 
 namespace tumble {
 
-/// A part of a step that was divided for some bodies alone.
-struct ClusterPart {
-  double t0 = 0.0, t1 = 0.0;  ///< [s]
-  std::vector<int> bodies;
-  std::vector<RigidBody> start, end;  ///< these bodies, as in Segment
-  std::vector<Contact> contacts;      ///< theirs
-};
-
 /// A stretch of motion without an event in it, kept so that any instant inside can be looked at.
 struct Segment {
   double t0 = 0.0, t1 = 0.0;     ///< [s]

@@ -2,6 +2,7 @@
 // through the step by a clock of its own, divided by its own hits; all others take the step whole,
 // and nothing that happens in one cluster changes a bit of another.
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "sim/body/force.h"
@@ -110,6 +111,7 @@ void Stepping::dealOut() {
   clusters.solids.resize(count);
   clusters.before.resize(count);
   clusters.after.resize(count);
+  clusters.books.assign(count, {});
   work_.carriers.clear();
   for (int i = 0; i < model_.count(); ++i) {
     const RigidBody& body = state_.bodies[i];
@@ -141,13 +143,27 @@ void Stepping::dealOut() {
     clusters.before[clusterOf(pair.a, pair.b)].lasting.push_back(pair);
 }
 
-void Stepping::enter(int cluster) {
-  cluster_ = cluster;
-  NearPairs& own = work_.clusters.before[cluster];
+void Stepping::exchange(NearPairs& own) {
   state_.near.swap(own.near);
   memory_.pairs.swap(own.pairs);
   state_.witnesses.swap(own.witnesses);
   memory_.lasting.swap(own.lasting);
+}
+
+void Stepping::exchange(ClusterBooks& own) {
+  Segment& segment = state_.trail.back();
+  std::swap(report_.certificate, own.certificate);
+  std::swap(state_.externalImpulse, own.externalImpulse);
+  report_.events.swap(own.events);
+  segment.contacts.swap(own.contacts);
+  segment.pieces.swap(own.pieces);
+  std::swap(parts_, own.parts);
+}
+
+void Stepping::enter(int cluster) {
+  cluster_ = cluster;
+  exchange(work_.clusters.before[cluster]);
+  exchange(work_.clusters.books[cluster]);
   work_.active.swap(work_.clusters.bodies[cluster]);
   work_.solids.swap(work_.clusters.solids[cluster]);
   state_.t = state_.trail.back().t0;
@@ -156,11 +172,80 @@ void Stepping::enter(int cluster) {
 }
 
 void Stepping::leave() {
-  NearPairs& own = work_.clusters.after[cluster_];
-  state_.near.swap(own.near);
-  memory_.pairs.swap(own.pairs);
-  state_.witnesses.swap(own.witnesses);
-  memory_.lasting.swap(own.lasting);
+  exchange(work_.clusters.after[cluster_]);
+  exchange(work_.clusters.books[cluster_]);
+}
+
+/// What is tied has more memory than that of islands and pairs: it goes again.
+void Stepping::keepEnds() {
+  Clusters& clusters = work_.clusters;
+  std::vector<ClusterEnd>& ends = clusters.ends;
+  ends.assign(clusters.books.size(), {});
+  clusters.endOf = work_.cluster;
+  for (int i = 0; i < model_.count(); ++i) {
+    const int c = work_.cluster[i];
+    if (c < 0 || c == work_.tiedCluster) continue;
+    ends[c].bodies.push_back(i);
+    ends[c].ends.push_back(state_.bodies[i]);
+    ends[c].pushes.push_back(memory_.pushes[i]);
+    ends[c].islands.push_back(std::move(memory_.islands[i]));
+    ends[c].left.push_back(memory_.left[i]);
+    ends[c].spins.push_back(memory_.spins[i]);
+    ends[c].strayed.push_back(work_.strayed[i]);
+    ends[c].turned.push_back(work_.turned[i]);
+  }
+  for (std::size_t c = 0; c < ends.size(); ++c) ends[c].books = std::move(clusters.books[c]);
+  NearPairs all;
+  exchange(all);
+  const auto endOf = [&](int a, int b) -> ClusterEnd& {
+    return ends[work_.cluster[model_.fixed(a) ? b : a]];
+  };
+  for (std::size_t k = 0; k < all.near.size(); ++k) {
+    const auto [b, a] = all.near[k];
+    if (!areStrangers(a, b)) pass(all, k, endOf(a, b).known);
+  }
+  for (const LastingPair& pair : all.lasting) endOf(pair.a, pair.b).known.lasting.push_back(pair);
+}
+
+bool Stepping::recall(int cluster) {
+  Clusters& clusters = work_.clusters;
+  if (clusters.ends.empty()) return false;
+  const auto own = std::span(clusters.bodies[cluster]).subspan(work_.carriers.size());
+  ClusterEnd& end = clusters.ends[clusters.endOf[own.front()]];
+  if (!std::equal(own.begin(), own.end(), end.bodies.begin(), end.bodies.end())) return false;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const int i = own[k];
+    state_.bodies[i] = end.ends[k];
+    memory_.pushes[i] = end.pushes[k];
+    std::swap(memory_.islands[i], end.islands[k]);
+    memory_.left[i] = end.left[k];
+    memory_.spins[i] = end.spins[k];
+    work_.strayed[i] = end.strayed[k];
+    work_.turned[i] = end.turned[k];
+  }
+  clusters.after[cluster] = std::move(end.known);
+  clusters.books[cluster] = std::move(end.books);
+  return true;
+}
+
+/// The books of the clusters, in their order, go to those of the step.
+void Stepping::closeBooks() {
+  Segment& segment = state_.trail.back();
+  const auto move = [](auto& from, auto& to) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  int parts = 0;
+  for (ClusterBooks& books : work_.clusters.books) {
+    report_.certificate.add(books.certificate);
+    state_.externalImpulse += books.externalImpulse;
+    move(books.events, report_.events);
+    move(books.contacts, segment.contacts);
+    move(books.pieces, segment.pieces);
+    parts = std::max(parts, books.parts);
+  }
+  report_.certificate.steps += parts - 1;
+  report_.certificate.evaluations += parts - 1;
+  sortEvents(report_, work_.start.events);
 }
 
 /// Brings the near pairs of all clusters together, in order.
@@ -186,10 +271,7 @@ void Stepping::gather() {
   std::sort(all.lasting.begin(), all.lasting.end(), [](const LastingPair& p, const LastingPair& q) {
     return std::pair(p.b, p.a) < std::pair(q.b, q.a);
   });
-  state_.near.swap(all.near);
-  memory_.pairs.swap(all.pairs);
-  state_.witnesses.swap(all.witnesses);
-  memory_.lasting.swap(all.lasting);
+  exchange(all);
 }
 
 void Stepping::save() {
@@ -201,6 +283,8 @@ void Stepping::save() {
   start.islands = memory_.islands;
   start.pushes = memory_.pushes;
   start.chords = memory_.chords;
+  start.left = memory_.left;
+  start.spins = memory_.spins;
   start.certificate = report_.certificate;
   start.externalImpulse = state_.externalImpulse;
   start.events = report_.events.size();
@@ -219,6 +303,8 @@ void Stepping::restore() {
   memory_.islands = start.islands;
   memory_.pushes = start.pushes;
   memory_.chords = start.chords;
+  memory_.left = start.left;
+  memory_.spins = start.spins;
   report_.certificate = start.certificate;
   state_.externalImpulse = start.externalImpulse;
   report_.events.resize(start.events);
@@ -271,18 +357,20 @@ bool Stepping::haveMet(double h) {
 }
 
 /// Where a hit leads bodies of two clusters towards each other, the step begins again: the two are
-/// one cluster.
+/// one cluster, and all others end as they did.
 void Stepping::stepClusters(double t1, double h) {
   beginSegment(t1);
   save();
+  work_.clusters.ends.clear();
   for (bool apart = true; apart;) {
-    parts_ = 0;
     work_.strayed.assign(state_.bodies.size(), 0.0);
     work_.turned.assign(state_.bodies.size(), 0.0);
     dealOut();
     parted_ = true;
-    for (std::size_t c = 0; c < work_.clusters.bodies.size() && !halted(); ++c) {
-      enter(static_cast<int>(c));
+    const int count = static_cast<int>(work_.clusters.bodies.size());
+    for (int c = 0; c < count && !halted(); ++c) {
+      if (recall(c)) continue;
+      enter(c);
       go(t1, h);
       leave();
     }
@@ -292,6 +380,7 @@ void Stepping::stepClusters(double t1, double h) {
       activateAll();
       takePairs();
       if (!haveMet(h)) break;
+      keepEnds();
     }
     restore();
     if (stopped || misses_) return state_.trail.pop_back();
@@ -304,10 +393,8 @@ void Stepping::stepClusters(double t1, double h) {
     return go(t1, h);
   }
   moveCarriers(h);
-  report_.certificate.steps += parts_ - 1;
-  report_.certificate.evaluations += parts_ - 1;
+  closeBooks();
   endSegment(t1);
-  sortEvents(report_, work_.start.events);
 }
 
 }  // namespace tumble

@@ -257,7 +257,7 @@ SolveReport Stepping::solveRough(Island& island, double tolerance, double h) {
 double Stepping::leastRebound(const Touch& touch, double least) const {
   constexpr double kLeft = 2.0;  // ends of a contact
   for (const int i : {touch.contact.a, touch.contact.b})
-    if (i < static_cast<int>(memory_.left.size())) least = std::max(least, kLeft * memory_.left[i]);
+    least = std::max(least, kLeft * memory_.left[i]);
   return least;
 }
 

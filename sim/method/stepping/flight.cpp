@@ -69,7 +69,6 @@ void Stepping::spin(int i, double h) {
     body.q = rotated(body.q, h * body.omega);
     return;
   }
-  memory_.spins.resize(state_.bodies.size());
   FreeSpin& free = memory_.spins[i];
   if (!free.rotor || free.q.coeffs() != body.q.coeffs() || free.L != body.L) {
     free.rotor.emplace(body.Ibody, body.q, body.L);

@@ -64,8 +64,6 @@ void Stepping::solveIslands(double h) {
   work_.later.resize(n);
   work_.falls.resize(n, Vec3::Zero());
   work_.smooth.resize(n);
-  memory_.islands.resize(n);
-  memory_.left.resize(n, 0.0);
   for (const int i : work_.active) {
     work_.after[i] = work_.star[i];
     work_.touched[i] = isHalved(i);

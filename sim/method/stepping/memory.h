@@ -98,16 +98,52 @@ struct StepStart {
   std::vector<IslandMemory> islands;
   std::vector<Push> pushes;
   std::vector<char> chords;
+  std::vector<double> left;
+  std::vector<FreeSpin> spins;
   Certificate certificate;
   Vec3 externalImpulse = Vec3::Zero();
   std::size_t events = 0;
+};
+
+/// A part of a step that was divided for some bodies alone.
+struct ClusterPart {
+  double t0 = 0.0, t1 = 0.0;  ///< [s]
+  std::vector<int> bodies;
+  std::vector<RigidBody> start, end;  ///< these bodies, as in Segment
+  std::vector<Contact> contacts;      ///< theirs
+};
+
+/// What a cluster adds to the books of a step.
+struct ClusterBooks {
+  Certificate certificate;
+  Vec3 externalImpulse = Vec3::Zero();
+  std::vector<Event> events;
+  std::vector<Contact> contacts;    ///< as in Segment
+  std::vector<ClusterPart> pieces;  ///< as in Segment
+  int parts = 0;                    ///< of its step
+};
+
+/// A cluster at the end of its step.
+struct ClusterEnd {
+  std::vector<int> bodies;  ///< that move; what follows is theirs, in this order
+  std::vector<RigidBody> ends;
+  std::vector<Push> pushes;
+  std::vector<IslandMemory> islands;
+  std::vector<double> left;
+  std::vector<FreeSpin> spins;
+  std::vector<double> strayed, turned;  ///< as in SteppingWork
+  NearPairs known;
+  ClusterBooks books;
 };
 
 /// Clusters of bodies, while each goes through a step by itself: what is theirs.
 struct Clusters {
   std::vector<std::vector<int>> bodies, solids;  ///< as SteppingWork::active and solids
   std::vector<NearPairs> before, after;          ///< and when its step is done
-  NearPairs strangers;                           ///< pairs of two clusters
+  std::vector<ClusterBooks> books;
+  std::vector<ClusterEnd> ends;  ///< of the same step, when it was gone through before
+  std::vector<int> endOf;        ///< per body: which of those is its own; < 0: none
+  NearPairs strangers;           ///< pairs of two clusters
 };
 
 /// What a step works with and then forgets; kept for the sake of its storage.

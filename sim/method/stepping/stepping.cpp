@@ -72,6 +72,9 @@ Stepping::Stepping(const Model& model, State& state, Report& report)
     memory_.drives = drivesOf(model, state.bodies);
     findTied();
   }
+  memory_.islands.resize(state.bodies.size());
+  memory_.left.resize(state.bodies.size(), 0.0);
+  memory_.spins.resize(state.bodies.size());
   memory_.pushes.resize(state.bodies.size());
   work_.touched.resize(state.bodies.size());
   work_.held.resize(state.bodies.size() + 1, 0);

@@ -67,9 +67,17 @@ class Stepping {
   /// all bodies, nor any that are tied, are near it
   bool findClusters(double h);
   void dealOut();
+  /// Takes near pairs in the place of those at hand, which it gives, and books likewise.
+  void exchange(NearPairs& own);
+  void exchange(ClusterBooks& own);
   void enter(int cluster);
   void leave();
   void gather();
+  /// Keeps the ends of all clusters, for those that will be the same when the step begins again.
+  void keepEnds();
+  /// Takes the cluster to its end, if that is kept. @return whether it is
+  bool recall(int cluster);
+  void closeBooks();
   void stepClusters(double t1, double h);
   void save();
   void restore();
