@@ -330,9 +330,10 @@ double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const Cont
   }
   const Vec3 rate = normalRate(a, b, c);
   double bias = c.n.dot(centripetal) + 2.0 * rate.dot(relative) - reach(c) * rate.squaredNorm();
-  if (c.crosses) {
-    const Vec3 material =
-        c.tie == NormalTie::FaceOfB ? pointVelocity(a, c.pa) : pointVelocity(b, c.pb);
+  if (c.crosses) {  // of a place that went round with n alone, the edge would carry no more
+    const Vec3 material = c.tie == NormalTie::FaceOfB
+                              ? Vec3(pointVelocity(a, c.pa) - c.ra * rate)
+                              : Vec3(pointVelocity(b, c.pb) + (reach(c) - c.ra) * rate);
     bias += 2.0 * c.n.dot((a.omega - b.omega).cross(placeVelocity(a, b, c) - material));
   }
   return bias;
