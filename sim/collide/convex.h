@@ -42,12 +42,14 @@ void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes);
 /// they are not.
 Plane nearestPlane(const Core& a, const Core& b);
 
-/// The widest plane where a or b is a cylinder or an ellipsoid.
-Plane widestPlaneRound(const Core& a, const Core& b);
+/// The widest plane where a or b is a cylinder or an ellipsoid, or that of a face that leans by no
+/// more than `level` [1] against it.
+Plane widestPlaneRound(const Core& a, const Core& b, double level);
 
 /// Of the planes between features that a and b show along n, or nearly, the widest; where several
-/// are, that of faces first, then of edges. gap = −∞ if none is right.
-Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n);
+/// are, that of faces first, then of edges. A face that leans by no more than `level` [1] against
+/// the widest lies, and tells all that touches. gap = −∞ if none is right.
+Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n, double level);
 
 /// The widest of all: between cores apart, that of their distance.
 Plane widestPlane(const Core& a, const Core& b, double bias);

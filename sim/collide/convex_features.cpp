@@ -17,8 +17,12 @@ namespace {
 constexpr double kNear = 1e-5;
 // [1] Below this sine two lines are parallel.
 constexpr double kParallel = 1e-6;
+// [1] A cap that leans by less than this has a rim without an outermost point.
+constexpr double kLevelRim = 1e-13;
 // [part of the size] A plane of later features must be wider than one of earlier ones by this.
 constexpr double kWider = 1e-14;
+// [m] The gap of no plane is less.
+constexpr double kNone = -1e300;
 
 // What a core shows outermost along n.
 struct Shown {
@@ -41,7 +45,7 @@ void showCylinder(const Core& core, const Vec3& n, AllShown& all) {
     const Vec3 outward = cap == 1 ? u : Vec3(-u);
     if (way > 0.0 && lean < kNear)
       all.push_back({Kind::Face, core.points[cap], outward, 0, 0, cap});
-    if (way > -kNear && lean > kLevelCap)
+    if (way > -kNear && lean > kLevelRim)
       all.push_back({Kind::Rim, core.points[cap], u, 0.0, core.disc, rimNumber(cap)});
   }
   if (std::abs(up) < kNear) all.push_back({Kind::Line, core.middle, u, core.disc, 0.0, 2});
@@ -184,16 +188,30 @@ std::optional<Plane> between(const Shown& fa, const Shown& fb, const Vec3& n) {
   return plane;
 }
 
+/// How far [m] the features of a plane are apart along n.
+double apartAlong(const Plane& plane, const Shown& fa, const Shown& fb) {
+  const bool lines = fa.kind == Kind::Line && fb.kind == Kind::Line;
+  const Vec3 way = lines ? Vec3(fa.p - fb.p) : Vec3(plane.pa - plane.pb);
+  return plane.n.dot(way) - plane.ra - plane.rb;
+}
+
 }  // namespace
 
-Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n) {
+Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n, double level) {
   const AllShown ofA = shownBy(a, -n), ofB = shownBy(b, n);
   const double wider = kWider * (a.size + b.size);
   Plane best;
-  const auto offer = [&](Plane plane) {
+  double bestOff = 0.0;
+  // Edges that are parallel share a plane, of which the outermost alone meets the other solid: what
+  // features are apart, less the gap, is least.
+  const auto offer = [&](Plane plane, double apart) {
     plane.gap = coreGap(a, b, plane.n);
-    if (!(plane.gap > best.gap + (best.gap > -1e300 ? wider : 0.0))) return;
+    const double off = apart - plane.gap;
+    const bool first = !(best.gap > kNone);
+    const bool same = !first && std::abs(plane.gap - best.gap) <= wider && off < bestOff - wider;
+    if (!same && !(plane.gap > best.gap + (first ? 0.0 : wider))) return;
     best = plane;
+    bestOff = off;
     // Feet.
     const double reach = best.gap + best.ra + best.rb;
     if (best.tie == NormalTie::EdgeOfA)
@@ -203,14 +221,17 @@ Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n) {
   };
   // A face tells all, whatever meets it.
   for (const Shown& fb : ofB)
-    if (fb.kind == Kind::Face) offer(onFace(a, fb, true));
+    if (fb.kind == Kind::Face) offer(onFace(a, fb, true), kNone);
   for (const Shown& fa : ofA)
-    if (fa.kind == Kind::Face) offer(onFace(b, fa, false));
+    if (fa.kind == Kind::Face) offer(onFace(b, fa, false), kNone);
+  const Plane flat = best;
   for (const Shown& fb : ofB)
     for (const Shown& fa : ofA)
       if (fa.kind != Kind::Face && fb.kind != Kind::Face)
-        if (const std::optional<Plane> plane = between(fa, fb, n)) offer(*plane);
-  return best;
+        if (const std::optional<Plane> plane = between(fa, fb, n))
+          offer(*plane, apartAlong(*plane, fa, fb));
+  const bool lies = flat.gap > kNone && (flat.n - best.n).norm() <= level;
+  return lies ? flat : best;
 }
 
 }  // namespace tumble::convex

@@ -1,4 +1,5 @@
 // Chapter 5, collide: planes across the line between nearest points, and the widest plane of all.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -102,7 +103,7 @@ Plane nearestPlane(const Core& a, const Core& b) {
 
 Plane widestPlane(const Core& a, const Core& b, double bias) {
   if (a.isCylinder() || b.isCylinder() || a.isEllipsoid() || b.isEllipsoid())
-    return widestPlaneRound(a, b);
+    return widestPlaneRound(a, b, bias / std::max(a.size, b.size));
   Plane axis = widestAxis(a, b, bias);
   // The difference of two segments is flat: a plane along it parts nothing, and overlaps nothing.
   const bool flat = a.normals.empty() && b.normals.empty();

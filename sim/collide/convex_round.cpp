@@ -117,7 +117,7 @@ void startAround(const Core& a, const Core& b, Plane& best) {
 
 }  // namespace
 
-Plane widestPlaneRound(const Core& a, const Core& b) {
+Plane widestPlaneRound(const Core& a, const Core& b, double level) {
   Plane best;
   const gjk::Nearest nearest = search(a, b, Vec3::Zero());
   if (!nearest.inside) offer(a, b, nearest.v, best);
@@ -136,7 +136,7 @@ Plane widestPlaneRound(const Core& a, const Core& b) {
   const double same = oval ? kSettled : kSame;
   bool told = false, still = false;
   for (int round = 0; round < rounds && !still; ++round) {
-    const Plane plane = planeOfFeatures(a, b, best.n);
+    const Plane plane = planeOfFeatures(a, b, best.n, level);
     if (!(plane.gap >= best.gap - kLost * (a.size + b.size))) break;
     told = true;
     still = (plane.n - best.n).squaredNorm() < same * same;
