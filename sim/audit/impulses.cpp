@@ -5,6 +5,11 @@
 #include "sim/audit/audit.h"
 
 namespace tumble {
+namespace {
+
+constexpr double kLoss = 0.1;  ///< h c/m of what is damped faster than its way tells
+
+}  // namespace
 
 /// Work [J] of the loads on a body that are the same all the way: winds and point forces.
 double Audit::sameWorkOf(int i) const {
@@ -25,7 +30,7 @@ double Audit::sameWorkOf(int i) const {
 /// what it moves within it, neither impulse nor loss is known; but it gives a group none that both
 /// its ends are of. Of drag that stops what it brakes the impulse is, by the way, and not the loss.
 void Audit::findSwings() {
-  constexpr double kSwing = 0.3, kLoss = 0.1;  // h² k/m and h c/m
+  constexpr double kSwing = 0.3;  // h² k/m
   const auto free = [&](int i) { return i != kNoBody && moves(i); };
   for (const Force& force : model_.def.forces) {
     if (const auto* drag = std::get_if<LinearDrag>(&force)) findStops(*drag);
@@ -45,7 +50,7 @@ void Audit::findSwings() {
 
 /// What drag brakes so fast that the loss is unknown.
 void Audit::findStops(const LinearDrag& drag) {
-  constexpr double kLoss = 0.1, kStops = 0.1;  // h c/m; of what it moved with
+  constexpr double kStops = 0.1;  // of what it moved with
   const auto stops = [](const Vec3& before, const Vec3& after) {
     return (after - before).norm() > kStops * before.norm();
   };

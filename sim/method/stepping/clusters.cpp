@@ -104,6 +104,21 @@ bool Stepping::findClusters(double h) {
   return true;
 }
 
+/// Gives every cluster the near pairs that are its own, in their order; strangers are kept apart.
+template <class KnownOf>
+void Stepping::dealPairs(const KnownOf& knownOf) {
+  const auto clusterOf = [&](int a, int b) { return work_.cluster[model_.fixed(a) ? b : a]; };
+  NearPairs all, &strangers = work_.clusters.strangers;
+  exchange(all);
+  clear(strangers);
+  for (std::size_t k = 0; k < all.near.size(); ++k) {
+    const auto [b, a] = all.near[k];
+    pass(all, k, areStrangers(a, b) ? strangers : knownOf(clusterOf(a, b)));
+  }
+  for (const LastingPair& pair : all.lasting)
+    knownOf(clusterOf(pair.a, pair.b)).lasting.push_back(pair);
+}
+
 /// What belongs to each cluster, and the fixed bodies that move to every one.
 void Stepping::dealOut() {
   Clusters& clusters = work_.clusters;
@@ -129,18 +144,7 @@ void Stepping::dealOut() {
   for (std::size_t k = 0; k < model_.solid.size(); ++k)
     if (const int c = work_.cluster[model_.solid[k]]; c >= 0)
       clusters.solids[c].push_back(static_cast<int>(k));
-  const auto clusterOf = [&](int a, int b) { return work_.cluster[model_.fixed(a) ? b : a]; };
-  NearPairs all{.near = std::move(state_.near),
-                .pairs = std::move(memory_.pairs),
-                .witnesses = std::move(state_.witnesses),
-                .lasting = std::move(memory_.lasting)};
-  clear(clusters.strangers);
-  for (std::size_t k = 0; k < all.near.size(); ++k) {
-    const auto [b, a] = all.near[k];
-    pass(all, k, areStrangers(a, b) ? clusters.strangers : clusters.before[clusterOf(a, b)]);
-  }
-  for (const LastingPair& pair : all.lasting)
-    clusters.before[clusterOf(pair.a, pair.b)].lasting.push_back(pair);
+  dealPairs([&](int c) -> NearPairs& { return clusters.before[c]; });
 }
 
 void Stepping::exchange(NearPairs& own) {
@@ -157,7 +161,6 @@ void Stepping::exchange(ClusterBooks& own) {
   report_.events.swap(own.events);
   segment.contacts.swap(own.contacts);
   segment.pieces.swap(own.pieces);
-  std::swap(parts_, own.parts);
 }
 
 void Stepping::enter(int cluster) {
@@ -195,16 +198,7 @@ void Stepping::keepEnds() {
     ends[c].turned.push_back(work_.turned[i]);
   }
   for (std::size_t c = 0; c < ends.size(); ++c) ends[c].books = std::move(clusters.books[c]);
-  NearPairs all;
-  exchange(all);
-  const auto endOf = [&](int a, int b) -> ClusterEnd& {
-    return ends[work_.cluster[model_.fixed(a) ? b : a]];
-  };
-  for (std::size_t k = 0; k < all.near.size(); ++k) {
-    const auto [b, a] = all.near[k];
-    if (!areStrangers(a, b)) pass(all, k, endOf(a, b).known);
-  }
-  for (const LastingPair& pair : all.lasting) endOf(pair.a, pair.b).known.lasting.push_back(pair);
+  dealPairs([&](int c) -> NearPairs& { return ends[c].known; });
 }
 
 bool Stepping::recall(int cluster) {
@@ -371,8 +365,9 @@ void Stepping::stepClusters(double t1, double h) {
     for (int c = 0; c < count && !halted(); ++c) {
       if (recall(c)) continue;
       enter(c);
-      go(t1, h);
+      const int parts = go(t1, h);
       leave();
+      work_.clusters.books[c].parts = parts;
     }
     const bool stopped = report_.stopped;
     if (!stopped && !misses_) {
@@ -390,7 +385,8 @@ void Stepping::stepClusters(double t1, double h) {
     if (apart) continue;
     state_.trail.pop_back();
     known_ = true;
-    return go(t1, h);
+    go(t1, h);
+    return;
   }
   moveCarriers(h);
   closeBooks();

@@ -144,7 +144,7 @@ void Stepping::stepInHalves(double t1) {
 
 /// First for every hit, then for those that rebound for longer than a step, while the pairs of
 /// bodies that could be looked at are few.
-void Stepping::go(double t1, double h) {
+int Stepping::go(double t1, double h) {
   constexpr int kFew = 2, kMany = 16, kBodies = 256;
   constexpr double kPairs = 2e4;
   const int n = std::max(1, static_cast<int>(work_.solids.size()));
@@ -163,8 +163,8 @@ void Stepping::go(double t1, double h) {
     moveTo(state_.t + part, part);
     h -= part;
   }
-  parts_ = std::max(parts_, parts);
   if (!halted()) moveTo(t1, h);
+  return parts;
 }
 
 void Stepping::moveTo(double t1, double h) {

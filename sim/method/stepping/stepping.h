@@ -36,8 +36,9 @@ class Stepping {
  private:
   void stepTo(double t1, double h);
   void stepInHalves(double t1);
-  /// Takes the bodies whose clock runs to t1, in as many parts as their hits ask for.
-  void go(double t1, double h);
+  /// Takes the bodies whose clock runs to t1, in as many parts as their hits ask for. @return how
+  /// many
+  int go(double t1, double h);
   void moveTo(double t1, double h);
   void beginPart(double t1);
   void endPart(double t1);
@@ -67,6 +68,8 @@ class Stepping {
   /// all bodies, nor any that are tied, are near it
   bool findClusters(double h);
   void dealOut();
+  template <class KnownOf>
+  void dealPairs(const KnownOf& knownOf);
   /// Takes near pairs in the place of those at hand, which it gives, and books likewise.
   void exchange(NearPairs& own);
   void exchange(ClusterBooks& own);
@@ -576,7 +579,6 @@ class Stepping {
   std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
   bool misses_ = false;               ///< rows of joints miss too much in the part under way
-  int parts_ = 0;                     ///< of the step that is most divided
   double partStart_ = 0.0;            ///< [s] of the part under way
   long step_ = 0;                     ///< counts solveSteadily
 };
