@@ -1,5 +1,5 @@
-// What a wrong scene file is told: the place, the key, what was expected, the word that was meant.
-// Long: every key has its mistakes here.
+// What a wrong scene file is told; long, for every key has its mistakes here: the place, the key,
+// what was expected, the word that was meant.
 #include "app/scene/scene.h"
 #include "tests/catch.h"
 

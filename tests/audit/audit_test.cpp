@@ -1,4 +1,5 @@
-// The audit against motions whose errors are known: none in closed forms, planted ones in others.
+// The audit against motions whose errors are known; long, for each of its figures has an error
+// planted that it must find, and closed forms where it must find none.
 #include "sim/audit/audit.h"
 
 #include <algorithm>

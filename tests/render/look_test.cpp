@@ -1,6 +1,5 @@
-// What the picture says about space: shadows, ghosts, glass, bodies that sank.
-// Long: what is drawn beside bodies, labels and pages of panels among it, is measured by one set of
-// helpers.
+// What the picture says about space; long, for one set of helpers measures all that is drawn:
+// shadows, ghosts, glass, bodies that sank, and what stands beside them, labels and panels too.
 #include <algorithm>
 #include <array>
 #include <cmath>

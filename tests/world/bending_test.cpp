@@ -1,5 +1,5 @@
-// What bends in a world: implicit steps, what holds them, what they touch, and their books; long,
-// for all of it is told of the same few cloths and solids.
+// What bends in a world; long, for all is told of the same few cloths and solids: implicit steps,
+// what holds them, what they touch, and their books.
 #include <cmath>
 
 #include "sim/math/rotation.h"
