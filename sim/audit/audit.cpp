@@ -49,6 +49,9 @@ Audit::Audit(const Model& model, std::span<const RigidBody> start)
            std::any_of(bodies_.begin(), bodies_.end(), [](const RigidBody& body) {
              return body.fixed() && !body.omega.isZero(0.0);
            });
+  for (const int i : model.solid)
+    skins_ = skins_ || (moves(i) && bodies_[i].particle && !model.bends(i) &&
+                        model.def.bodies[i].friction > 0.0);
   for (const Force& force : model.def.forces) {
     const Spring* spring = std::get_if<Spring>(&force);
     const bool led = spring && ((spring->b != kNoBody && !still(spring->b) && !moves(spring->b)) ||
@@ -103,6 +106,7 @@ void Audit::see(double t, std::span<const RigidBody> bodies, bool many,
   addMotions();
   addLoads();
   if (turns_ && !many_) addBent();
+  addRubs();
   addStates();
   addTurns();
   settle();

@@ -52,6 +52,7 @@ class Audit {
     bool springy = false;            ///< contacts in it are springs
     bool lost = false;               ///< work of loads along the way is unknown,
     bool unseen = false;             ///< and so are their impulses
+    bool vague = false;              ///< where a point of mass in it is rubbed is unknown
     double mass = 0.0, gain = 0.0;   ///< [kg], [J] Δ(T + V) − work of loads
     Vec3 P = Vec3::Zero(), L = Vec3::Zero();  ///< [N s], [N m s] not explained by loads
     Vec3 turn = Vec3::Zero();  ///< [N m s] what it had about its centre, if several flew
@@ -80,7 +81,10 @@ class Audit {
   // balance.cpp
   void group(const std::vector<Nearness::Pair>& touched);
   void join(int a, int b);
-  void findFoot(int point, int solid);
+  bool rubs(int point, int body) const;
+  void addFoot(int point, int body);
+  void addRubs();
+  void addRub(const Ways::Part& part, const Vec3& P, const Ways::Part& other);
   void joinBent(const std::vector<int>& points);
   void holdBent(const std::vector<int>& points);
   void holdBy(int body, int fixed);
@@ -123,6 +127,7 @@ class Audit {
   bool winds_ = true;         ///< no loads but winds
   bool stored_ = true;        ///< no loads but ones that give back what they take
   bool turns_ = false;        ///< something bends, and a body that it may meet turns steadily
+  bool skins_ = false;        ///< points of mass that nothing bends have a skin that is rubbed
   bool quiet_ = false;        ///< if nothing changes from here on, nothing is wrong
   std::vector<Recorded> last_, now_;
   Ways ways_;  ///< of bodies that have parts of their own between the two
@@ -138,8 +143,9 @@ class Audit {
   std::vector<char> pushed_;  ///< per body whether anything may have pushed it, or a joint holds it
   std::vector<Vec3> bentFirst_, bentMore_;  ///< [N s] of what bends; see addBent
   std::vector<Vec3> inside_;                ///< what of impulse_ it is
-  std::vector<Vec3> toSolid_;  ///< [m] per point of what bends: from it to where it is pushed
-  std::vector<double> work_;   ///< [J] of loads in this part
+  std::vector<std::pair<int, int>> feet_;   ///< points of mass that are rubbed, and by whom
+  std::vector<Vec3> rubbed_;                ///< [N m s] per such point: see addRubs
+  std::vector<double> work_;                ///< [J] of loads in this part
   Loads loads_;
   std::vector<BodyPath> paths_;
   std::vector<PathPoint> points_;

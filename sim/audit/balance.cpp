@@ -67,13 +67,13 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
 
   groups_.assign(root_.size(), Group{});
   const bool springs = model_.runs == "course" && model_.def.course.contact == "penalty";
-  toSolid_.assign(root_.size(), Vec3::Zero());
+  feet_.clear();
   pushed_.assign(root_.size(), false);
   for (const auto& [b, a] : touched) {
     if (moves(a) != moves(b)) holdBy(moves(a) ? a : b, moves(a) ? b : a);
     pushed_[a] = pushed_[b] = true;
-    if (turns_ && model_.bends(a)) findFoot(a, b);
-    if (turns_ && model_.bends(b)) findFoot(b, a);
+    if (rubs(a, b)) addFoot(a, b);
+    if (rubs(b, a)) addFoot(b, a);
     groups_[rootOf(moves(a) ? a : b)].springy = springs;
   }
   for (const int i : model_.solid)
@@ -91,12 +91,72 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
   }
 }
 
-/// Where a solid pushes a point of what bends: on its skin.
-void Audit::findFoot(int point, int solid) {
-  const Pose at{last_[solid].x, last_[solid].q}, pointAt{last_[point].x, last_[point].q};
-  const ContactPoint plane =
-      separatingPlane(model_.shapes[point], pointAt, model_.shapes[solid], at);
-  toSolid_[point] = -(nearness_.radius(point) + 0.5 * plane.separation) * plane.n;
+/// Whether it counts where a body pushes a point of mass: what rubs its skin turns what rubs it,
+/// and not the point.
+bool Audit::rubs(int point, int body) const {
+  if (!moves(point) || !bodies_[point].particle) return false;
+  if (model_.bends(point)) return turns_;
+  return model_.surface(point, body).friction > 0.0;
+}
+
+/// Of several pushes on a point nobody can tell which was how large, and of one in many parts not
+/// where it was.
+void Audit::addFoot(int point, int body) {
+  const auto with = [&](const std::pair<int, int>& foot) { return foot.first == point; };
+  if (!model_.bends(point) && (many_ || std::any_of(feet_.begin(), feet_.end(), with)))
+    groups_[rootOf(point)].vague = true;
+  feet_.push_back({point, body});
+}
+
+/// Spin that what rubbed a point of mass did not have from it, about where it pushed: the point
+/// takes none.
+void Audit::addRubs() {
+  rubbed_.assign(bodies_.size(), Vec3::Zero());
+  for (const auto& [point, body] : feet_) {
+    const std::span<const Ways::Part> own = ways_.of(point), others = ways_.of(body);
+    if (own.empty()) {
+      addRub({point, t_ - h_, t_, last_[point], now_[point]}, last_[point].P,
+             {body, t_ - h_, t_, last_[body], now_[body]});
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      Ways::Part other{body, own[k].t0, own[k].t1, last_[body], now_[body]};
+      if (k < others.size()) other = others[k];
+      addRub(own[k], k > 0 ? own[k - 1].end.P : last_[point].P, other);
+    }
+  }
+}
+
+/// Of one part: what struck the point at its start, and what pushed it along its way. What bends is
+/// pushed where an implicit step starts.
+void Audit::addRub(const Ways::Part& part, const Vec3& P, const Ways::Part& other) {
+  constexpr int kLooks = 4;
+  const int i = part.body, j = other.body;
+  const double h = part.t1 - part.t0;
+  // Where it is pushed is on its skin.
+  const auto foot = [&](const Pose& own, const Pose& at) {
+    const ContactPoint plane = separatingPlane(model_.shapes[i], own, model_.shapes[j], at);
+    return Vec3(-(nearness_.radius(i) + 0.5 * plane.separation) * plane.n);
+  };
+  const Vec3 loads =
+      h * bodies_[i].M * model_.def.gravity + (h_ > 0.0 ? h / h_ : 1.0) * impulse_[i];
+  const Vec3 start = foot({part.start.x, part.start.q}, {other.start.x, other.start.q});
+  if (h == 0.0 || model_.bends(i)) {
+    rubbed_[i] += start.cross(part.end.P - P - loads);
+    return;
+  }
+  const BodyPath way(bodies_[i], part.start, part.end, h, struck_);
+  const BodyPath otherWay = moves(j) ? BodyPath(bodies_[j], other.start, other.end, h, struck_)
+                                     : BodyPath(fixedAt(j, part.t0), h);
+  if (otherWay.lost() && !std::holds_alternative<Sphere>(model_.shapes[j]))
+    groups_[rootOf(i)].vague = true;
+  Vec3 before = bodies_[i].M * way.at(0.0).v;
+  rubbed_[i] += start.cross(before - P);
+  for (int k = 0; k < kLooks; ++k) {
+    const PathPoint at = way.at((k + 0.5) / kLooks), its = otherWay.at((k + 0.5) / kLooks);
+    const Vec3 after = bodies_[i].M * way.at((k + 1.0) / kLooks).v;
+    rubbed_[i] += foot({at.x, at.q}, {its.x, its.q}).cross(after - before - loads / kLooks);
+    before = after;
+  }
 }
 
 /// The points of what bends that move are one group,
@@ -200,6 +260,7 @@ void Audit::addStates() {
     g.gain += energyNow_[i] - energyLast_[i] - work_[i];
     g.P += now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
     g.L += now_[i].L - last_[i].L - moment_[i];
+    if (!model_.bends(static_cast<int>(i))) g.L += rubbed_[i];
   }
 }
 
@@ -253,7 +314,7 @@ double Audit::workOfFixed(int root) const {
     levers += (p.x - middle.x).norm() * p.P.norm() + p.L.norm();
     moment += q.L - p.L - moment_[i] + ((bends ? p.x : q.x) - from).cross(q.P) -
               (p.x - from).cross(p.P) - (at - from).cross(loads);
-    if (bends) moment += toSolid_[i].cross(q.P - p.P - loads);
+    moment += rubbed_[i];
   }
   // What gained neither momentum nor spin was pushed by nothing, whatever went on inside.
   constexpr double kNone = 1e-9;
@@ -270,7 +331,7 @@ void Audit::settle() {
     const int root = rootOf(i);
     const Group& g = groups_[root];
     const bool led = g.fixed != kNoBody && !still(g.fixed);
-    bool known = !g.lost && !g.unlike && !g.springy;
+    bool known = !g.lost && !g.unlike && !g.springy && !(led && g.vague);
     if (many_) known = known && stored_ && (winds_ || !led);
     quiet_ = quiet_ && g.held && !led && known;
     if (known) workDone_ += work_[i];
@@ -280,7 +341,7 @@ void Audit::settle() {
     }
     if (g.held || g.unseen || (many_ && !winds_)) continue;
     driftP_[i] += bodies_[i].M / g.mass * g.P;
-    driftL_[i] += bodies_[i].M / g.mass * g.L;
+    if (!g.vague) driftL_[i] += bodies_[i].M / g.mass * g.L;
   }
   if (!told) ++untold_;
 

@@ -9,7 +9,8 @@ namespace tumble {
 namespace {
 
 /// Steps of which one is audited whole; of all of them, how deep bodies overlap at their ends, and
-/// the kinetic energy. The first are audited all, and every one where loads depend on velocities.
+/// the kinetic energy. The first are audited all, and every one where loads depend on velocities,
+/// or where points of mass have a skin that is rubbed.
 constexpr long kEvery = 8;
 /// Looks at flights in a run, and the most in a second.
 constexpr double kLooks = 64.0, kLooksPerSecond = 60.0;
@@ -49,7 +50,7 @@ void Audit::followSteps(const State& state) {
     followed_ = part.t1;
     addKinetic(end);
     for (long k = 0; k < part.steps; ++k) {
-      const bool all = !stored_ || parts_ < kEvery || parts_ % kEvery == 0;
+      const bool all = !stored_ || skins_ || parts_ < kEvery || parts_ % kEvery == 0;
       ++parts_;
       if (!all && nearness_.glance(end)) continue;
       const double t0 = startOf(part, k), t1 = startOf(part, k + 1);

@@ -1,60 +1,19 @@
-// The audit against motions whose errors are known; long, for each of its figures has an error
-// planted that it must find, and closed forms where it must find none.
-#include "sim/audit/audit.h"
-
+// The audit against motions whose errors are known: each of its figures has an error planted that
+// it must find, and closed forms where it must find none.
 #include <algorithm>
 #include <cmath>
 
-#include "sim/body/mass_properties.h"
 #include "sim/collide/collide.h"
 #include "sim/flight/flight.h"
 #include "sim/math/rotation.h"
+#include "tests/audit/told.h"
 #include "tests/catch.h"
 #include "tests/world/bent_bodies.h"
-#include "tests/world/scenes.h"
 
 using namespace tumble;
 using namespace tumble::scenes;
 
 namespace {
-
-RigidBody bodyOf(const BodyDef& def) {
-  if (def.fixed)
-    return makeFixedBody({def.position, def.orientation}, def.velocity, def.angularVelocity);
-  RigidBody body =
-      std::holds_alternative<Particle>(def.shape) ? makeParticle(*def.mass) : makeBody(massOf(def));
-  body.x = def.position;
-  body.q = def.orientation;
-  updateDerived(body);
-  setVelocity(body, def.velocity, def.angularVelocity);
-  return body;
-}
-
-/// A world that is audited from states that a test makes up.
-struct Told {
-  explicit Told(const WorldDef& def) : world(def) {
-    for (const BodyDef& body : def.bodies) bodies.push_back(bodyOf(body));
-    audit.emplace(world.model(), bodies);
-  }
-  Certificate figures(double t) const {
-    State state;
-    state.t = t;
-    Report report;
-    audit->report(state, report);
-    return report.certificate;
-  }
-  std::size_t disagreements() const {
-    State state;
-    state.t = world.model().def.duration;
-    Report report;
-    audit->report(state, report);
-    return report.disagreements.size();
-  }
-
-  World world;
-  std::vector<RigidBody> bodies;
-  std::optional<Audit> audit;
-};
 
 WorldDef thrownBrick() {
   BodyDef brick = box("brick", {0.3, 0.1, 0.2}, {0.0, 5.0, 0.0});
