@@ -1,5 +1,9 @@
 #include "app/scene/cloth.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "app/scene/bent.h"
 #include "sim/elastic/cloth.h"
 
@@ -18,7 +22,7 @@ ClothDef readWeave(Section& section) {
                                     " points in one cloth; take fewer columns or rows");
   double size[2] = {cloth.length, cloth.width};
   if (!section.find("size")) section.complain("size", "missing; [length, width] in m");
-  section.read("size", size, 2, positive("m"));
+  section.read("size", size, 2, kLength);
   cloth.length = size[0];
   cloth.width = size[1];
   section.read("density", cloth.density, positive("kg/m²"));
@@ -71,7 +75,12 @@ void readCloths(Section& root, const Materials& materials, BodyList& bodies, Sce
     BentTable bent = readBent(section, materials);
     const ClothDef cloth = readWeave(section);
     double thickness = 0.01;
-    section.read("thickness", thickness, positive("m"));
+    section.read("thickness", thickness, kLength);
+    const double narrow = std::min(cloth.length, cloth.width);
+    if (section.good() && thickness > narrow)
+      section.complain("thickness", fmt::format("{:g} m is more than the {:g} m that the cloth is "
+                                                "wide; take [[soft]] for what is as thick",
+                                                thickness, narrow));
     readPins(section, cloth, bent.pins);
     readPinTo(section, bodies, bent);
     section.finish();
@@ -84,6 +93,7 @@ void readCloths(Section& root, const Materials& materials, BodyList& bodies, Sce
         },
         bodies, scene));
     scene.bent.back().triangles = clothTriangles(cloth);
+    scene.bent.back().columns = cloth.columns;
     scene.bent.back().thickness = thickness;
   }
 }

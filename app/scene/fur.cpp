@@ -25,7 +25,7 @@ struct FurTable {
 void readStrand(Section& section, StrandDef& strand) {
   section.read("points", strand.points, 3, 1000);
   if (!section.find("length")) section.complain("length", "missing; of a strand in m");
-  section.read("length", strand.length, positive("m"));
+  section.read("length", strand.length, kLength);
   section.read("density", strand.density, positive("kg/m"));
   section.read("stretch", strand.stretch, positive("N"));
   section.read("bend", strand.bend, notNegative("N m²"));
@@ -52,8 +52,11 @@ FurTable readFur(Section& section, const Materials& materials, const BodyList& b
   if (!section.find("strands")) section.complain("strands", "missing; how many");
   section.read("strands", fur.count, 1, kMostPoints);
   section.read("seed", fur.seed, 0, 1'000'000'000);
-  section.read("thickness", fur.thickness, positive("m"));
+  section.read("thickness", fur.thickness, kLength);
   readStrand(section, fur.strand);
+  if (section.good() && fur.thickness > fur.strand.length)
+    section.complain("thickness",
+                     "a strand is thicker than it is long; take thinner or longer ones");
   readArea(section, fur.area);
   if (section.good() && static_cast<long>(fur.count) * fur.strand.points > kMostPoints)
     section.complain("strands", "more than " + std::to_string(kMostPoints) +

@@ -55,6 +55,7 @@ struct CameraView {
   double fov = 24.0;                 ///< [deg] vertical
   double azimuth = 20.0;             ///< [deg] of the eye about the vertical; 0 looks along −Z
   double elevation = 12.0;           ///< [deg] of the eye above the horizon
+  bool ahead = false;                ///< images hold what is still to come, not the whole motion
   std::vector<CameraKey> keys = {};  ///< that it goes through, in the order of time, or none
 };
 
@@ -146,6 +147,7 @@ struct BentDef {
   std::string name;
   int first = 0, count = 0;                        ///< bodies
   std::vector<std::array<int, 3>> triangles = {};  ///< points, counter-clockwise from the front
+  int columns = 0;              ///< points of a row, if they are a grid: a cloth's; else 0
   std::vector<int> sides = {};  ///< per triangle: each is shaded smoothly on its own; none: one
   double thickness = 0.0;       ///< [m] of a cloth, which has two faces
   double skin = 0.0;            ///< [m] that the surface of a solid is off its points

@@ -15,7 +15,6 @@ namespace tumble {
 namespace {
 
 // Shorter, an inertia would underflow; longer, a volume would drown everything else.
-constexpr Range kLength{1e-9, 1e6, false, "m"};
 
 std::optional<Shape> readSphere(Section& shape) {
   Sphere sphere;

@@ -1,5 +1,7 @@
 #include "app/scene/soft.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/scene/bent.h"
@@ -9,7 +11,8 @@ namespace tumble {
 
 namespace {
 
-constexpr int kMostCells = 200;  // along an edge
+constexpr int kMostCells = 200;                 // along an edge
+constexpr Range kYoung{0.0, 1e15, true, "Pa"};  // a thousand times diamond's: stiffer is rounding
 
 void readCells(Section& section, SoftDef& soft) {
   const Node* node = section.find("cells");
@@ -32,7 +35,7 @@ SoftDef readSolid(Section& section) {
   SoftDef soft;
   readCells(section, soft);
   if (!section.find("size")) section.complain("size", "missing; three edges in m");
-  section.read("size", soft.size, positive("m"));
+  section.read("size", soft.size, kLength);
   section.read("density", soft.density, positive("kg/m³"));
   std::string law = "corotated";
   section.read("law", law, {"corotated", "neo-hookean", "lattice", "matching"});
@@ -43,7 +46,7 @@ SoftDef readSolid(Section& section) {
   const bool lattice = soft.law == SoftLaw::Lattice, matching = soft.law == SoftLaw::Matching;
   double young = 0.0, poisson = lattice ? 0.25 : matching ? 0.0 : 0.3, viscosity = 0.0;
   if (!section.find("young")) section.complain("young", "missing; Young's modulus in Pa");
-  section.read("young", young, positive("Pa"));
+  section.read("young", young, kYoung);
   section.read("poisson", poisson, {0.0, 0.49, false, {}});
   section.read("viscosity", viscosity, notNegative("Pa s"));
   if (lattice && poisson != 0.25)
@@ -80,7 +83,11 @@ void readSofts(Section& root, const Materials& materials, BodyList& bodies, Scen
     BentTable bent = readBent(section, materials);
     const SoftDef soft = readSolid(section);
     double skin = 0.005;
-    section.read("skin", skin, positive("m"));
+    section.read("skin", skin, kLength);
+    if (section.good() && skin > 0.5 * soft.size.minCoeff())
+      section.complain("skin", fmt::format("{:g} m is more than half of its shortest edge, {:g} m; "
+                                           "take a thinner skin",
+                                           skin, soft.size.minCoeff()));
     readPins(section, soft, bent.pins);
     readPinTo(section, bodies, bent);
     section.finish();
