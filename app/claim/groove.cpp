@@ -11,8 +11,14 @@ namespace tumble {
 
 namespace {
 
-// The normal of the face of a box that a point outside is nearest to.
-Vec3 faceTowards(const Box& box, const BodyDef& def, const Vec3& p) {
+bool isWall(const BodyDef& def) {
+  return std::holds_alternative<Box>(def.shape) || std::holds_alternative<HalfSpace>(def.shape);
+}
+
+// The normal of the plane, or of the face of a box, that a point outside is nearest to.
+Vec3 faceTowards(const BodyDef& def, const Vec3& p) {
+  if (const HalfSpace* plane = std::get_if<HalfSpace>(&def.shape)) return plane->n;
+  const Box& box = std::get<Box>(def.shape);
   const Mat3 R = rotationMatrix(def.orientation.normalized());
   const Vec3 p_B = R.transpose() * (p - def.position);
   int axis = 0;
@@ -51,14 +57,12 @@ std::vector<ClaimRow> grooveRows(const Scene& scene, const Recording& recording)
     std::vector<int> walls;
     for (const ContactSample& c : still.back()->contacts)
       for (const auto& [one, other] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
-        if (one == ball && std::holds_alternative<Box>(bodies[other].shape)) walls.push_back(other);
+        if (one == ball && isWall(bodies[other])) walls.push_back(other);
     if (walls.size() != 2) continue;
 
     // Of two normals that hold the weight between them, how much each has to give.
     Vec3 normal[2];
-    for (int k : {0, 1})
-      normal[k] = faceTowards(std::get<Box>(bodies[walls[k]].shape), bodies[walls[k]],
-                              still.back()->bodies[ball].x);
+    for (int k : {0, 1}) normal[k] = faceTowards(bodies[walls[k]], still.back()->bodies[ball].x);
     const Vec3 weight = -bodyMass(bodies[ball]) * scene.world.gravity;
     const double c = normal[0].dot(normal[1]), n0 = normal[0].dot(weight),
                  n1 = normal[1].dot(weight);
@@ -77,7 +81,7 @@ std::vector<ClaimRow> grooveRows(const Scene& scene, const Recording& recording)
       rows.push_back(row.row());
     }
   }
-  if (rows.empty()) return {emptyClaim("no ball rests between two boxes")};
+  if (rows.empty()) return {emptyClaim("no ball rests between two boxes or planes")};
   return rows;
 }
 

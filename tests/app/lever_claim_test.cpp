@@ -1,7 +1,9 @@
 // The claims of levers and grooves hold for true runs, whatever the scene, and fail for untrue
 // ones.
 #include <algorithm>
+#include <cmath>
 
+#include "app/claim/rows.h"
 #include "app/claim/verdict.h"
 #include "app/panel/page.h"
 #include "app/present/present.h"
@@ -32,6 +34,24 @@ TEST_CASE("a lever and a groove keep their claims whatever the scene") {
     CHECK(checkHolds("lever", {set, "force.other.force=[0.0, 50.0, 0.0]"}));
     CHECK(checkHolds("groove", {set}));
     CHECK(checkHolds("groove", {set, "body.ball.mass=7.0", "world.gravity=[0.0, -1.6, 0.0]"}));
+  }
+}
+
+// Oracle: by hand. Between planes of 30° and 60° they carry m g cos 30° and m g sin 30°.
+TEST_CASE("a ball between two planes has a groove's claim, at any angle") {
+  const Scene scene = parseScene(
+      "[world]\nduration = 0.1\n[[body]]\nname = \"gentle\"\n"
+      "shape = { plane = [0.5, 0.8660254037844386, 0, 0] }\n[[body]]\nname = \"steep\"\n"
+      "shape = { plane = [-0.8660254037844386, 0.5, 0, 0] }\n[[body]]\nname = \"ball\"\n"
+      "shape = { sphere = 0.2 }\nmass = 3\n"
+      "position = [-0.07320508075688772, 0.2732050807568877, 0]\n",
+      "s.toml");
+  const std::vector<ClaimRow> rows = grooveRows(scene, record(scene, 60.0));
+  REQUIRE(rows.size() == 2);
+  for (const ClaimRow& row : rows) {
+    CHECK(row.holds());
+    const double share = row.label.find("gentle") != std::string::npos ? std::sqrt(0.75) : 0.5;
+    CHECK(row.exact == Approx(3.0 * 9.81 * share).epsilon(1e-12));
   }
 }
 
