@@ -53,11 +53,17 @@ std::vector<Facets> inBands(const Facets& facets, std::span<const double> values
     return std::clamp(static_cast<int>(value / width), 0, bands - 1);
   };
   for (std::size_t n = 0; n + 2 < facets.corners.size(); n += 3) {
+    const auto [low, high] = std::minmax({values[n], values[n + 1], values[n + 2]});
+    const int first = bandOf(low), last = bandOf(high);
+    const auto corner = facets.corners.begin() + static_cast<std::ptrdiff_t>(n);
+    if (first == last) {
+      std::vector<Facets::Corner>& whole = parts[static_cast<std::size_t>(last)].corners;
+      whole.insert(whole.end(), corner, corner + 3);
+      continue;
+    }
     std::vector<Point> rest;
     for (std::size_t k = n; k < n + 3; ++k) rest.push_back({facets.corners[k], values[k]});
-    const auto [low, high] = std::minmax({values[n], values[n + 1], values[n + 2]});
-    const int last = bandOf(high);
-    for (int band = bandOf(low); band < last; ++band) {
+    for (int band = first; band < last; ++band) {
       const double level = (band + 1) * width;
       addFan(kept(rest, level, -1.0), parts[static_cast<std::size_t>(band)]);
       rest = kept(rest, level, 1.0);

@@ -5,8 +5,10 @@
 #include <map>
 
 #include "app/present/bands.h"
+#include "app/present/curve.h"
 #include "app/present/palette.h"
 #include "app/present/strands.h"
+#include "sim/elastic/cloth.h"
 #include "sim/elastic/strain.h"
 
 namespace tumble {
@@ -28,12 +30,34 @@ std::size_t cornerOf(const BentDef& bent, std::size_t triangle, int point) {
   return static_cast<std::size_t>(side * bent.count + point);
 }
 
-Shell shellOf(const BentDef& bent, const Sample& sample) {
+std::vector<Vec3> placesOf(const BentDef& bent, const Sample& sample) {
+  std::vector<Vec3> places;
+  for (int p = 0; p < bent.count; ++p)
+    places.push_back(sample.bodies[static_cast<std::size_t>(bent.first + p)].x);
+  return places;
+}
+
+// In how many parts each cell of a cloth is drawn along each thread.
+int partsOf(const BentDef& bent) {
+  constexpr int kAcross = 40;  // of a whole cloth: finer than its outline shows
+  if (bent.columns == 0) return 1;
+  return std::max(1, kAcross / std::max({1, bent.columns - 1, bent.count / bent.columns - 1}));
+}
+
+// The cloth with so many points between its own.
+BentDef finer(const BentDef& bent, int parts) {
+  BentDef fine = bent;
+  fine.columns = parts * (bent.columns - 1) + 1;
+  const int rows = parts * (bent.count / bent.columns - 1) + 1;
+  fine.count = fine.columns * rows;
+  fine.triangles = clothTriangles({.columns = fine.columns, .rows = rows});
+  return fine;
+}
+
+Shell shellOf(const BentDef& bent, std::vector<Vec3> places) {
   Shell shell;
-  for (int p = 0; p < bent.count; ++p) {
-    shell.places.push_back(sample.bodies[static_cast<std::size_t>(bent.first + p)].x);
-    shell.middle += shell.places.back() / bent.count;
-  }
+  shell.places = std::move(places);
+  for (const Vec3& place : shell.places) shell.middle += place / bent.count;
   for (Vec3& place : shell.places) place -= shell.middle;
   const int sides =
       bent.sides.empty() ? 1 : 1 + *std::max_element(bent.sides.begin(), bent.sides.end());
@@ -141,9 +165,7 @@ std::vector<bool> partsOfSurfaces(const Scene& scene) {
 }
 
 std::vector<double> strainsAt(const Scene& scene, const BentDef& bent, const Sample& sample) {
-  std::vector<Vec3> places;
-  for (int p = 0; p < bent.count; ++p)
-    places.push_back(sample.bodies[static_cast<std::size_t>(bent.first + p)].x);
+  const std::vector<Vec3> places = placesOf(bent, sample);
   for (const Force& force : scene.world.forces)
     if (const Bending* bending = std::get_if<Bending>(&force))
       if (bending->body->bodies.front() == bent.first) return strainsOf(*bending->body, places);
@@ -174,15 +196,21 @@ std::span<const Colour> strainStops() {
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
                                    const std::vector<Colour>& colours, double top) {
   std::vector<Instance> surfaces;
-  for (const BentDef& bent : scene.bent) {
-    const Colour front = colours[static_cast<std::size_t>(bent.first)];
-    if (bent.strand > 0) {
-      for (Instance& tube : strandTubes(bent, sample, front)) surfaces.push_back(std::move(tube));
+  for (const BentDef& own : scene.bent) {
+    const Colour front = colours[static_cast<std::size_t>(own.first)];
+    if (own.strand > 0) {
+      for (Instance& tube : strandTubes(own, sample, front)) surfaces.push_back(std::move(tube));
       continue;
     }
-    Shell shell = shellOf(bent, sample);
-    const std::vector<double> strains =
-        top > 0.0 ? strainsAt(scene, bent, sample) : std::vector<double>();
+    std::vector<Vec3> places = placesOf(own, sample);
+    std::vector<double> strains = top > 0.0 ? strainsAt(scene, own, sample) : std::vector<double>();
+    BentDef bent = own;
+    if (const int parts = partsOf(own); parts > 1) {
+      bent = finer(own, parts);
+      places = sheetThrough(places, own.columns, parts);
+      if (!strains.empty()) strains = sheetThrough(strains, own.columns, parts);
+    }
+    Shell shell = shellOf(bent, std::move(places));
     const auto add = [&](Sheet surface, double thickness, const Colour& colour) {
       surface.facets.thickness = thickness;
       if (top > 0.0) return addStrained(shell, surface, strains, top, surfaces);

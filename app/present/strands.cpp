@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/present/curve.h"
 #include "app/present/palette.h"
 
 namespace tumble {
@@ -19,24 +20,6 @@ struct Ring {
   Vec3 middle, u, v;  // u, v unit across it
   double radius = 0.0;
 };
-
-// Points of the curve through places (Catmull and Rom): each piece in equal parts.
-std::vector<Vec3> curveThrough(const std::vector<Vec3>& places) {
-  std::vector<Vec3> curve = {places.front()};
-  const std::size_t last = places.size() - 1;
-  for (std::size_t k = 0; k < last; ++k) {
-    const Vec3 &b = places[k], &c = places[k + 1];
-    const Vec3 a = k > 0 ? places[k - 1] : Vec3(2.0 * b - c);
-    const Vec3 d = k + 1 < last ? places[k + 2] : Vec3(2.0 * c - b);
-    for (int part = 1; part <= kParts; ++part) {
-      const double s = static_cast<double>(part) / kParts;
-      curve.push_back(
-          b +
-          0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a))));
-    }
-  }
-  return curve;
-}
 
 // Rings along a curve, each turned no further than the curve turns.
 std::vector<Ring> ringsAlong(const std::vector<Vec3>& curve, double radius) {
@@ -83,7 +66,7 @@ std::vector<Instance> strandTubes(const BentDef& fur, const Sample& sample, cons
     std::vector<Vec3> places;
     for (int p = 1; p < fur.strand; ++p) places.push_back(at(first + p) - middle);
     Facets& facets = tubes[static_cast<std::size_t>(first / fur.strand) % tubes.size()];
-    addTube(ringsAlong(curveThrough(places), 0.5 * fur.thickness), facets);
+    addTube(ringsAlong(curveThrough(places, kParts), 0.5 * fur.thickness), facets);
   }
   std::vector<Instance> instances;
   for (std::size_t k = 0; k < tubes.size(); ++k) {
