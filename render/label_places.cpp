@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace tumble {
 
@@ -13,33 +14,99 @@ Eigen::AlignedBox2d inkOf(const Vector2d& pen, double width, double size, Align 
   return {pen + Vector2d(left, -0.7 * size), pen + Vector2d(left + width, 0.1 * size)};
 }
 
-bool LabelPlaces::isFree(const Box& ink, bool apart) const {
-  const auto meets = [&](const Box& other) { return other.intersects(ink); };
-  return std::none_of(taken_.begin(), taken_.end(), meets) &&
-         (!apart || std::none_of(crossed_.begin(), crossed_.end(), meets));
+void LabelPlaces::cover(const Silhouette& body) {
+  constexpr double kGround = 0.12;  // of the page
+  const Box shown = body.box.intersection(Box(Vector2d::Zero(), page_));
+  if (!shown.isEmpty() && shown.volume() < kGround * page_.prod()) bodies_.push_back(body);
 }
 
-LabelPlaces::Standing LabelPlaces::place(const Label& label, const Vector2d& anchor, double width) {
-  const Vector2d wanted = anchor + label.offset;
-  const Box page(Vector2d::Zero(), page_);
-  for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0}) {
-    const Vector2d pen = wanted + Vector2d(0.0, lines * label.size);
-    const Box ink = inkOf(pen, width, label.size, label.align);
-    if (!isFree(ink, label.apart) || (lines != 0.0 && !page.contains(ink))) continue;
-    take(ink);
-    return {pen};
+bool LabelPlaces::isFree(const Box& ink, Off off) const {
+  const auto meets = [&](const Box& other) { return other.intersects(ink); };
+  if (std::any_of(taken_.begin(), taken_.end(), meets)) return false;
+  if (off >= Off::Arrows && std::any_of(crossed_.begin(), crossed_.end(), meets)) return false;
+  return off < Off::Bodies || std::none_of(bodies_.begin(), bodies_.end(),
+                                           [&](const Silhouette& body) { return body.meets(ink); });
+}
+
+// The body that a label names, as it was told first.
+const Silhouette* LabelPlaces::own(const Label& label) const {
+  const auto at = std::find_if(bodies_.begin(), bodies_.end(), [&](const Silhouette& body) {
+    return label.names && body.centre == *label.names;
+  });
+  return at == bodies_.end() ? nullptr : &*at;
+}
+
+bool LabelPlaces::isHidden(const Silhouette& body) const {
+  const Vector2d middle = body.box.center();
+  const Box spot(middle, middle);
+  return std::any_of(bodies_.begin(), bodies_.end(), [&](const Silhouette& other) {
+    return other.solid && other.depth < body.depth && other.contains(spot);
+  });
+}
+
+std::optional<LabelPlaces::Standing> LabelPlaces::place(const Label& label, const Vector2d& anchor,
+                                                        double width) {
+  std::optional<Standing> standing;
+  const Silhouette* body = own(label);
+  if (body && isHidden(*body)) return {};
+  if (label.apart) {
+    standing = beside(label, anchor, width, Off::Bodies);
+    if (!standing && body) standing = onBody(label, width);
+    if (!standing) standing = onRings(label, anchor, width, Off::Bodies);
   }
-  return onRings(label, anchor, width).value_or(Standing{wanted});
+  if (standing || label.names) return standing;
+  const Off off = label.apart ? Off::Arrows : Off::Texts;
+  standing = beside(label, anchor, width, off);
+  if (!standing) standing = onRings(label, anchor, width, off);
+  return standing.value_or(Standing{anchor + label.offset});
+}
+
+std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, const Vector2d& anchor,
+                                                         double width, Off off) {
+  const Box page(Vector2d::Zero(), page_);
+  // Off bodies a little further out first, on the same line: there nobody takes it for another's.
+  const double out = label.align == Align::Left ? 0.7 : label.align == Align::Right ? -0.7 : 0.0;
+  std::vector<Vector2d> shifts = {{0.0, 0.0}};
+  if (off == Off::Bodies)
+    for (int k = 1; k <= 4; ++k) shifts.emplace_back(k * out * label.size, 0.0);
+  for (const double lines : {-1.0, 1.0, -2.0, 2.0}) shifts.emplace_back(0.0, lines * label.size);
+  for (const Vector2d& shift : shifts) {
+    const Vector2d pen = anchor + label.offset + shift;
+    const Box ink = inkOf(pen, width, label.size, label.align);
+    const bool anywhere = shift.isZero(0.0) && off != Off::Bodies;
+    if (!isFree(ink, off) || (!anywhere && !page.contains(ink))) continue;
+    take(ink);
+    return Standing{pen};
+  }
+  return {};
+}
+
+// In the middle of the body, if it has room for it there and nothing stands before it.
+std::optional<LabelPlaces::Standing> LabelPlaces::onBody(const Label& label, double width) {
+  const Silhouette& body = *own(label);
+  const Vector2d start = body.box.center() + Vector2d(-0.5 * width, 0.3 * label.size);
+  const Box ink = inkOf(start, width, label.size, Align::Left);
+  const bool covered = std::any_of(bodies_.begin(), bodies_.end(), [&](const Silhouette& other) {
+    return other.solid && other.depth < body.depth && other.meets(ink);
+  });
+  if (covered || !body.contains(ink) || !isFree(ink, Off::Arrows)) return {};
+  take(ink);
+  const double shift = label.align == Align::Left     ? 0.0
+                       : label.align == Align::Centre ? 0.5 * width
+                                                      : width;
+  return Standing{start + Vector2d(shift, 0.0)};
 }
 
 // To the right of the anchor first, then alternately above and below.
 std::optional<LabelPlaces::Standing> LabelPlaces::onRings(const Label& label,
-                                                          const Vector2d& anchor, double width) {
-  constexpr int kRings = 16, kDirections = 32;
-  constexpr double kEdge = 6.0, kRoom = 3.0;  // [px] of the page's edge, between labels
+                                                          const Vector2d& anchor, double width,
+                                                          Off off) {
+  constexpr int kDirections = 32;
+  const int rings = off == Off::Bodies ? 3 : 16;  // further off a leader crosses too much
+  constexpr double kEdge = 6.0, kRoom = 3.0;      // [px] of the page's edge, between labels
   const Vector2d edge = Vector2d::Constant(kEdge);
   const Box page(edge, Vector2d(page_ - edge));
-  for (int ring = 1; ring <= kRings; ++ring) {
+  for (int ring = 1; ring <= rings; ++ring) {
     for (int n = 0; n < kDirections; ++n) {
       const double angle =
           (n % 2 == 0 ? 1 : -1) * ((n + 1) / 2) * 2.0 * std::numbers::pi / kDirections;
@@ -51,7 +118,7 @@ std::optional<LabelPlaces::Standing> LabelPlaces::onRings(const Label& label,
       Box ink = inkOf(pen, width, label.size, Align::Left);
       if (!page.contains(ink)) continue;
       ink.min() -= Vector2d::Constant(kRoom), ink.max() += Vector2d::Constant(kRoom);
-      if (!isFree(ink, label.apart)) continue;
+      if (!isFree(ink, off)) continue;
       take(ink);
       const double shift = label.align == Align::Left     ? 0.0
                            : label.align == Align::Centre ? 0.5 * width

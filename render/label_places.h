@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "render/picture.h"
+#include "render/silhouette.h"
 
 namespace tumble {
 
@@ -20,25 +20,39 @@ class LabelPlaces {
   /// A place where only labels that keep apart do not stand.
   void cross(const Eigen::AlignedBox2d& ink) { crossed_.push_back(ink); }
 
+  /// A body, on which only labels that keep apart do not stand. What takes a large part of the
+  /// page is ground.
+  void cover(const Silhouette& body);
+
   struct Standing {
     Eigen::Vector2d pen;  ///< [px] of the text
     /// Where a line from the anchor meets a label that had to go further away from it.
     std::optional<Eigen::Vector2d> leader = {};
   };
   /// The place of a label next to its anchor: where it wants to be, else up or down by whole lines,
-  /// else on a ring about the anchor, the nearest that is free. Where all is taken it stands where
-  /// it wants to.
+  /// else on a ring about the anchor, the nearest that is free; what keeps apart looks for such a
+  /// place off bodies near by first, and a name for one on its body. Where all is taken it stands
+  /// where it wants to; a name does not stand.
   /// @param anchor  [px], from which label.offset counts
   /// @param width   [px] of its text
-  Standing place(const Label& label, const Eigen::Vector2d& anchor, double width);
+  std::optional<Standing> place(const Label& label, const Eigen::Vector2d& anchor, double width);
 
  private:
   using Box = Eigen::AlignedBox2d;
-  bool isFree(const Box& ink, bool apart) const;
-  std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor, double width);
+  /// What a label has to keep off.
+  enum class Off { Texts, Arrows, Bodies };
+  bool isFree(const Box& ink, Off off) const;
+  std::optional<Standing> beside(const Label& label, const Eigen::Vector2d& anchor, double width,
+                                 Off off);
+  std::optional<Standing> onBody(const Label& label, double width);
+  std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor, double width,
+                                  Off off);
+  const Silhouette* own(const Label& label) const;
+  bool isHidden(const Silhouette& body) const;
 
   Eigen::Vector2d page_;
   std::vector<Box> taken_, crossed_;
+  std::vector<Silhouette> bodies_;
 };
 
 /// What the ink of a line of text covers, about [px].

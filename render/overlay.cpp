@@ -20,8 +20,18 @@ Vector2d flat(const Vector3d& point) {
   return point.head<2>();
 }
 
+bool isDotted(const Polyline& line) {
+  return line.stroke == Stroke::Dotted;
+}
+
+/// How large the beads of so many curves are: more than a few would hide what they stand beside.
+double beadSize(std::ptrdiff_t curves) {
+  constexpr double kFew = 8.0, kLeast = 0.6;
+  return std::clamp(std::sqrt(kFew / static_cast<double>(curves)), kLeast, 1.0);
+}
+
 /// Beads along a curve, evenly spaced on the image, in front of everything.
-void drawDots(const Polyline& line, const Projection& projection, Canvas& canvas) {
+void drawDots(const Polyline& line, double size, const Projection& projection, Canvas& canvas) {
   std::vector<Vector2d> beads;
   for (const std::vector<Vector3d>& piece : projectLine(line.points, projection)) {
     double next = 0.0, done = 0.0;
@@ -34,7 +44,7 @@ void drawDots(const Polyline& line, const Projection& projection, Canvas& canvas
     }
   }
   // All rims before all dots, so that neighbours do not bite into each other.
-  const double grow = line.width / 1.8;
+  const double grow = size * line.width / 1.8;
   for (const Vector2d& bead : beads) canvas.disc(bead, kDotHalo * grow, ink::paper, kDotHaloAlpha);
   for (const Vector2d& bead : beads) canvas.disc(bead, kDotRadius * grow, line.colour);
 }
@@ -77,11 +87,17 @@ void crossArrows(const std::vector<Arrow>& arrows, const Projection& projection,
 }
 
 /// Labels, none on another or on the words of a mark.
-void drawLabels(const Picture& picture, const Projection& projection, Canvas& canvas) {
+/// @return how many bodies went without their names
+int drawLabels(const Picture& picture, const Projection& projection, Canvas& canvas) {
   LabelPlaces places({canvas.width(), canvas.height()});
   if (std::any_of(picture.labels.begin(), picture.labels.end(),
-                  [](const Label& label) { return label.apart; }))
+                  [](const Label& label) { return label.apart; })) {
     crossArrows(picture.arrows, projection, places);
+    for (auto body = picture.instances.rbegin(); body != picture.instances.rend(); ++body)
+      if (const std::optional<Silhouette> silhouette = silhouetteOf(*body, projection))
+        places.cover(*silhouette);
+  }
+  int unnamed = 0;
   for (const Mark& mark : picture.marks) {
     const auto place = projection.project(mark.position);
     for (std::size_t i = 0; place && i < mark.lines.size(); ++i)
@@ -95,13 +111,16 @@ void drawLabels(const Picture& picture, const Projection& projection, Canvas& ca
     if (label.anchor) {
       const auto anchor = projection.project(*label.anchor);
       if (!anchor) continue;
-      const LabelPlaces::Standing place =
+      const std::optional<LabelPlaces::Standing> place =
           places.place(label, flat(*anchor), canvas.textWidth(label.text, style));
-      if (place.leader) canvas.stroke(flat(*anchor), *place.leader, 1.0, ink::leader);
-      pen = place.pen;
+      unnamed += !place;
+      if (!place) continue;
+      if (place->leader) canvas.stroke(flat(*anchor), *place->leader, 1.0, ink::leader);
+      pen = place->pen;
     }
     canvas.text(pen, label.text, style);
   }
+  return unnamed;
 }
 
 void drawBar(const PageBar& bar, const Projection& projection, Canvas& canvas) {
@@ -127,7 +146,7 @@ void drawPageShape(const PageShape& shape, Canvas& canvas) {
 
 // Title, subtitle and remarks, as large as the shorter side of the page asks, each in as many lines
 // as it takes and below those before.
-void drawTitle(const Picture& picture, Canvas& canvas) {
+void drawTitle(const Picture& picture, const std::vector<Remark>& remarks, Canvas& canvas) {
   constexpr double kLeft = 32.0, kFirst = 46.0;
   const double small = std::min(1.0, canvas.width() / canvas.height());
   const double left = kLeft * small, width = canvas.width() - 2.0 * left;
@@ -144,7 +163,7 @@ void drawTitle(const Picture& picture, Canvas& canvas) {
   draw(picture.subtitle, {15.0 * small, Face::Regular, Align::Left, ink::secondary}, 19.0);
   baseline += 11.0 * small;
   if (titled) baseline = std::max(baseline, 100.0 * small);
-  for (const Remark& remark : picture.remarks)
+  for (const Remark& remark : remarks)
     draw(remark.text, {13.0 * small, Face::Regular, Align::Left, remark.colour}, 19.0);
 }
 
@@ -152,14 +171,21 @@ void drawTitle(const Picture& picture, Canvas& canvas) {
 
 void drawOverlay(const Picture& picture, const Projection& projection, Canvas& canvas) {
   if (picture.floor.visible && picture.floor.rule) drawRule(picture, projection, canvas);
+  const double beads =
+      beadSize(std::count_if(picture.lines.begin(), picture.lines.end(), isDotted));
   for (const Polyline& line : picture.lines)
-    if (line.stroke == Stroke::Dotted) drawDots(line, projection, canvas);
+    if (isDotted(line)) drawDots(line, beads, projection, canvas);
   for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
   for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
   for (const PageBar& bar : picture.pageBars) drawBar(bar, projection, canvas);
-  drawLabels(picture, projection, canvas);
+  const int unnamed = drawLabels(picture, projection, canvas);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
-  drawTitle(picture, canvas);
+  std::vector<Remark> remarks = picture.remarks;
+  if (unnamed > 0 && !picture.title.empty())
+    remarks.push_back({std::to_string(unnamed) + (unnamed == 1 ? " body is" : " bodies are") +
+                           " hidden, or stand too close for a name",
+                       ink::secondary});
+  drawTitle(picture, remarks, canvas);
 }
 
 }  // namespace tumble

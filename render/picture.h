@@ -103,7 +103,10 @@ struct Label {
   Align align = Align::Left;
   Colour colour = {0.17f, 0.18f, 0.21f};
   bool italic = false;
-  bool apart = false;  ///< keeps off arrows, as all labels do off each other
+  bool apart = false;  ///< keeps off arrows and bodies, as all labels do off each other
+  /// Centre [m] of the body that it names: one that is hidden, or that it finds no room by, goes
+  /// without it, and words say how many do.
+  std::optional<Eigen::Vector3d> names = {};
 };
 
 /// A bar on the page with text behind it, and a leader from a world point: a row of a ladder. It

@@ -56,6 +56,9 @@ void addForces(const Scene& scene, const Sample& sample, double length, Picture&
 void addForceLadder(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,
                     std::span<const Eigen::AlignedBox3d> ways, Picture& picture);
 
+/// Whether the flags leave room for a ladder: a matrix stands in its place.
+bool showsForceLadder(const ShowFlags& show);
+
 /// Whether a ladder stands in any picture of the run.
 bool hasForceLadder(const Scene& scene, const Recording& recording);
 

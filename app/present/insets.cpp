@@ -180,11 +180,15 @@ std::vector<double> contactAccelerations(const Scene& scene, const Sample& sampl
   return found;
 }
 
+double matrixSide(const Vector2d& page) {
+  return std::min(0.56 * page.y(), 0.4 * page.x());
+}
+
 void addContactMatrix(const Scene& scene, const Sample& sample, const Vector2d& page,
                       Picture& picture) {
   const MatX A = contactMatrix(scene, sample);
   if (A.size() == 0) return;
-  const double side = std::min(0.56 * page.y(), 0.4 * page.x());
+  const double side = matrixSide(page);
   const double cell = side / static_cast<double>(A.rows());
   const Vector2d corner(page.x() - 40.0 - side, 0.42 * page.y() - 0.5 * side);
   addCells(A, corner, cell, picture);
@@ -192,8 +196,11 @@ void addContactMatrix(const Scene& scene, const Sample& sample, const Vector2d& 
   addText(corner - Vector2d(0.0, 12.0), fmt::format("A of {} contacts", A.rows()), 14.0f,
           Align::Left, colour::kInk, picture);
   const double largest = A.cwiseAbs().maxCoeff();
-  picture.bar = ColourBar{
-      "a_ij / (1/kg)", {kBelow, kZero, kAbove}, -largest, largest, {-largest, 0.0, largest}};
+  // Three digits of it.
+  const double unit = std::pow(10.0, std::floor(std::log10(largest)) - 2.0);
+  const double told = unit * std::floor(largest / unit);
+  picture.bar =
+      ColourBar{"a_ij / (1/kg)", {kBelow, kZero, kAbove}, -largest, largest, {-told, 0.0, told}};
 }
 
 void addEitherOr(const Scene& scene, const Recording& recording, const Sample& sample,

@@ -7,6 +7,9 @@
 
 namespace tumble {
 
+/// How wide and high [px] the matrix is on a page of that many pixels.
+double matrixSide(const Eigen::Vector2d& page);
+
 /// A of  a = A f + b, normal rows alone, a coloured cell each number, right of the middle of a page
 /// of that many pixels; small matrices of short numbers have them printed. Slides SD49, SD56.
 void addContactMatrix(const Scene& scene, const Sample& sample, const Eigen::Vector2d& page,

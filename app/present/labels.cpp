@@ -39,13 +39,16 @@ std::string labelOf(const Scene& scene, int index) {
 }
 
 void addLabels(const Scene& scene, const Sample& sample, Picture& picture) {
+  const Vec3 right = Projection(picture.camera, 1.0, 1.0).right();
   for (int i = 0; i < static_cast<int>(sample.bodies.size()); ++i) {
     const std::string text = labelOf(scene, i);
     if (text.empty()) continue;
     const BodySample& body = sample.bodies[static_cast<std::size_t>(i)];
-    const Shape& shape = scene.world.bodies[static_cast<std::size_t>(i)].shape;
+    const BodyDef& def = scene.world.bodies[static_cast<std::size_t>(i)];
     Label label;
-    label.anchor = body.x + Vec3(reach(shape, body.q, Vec3::UnitX()), 0.0, 0.0);
+    label.anchor = body.x + reach(def.shape, body.q, right) * right;
+    label.apart = true;
+    if (text == def.name) label.names = body.x;
     label.offset = {kBeside[0], kBeside[1]};
     label.text = text;
     picture.labels.push_back(label);

@@ -157,8 +157,12 @@ void addCaption(double x, double y, int every, double width, Picture& picture) {
 
 }  // namespace
 
+bool showsForceLadder(const ShowFlags& show) {
+  return show.contact_forces && show.ladder && !show.joint_forces && !show.matrix;
+}
+
 bool hasForceLadder(const Scene& scene, const Recording& recording) {
-  if (!scene.show.contact_forces || scene.show.joint_forces || !scene.show.ladder) return false;
+  if (!showsForceLadder(scene.show)) return false;
   return std::any_of(recording.samples.begin(), recording.samples.end(), [&](const Sample& sample) {
     return tallestGroup(scene, levelsOf(sample)).size() > 1;
   });

@@ -1,6 +1,8 @@
 // Labels that lay themselves out.
 #include "render/label_places.h"
 
+#include <cmath>
+
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -16,11 +18,39 @@ std::vector<Eigen::AlignedBox2d> laidOut(int count, const Vector2d& anchor, int&
     Label label;
     label.offset = {8.0, 5.0};
     const LabelPlaces::Standing place =
-        places.place(label, anchor + Vector2d(3.0 * (i % 7), 2.0 * (i % 5)), 90.0);
+        places.place(label, anchor + Vector2d(3.0 * (i % 7), 2.0 * (i % 5)), 90.0).value();
     leaders += place.leader.has_value();
     boxes.push_back(inkOf(place.pen, 90.0, label.size, label.align));
   }
   return boxes;
+}
+
+// Straight at the origin from 10 m, 720 px high; 100 px for a metre there.
+const Projection kAhead({{0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, 2.0 * std::atan(0.36) * 180.0 / M_PI},
+                        1280.0, 720.0);
+
+Instance boxAt(const Eigen::Vector3d& position, const Eigen::Vector3d& half) {
+  Instance box;
+  box.position = position;
+  box.scale = half;
+  return box;
+}
+
+// The name of a body, right of it.
+Label nameOf(const Instance& body) {
+  Label label;
+  label.anchor = body.position + Eigen::Vector3d(body.scale.x(), 0.0, 0.0);
+  label.offset = {8.0, 5.0};
+  label.apart = true;
+  label.names = body.position;
+  return label;
+}
+
+std::optional<Eigen::AlignedBox2d> inkBy(LabelPlaces& places, const Label& label, double width) {
+  const Vector2d anchor = kAhead.project(*label.anchor)->head<2>();
+  const std::optional<LabelPlaces::Standing> place = places.place(label, anchor, width);
+  if (!place) return {};
+  return inkOf(place->pen, width, label.size, label.align);
 }
 
 }  // namespace
@@ -45,17 +75,52 @@ TEST_CASE("what is crossed by an arrow keeps off labels that stand apart, and no
   Label label;
   label.offset = {8.0, 5.0};
   label.apart = true;
-  const Vector2d pen = places.place(label, {100.0, 100.0}, 90.0).pen;
+  const Vector2d pen = places.place(label, {100.0, 100.0}, 90.0)->pen;
   CHECK(!inkOf(pen, 90.0, label.size, label.align).intersects(arrow));
   label.apart = false;
-  CHECK(places.place(label, {100.0, 100.0}, 90.0).pen == Vector2d(108.0, 105.0));
+  CHECK(places.place(label, {100.0, 100.0}, 90.0)->pen == Vector2d(108.0, 105.0));
 }
 
 TEST_CASE("a label that stands alone stays where it wants to be, without a line to it") {
   LabelPlaces places({1280.0, 720.0});
   Label label;
   label.offset = {8.0, 5.0};
-  const LabelPlaces::Standing place = places.place(label, {100.0, 100.0}, 90.0);
+  const LabelPlaces::Standing place = places.place(label, {100.0, 100.0}, 90.0).value();
   CHECK(place.pen == Vector2d(108.0, 105.0));
   CHECK(!place.leader);
+}
+
+TEST_CASE("a text beside a body keeps off its neighbour where there is room") {
+  LabelPlaces places({1280.0, 720.0});
+  const Instance one = boxAt({0.0, 0.0, 0.0}, {0.2, 0.2, 0.2});
+  const Silhouette neighbour = *silhouetteOf(boxAt({0.6, 0.0, 0.0}, {0.3, 0.3, 0.3}), kAhead);
+  places.cover(*silhouetteOf(one, kAhead));
+  places.cover(neighbour);
+  Label label = nameOf(one);
+  label.names.reset();
+  const std::optional<Eigen::AlignedBox2d> ink = inkBy(places, label, 60.0);
+  REQUIRE(ink);
+  CHECK(!neighbour.meets(*ink));
+  // What says where it wants to be stands there.
+  label.apart = false;
+  const std::optional<Eigen::AlignedBox2d> wanted = inkBy(places, label, 60.0);
+  CHECK(neighbour.meets(*wanted));
+}
+
+// A wall of bricks, as wide as the page: nowhere near is free.
+TEST_CASE("in a crowd a name stands on its body if that is large enough, else it does not stand") {
+  LabelPlaces places({1280.0, 720.0});
+  std::vector<Instance> wall;
+  for (int row = -8; row <= 8; ++row)
+    for (int column = -8; column <= 8; ++column)
+      wall.push_back(boxAt({0.9 * column, 0.3 * row, 0.0}, {0.45, 0.15, 0.1}));
+  const Instance hidden = boxAt({0.0, 0.0, -2.0}, {0.1, 0.1, 0.1});
+  for (const Instance& brick : wall) places.cover(*silhouetteOf(brick, kAhead));
+  places.cover(*silhouetteOf(hidden, kAhead));
+  const Silhouette own = *silhouetteOf(wall[8 * 17 + 8], kAhead);
+  const std::optional<Eigen::AlignedBox2d> ink = inkBy(places, nameOf(wall[8 * 17 + 8]), 60.0);
+  REQUIRE(ink);
+  CHECK(own.contains(*ink));
+  CHECK(!inkBy(places, nameOf(wall[7 * 17 + 8]), 200.0));
+  CHECK(!inkBy(places, nameOf(hidden), 20.0));
 }
