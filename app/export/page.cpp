@@ -11,6 +11,7 @@
 #include "app/claim/verdict.h"
 #include "app/export/drawn.h"
 #include "app/export/pack.h"
+#include "app/export/page_view.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/present/arrows.h"
@@ -117,11 +118,7 @@ class Writer {
     json_["subtitle"] = scene_.subtitle;
     json_["rate"] = recording_.rate;
     json_["count"] = recording_.samples.size();
-    json_["camera"] = {{"eye", list(picture.camera.eye)},
-                       {"target", list(picture.camera.target)},
-                       {"fov", picture.camera.fov},
-                       {"aspect", 1.0 * scene_.image.width / scene_.image.height},
-                       {"azimuth", picture.camera.azimuth}};
+    addCamera(picture.camera);
     json_["centre"] = list(picture.centre);
     json_["origin"] = list({picture.centre.x(), picture.floor.height, picture.centre.z()});
     json_["radius"] = brief(picture.radius);
@@ -136,6 +133,21 @@ class Writer {
                      {"glass", scene_.show.glass},
                      {"strobe", false},
                      {"paths", scene_.show.path}};
+  }
+
+  // Where the scene puts it by hand; else its direction and the points that it is to hold, in a
+  // window of any shape.
+  void addCamera(const Camera& atStart) {
+    const bool byHand = scene_.camera.eye || scene_.camera.target;
+    const PageView view = byHand ? PageView{atStart, {}} : pageView(scene_, recording_);
+    json_["camera"] = {{"eye", list(view.camera.eye)},
+                       {"target", list(view.camera.target)},
+                       {"fov", view.camera.fov},
+                       {"aspect", aspectOf(scene_)},
+                       {"azimuth", view.camera.azimuth}};
+    Json hold = Json::array();
+    for (const Vec3& point : view.hold) hold.push_back(list(point));
+    json_["hold"] = std::move(hold);
   }
 
   // Bodies as the first image has them: shape 0 box, 1 cylinder, 2 ellipsoid, 3 ball, 4 … meshes.

@@ -1,5 +1,7 @@
 #include "app/golden/draw.h"
 
+#include <cmath>
+
 #include "app/file/data.h"
 #include "app/panel/page.h"
 #include "app/present/present.h"
@@ -11,9 +13,9 @@ namespace tumble {
 
 namespace {
 
-constexpr RenderOptions kSmall = {.width = 480, .height = 270};
-constexpr int kSmallPanel = 360;  // [px] width of a panel
-constexpr int kRows = 20;         // intervals between the instants that numbers are kept of
+constexpr double kPixels = 480.0 * 270.0;  // of an image
+constexpr int kSmallPanel = 360;           // [px] width of a panel
+constexpr int kRows = 20;  // intervals between the instants that numbers are kept of
 
 // A ball flies at a wall: bodies of two forms that fill the image and shade each other.
 constexpr const char* kWindowScene = R"toml(
@@ -57,6 +59,13 @@ Recording thinned(const Recording& recording) {
   for (std::size_t k = 0; k <= kRows; ++k)
     few.samples.push_back(recording.samples[last * k / kRows]);
   return few;
+}
+
+// Of the scene's own shape.
+RenderOptions smallImages(const Scene& scene) {
+  const double width = std::sqrt(kPixels * aspectOf(scene));
+  return {.width = static_cast<int>(std::lround(width)),
+          .height = static_cast<int>(std::lround(kPixels / width))};
 }
 
 Golden drawWindow(Renderer& renderer) {
@@ -117,14 +126,15 @@ Golden drawGolden(const Scene& scene, Renderer& renderer) {
   if (recording.report.stopped)
     throw StoppedError(scene.file +
                        " stops, so no golden of it is kept: " + recording.report.reason);
+  const RenderOptions options = smallImages(scene);
   Scene small = scene;
-  small.image.width = kSmall.width;
-  small.image.height = kSmall.height;
+  small.image.width = options.width;
+  small.image.height = options.height;
   const Presenter presenter(small, recording);
   const int last = presenter.count() - 1;
   std::vector<NamedImage> images;
   const auto draw = [&](const std::string& image, const Picture& picture) {
-    images.push_back({image, renderer.draw(picture, kSmall)});
+    images.push_back({image, renderer.draw(picture, options)});
   };
   draw("strobe", presenter.strobe());
   draw("end", presenter.image(last));

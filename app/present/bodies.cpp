@@ -118,30 +118,42 @@ void addSurroundings(const ShowFlags& show, const BodyDef& body, const BodySampl
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording) {
-  std::vector<Eigen::Vector3d> points;
+void addMovingPoints(const Scene& scene, const Sample& sample,
+                     std::vector<Eigen::Vector3d>& points) {
   const std::vector<BodyDef>& bodies = scene.world.bodies;
-  for (const Sample& sample : recording.samples)
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (std::holds_alternative<Particle>(bodies[i].shape)) points.push_back(sample.bodies[i].x);
-      if (!moves(bodies[i]) || std::holds_alternative<Particle>(bodies[i].shape)) continue;
-      addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
-      addSurroundings(scene.show, bodies[i], sample.bodies[i], points);
-    }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (std::holds_alternative<Particle>(bodies[i].shape)) points.push_back(sample.bodies[i].x);
+    if (!moves(bodies[i]) || std::holds_alternative<Particle>(bodies[i].shape)) continue;
+    addCorners(boundingBox(bodies[i].shape, {sample.bodies[i].x, sample.bodies[i].q}), points);
+    addSurroundings(scene.show, bodies[i], sample.bodies[i], points);
+  }
+}
+
+std::vector<Eigen::Vector3d> standingPoints(const Scene& scene,
+                                            const std::vector<Eigen::Vector3d>& motion) {
+  std::vector<Eigen::Vector3d> points;
   for (const JointDef& joint : scene.world.joints)
     if (joint.b == kNoBody) points.push_back(joint.anchorB);
 
-  Aabb motion{Vec3::Zero(), Vec3::Zero()};
-  if (!points.empty()) motion = {points[0], points[0]};
-  for (const Eigen::Vector3d& p : points) motion = {motion.lo.cwiseMin(p), motion.hi.cwiseMax(p)};
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : motion) box.extend(p);
+  for (const Eigen::Vector3d& p : points) box.extend(p);
   constexpr double kLargest = 2.0;  // of the motion, as long as what stands is seen with it
-  const double size = kLargest * (motion.hi - motion.lo).norm();
-  for (const BodyDef& body : bodies) {
+  const double size = box.isEmpty() ? 0.0 : kLargest * box.sizes().norm();
+  for (const BodyDef& body : scene.world.bodies) {
     if (moves(body) || std::holds_alternative<HalfSpace>(body.shape)) continue;
-    if (points.empty() || 2.0 * boundingRadius(body.shape) <= size)
+    if (box.isEmpty() || 2.0 * boundingRadius(body.shape) <= size)
       addCorners(boundingBox(body.shape, {body.position, body.orientation}), points);
   }
-  if (points.empty()) addCorners({Vec3::Constant(-1.0), Vec3::Constant(1.0)}, points);
+  if (points.empty() && motion.empty())
+    addCorners({Vec3::Constant(-1.0), Vec3::Constant(1.0)}, points);
+  return points;
+}
+
+std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Sample& sample : recording.samples) addMovingPoints(scene, sample, points);
+  for (const Eigen::Vector3d& point : standingPoints(scene, points)) points.push_back(point);
   return points;
 }
 

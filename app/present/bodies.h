@@ -33,8 +33,17 @@ int movingCount(const Scene& scene);
 /// Median height [m] of the moving bodies at the start, along Y; 1 without any.
 double typicalHeight(const Scene& scene);
 
-/// Corners of the boxes around every moving body in every sample, and around fixed bodies at most
-/// twice as long as the motion. World frame [m].
+/// Corners of the boxes around every moving body at a sample. World frame [m].
+void addMovingPoints(const Scene& scene, const Sample& sample,
+                     std::vector<Eigen::Vector3d>& points);
+
+/// Where joints are fixed to the world, and corners of the boxes around fixed bodies at most twice
+/// as long as the motion; without either, of a box of 2 m. World frame [m].
+/// @param motion  points of all samples
+std::vector<Eigen::Vector3d> standingPoints(const Scene& scene,
+                                            const std::vector<Eigen::Vector3d>& motion);
+
+/// The moving points of all samples and what stands. World frame [m].
 std::vector<Eigen::Vector3d> motionPoints(const Scene& scene, const Recording& recording);
 
 /// Corners of a box around one body at the start, with room about it for what it does and meets,

@@ -6,8 +6,10 @@
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
 #include "app/present/diagram.h"
+#include "app/present/insets.h"
 #include "app/present/labels.h"
 #include "app/record/bodies.h"
+#include "render/silhouette.h"
 
 namespace tumble {
 
@@ -23,10 +25,12 @@ Margins marginsOf(const Scene& scene, bool ladder) {
     margins.left = 0.13;  // their numbers
   else if (ladder)
     margins = {.left = 0.08, .right = 0.40, .top = 0.12, .bottom = 0.08};
+  const Eigen::Vector2d page(720.0 * aspectOf(scene), 720.0);
+  if (scene.show.matrix) margins.right = (matrixSide(page) + 90.0) / page.x();
   if (scene.show.tensors) margins.right = 0.32;
   if (scene.show.gel > 0.0) margins.bottom = 0.26;
   margins.top = std::max(margins.top, titleHeight(scene) / 720.0);
-  margins.bottom += diagramShare(scene, {720.0 * aspectOf(scene), 720.0});
+  margins.bottom += diagramShare(scene, page);
   return margins;
 }
 
@@ -40,13 +44,14 @@ Camera cameraOf(const Scene& scene, std::span<const Eigen::Vector3d> points, boo
   return camera;
 }
 
-// Both ends of all arrows, but for those that a scale of the scene's own takes far away.
-void addArrowEnds(const SeenRun& run, const Framing& framing, std::vector<Eigen::Vector3d>& ends) {
+// Both ends of all arrows of samples, but for those that a scale of the scene's own takes far away.
+void addArrowEnds(const SeenRun& run, const Framing& framing, std::span<const Sample> samples,
+                  std::vector<Eigen::Vector3d>& ends) {
   constexpr double kFar = 2.5;  // in radii of the motion
   const double fastest =
       framing.fastest > 0.0 ? framing.fastest : fastestOf(run.scene, run.recording);
   const ArrowScale scale = arrowScale(run.scene, run.recording, fastest, framing.radius);
-  for (const Sample& sample : run.recording.samples) {
+  for (const Sample& sample : samples) {
     Picture picture;
     picture.camera = framing.camera;
     addArrows(run.scene, sample, scale, picture);
@@ -58,12 +63,18 @@ void addArrowEnds(const SeenRun& run, const Framing& framing, std::vector<Eigen:
 
 }  // namespace
 
+std::vector<Eigen::Vector3d> shownPoints(const SeenRun& run, const Framing& framing) {
+  std::vector<Eigen::Vector3d> points = motionPoints(run.scene, run.recording);
+  addArrowEnds(run, framing, run.recording.samples, points);
+  return points;
+}
+
 double aspectOf(const Scene& scene) {
   return static_cast<double>(scene.image.width) / static_cast<double>(scene.image.height);
 }
 
 double titleHeight(const Scene& scene) {
-  constexpr double kPlain = 80.0, kClaims = 91.0, kLine = 19.0;  // [px]
+  constexpr double kPlain = 80.0, kClaims = 111.0, kLine = 19.0;  // [px]
   if (!scene.show.title) return 0.0;
   return scene.expects.empty() ? kPlain
                                : kClaims + kLine * static_cast<double>(scene.expects.size());
@@ -103,12 +114,28 @@ Framing framingOf(const Scene& scene, std::span<const SeenRun> runs) {
   if (scene.camera.eye && scene.camera.target) return framing;
 
   // How long arrows are hangs on the size of the motion alone.
-  for (const SeenRun& run : runs) addArrowEnds(run, framing, points);
+  for (const SeenRun& run : runs) addArrowEnds(run, framing, run.recording.samples, points);
   const bool ladder = std::any_of(runs.begin(), runs.end(), [](const SeenRun& run) {
     return hasForceLadder(run.scene, run.recording);
   });
   framing.camera = cameraOf(scene, points, ladder);
   return framing;
+}
+
+std::vector<Camera> camerasAhead(const SeenRun& run, const Framing& framing) {
+  const std::vector<Sample>& samples = run.recording.samples;
+  std::vector<Eigen::Vector3d> motion;
+  for (const Sample& sample : samples) addMovingPoints(run.scene, sample, motion);
+  std::vector<Eigen::Vector3d> points = standingPoints(run.scene, motion);
+  const bool ladder = hasForceLadder(run.scene, run.recording);
+  std::vector<Camera> cameras(samples.size());
+  for (std::size_t k = samples.size(); k-- > 0;) {
+    addMovingPoints(run.scene, samples[k], points);
+    addArrowEnds(run, framing, std::span(samples).subspan(k, 1), points);
+    points = outermost(points, framing.camera);
+    cameras[k] = cameraOf(run.scene, points, ladder);
+  }
+  return cameras;
 }
 
 }  // namespace tumble

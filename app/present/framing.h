@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "app/record/recording.h"
 #include "render/camera.h"
@@ -26,6 +27,9 @@ struct SeenRun {
   const Recording& recording;
 };
 
+/// Points [m] that a picture has to hold to show all bodies and arrows of the run.
+std::vector<Eigen::Vector3d> shownPoints(const SeenRun& run, const Framing& framing);
+
 /// The largest speed [m/s] of the run; 1 if nothing moves.
 double fastestOf(const Scene& scene, const Recording& recording);
 
@@ -40,5 +44,9 @@ Framing framingOf(const Scene& scene, std::span<const Eigen::Vector3d> points);
 
 /// The same for all bodies and arrows of runs, with room for a ladder of forces where one stands.
 Framing framingOf(const Scene& scene, std::span<const SeenRun> runs);
+
+/// For each sample the nearest camera of the framing's direction that holds what moves from then
+/// on, and what stands.
+std::vector<Camera> camerasAhead(const SeenRun& run, const Framing& framing);
 
 }  // namespace tumble

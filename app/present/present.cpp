@@ -74,6 +74,7 @@ Presenter::Presenter(const Scene& scene, const Recording& recording, const Frami
   measureWays();
   gatherWords();
   follow();
+  if (scene.camera.ahead) ahead_ = camerasAhead({scene, recording}, framing);
   if (!scene.show.theory) return;
   for (const std::string& name : scene.checks) {
     const Check* check = findCheck(name);
@@ -118,7 +119,13 @@ void Presenter::follow() {
   }
 }
 
-Framing Presenter::framingAt(const Sample& sample) const {
+Framing Presenter::framingAt(int k) const {
+  const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
+  if (!ahead_.empty()) {
+    Framing framing = framing_;
+    framing.camera = ahead_[static_cast<std::size_t>(k)];
+    return framing;
+  }
   if (!scene_.camera.keys.empty()) {
     Framing framing = framing_;
     framing.camera = cameraAt(scene_.camera.keys, sample.t);
@@ -140,7 +147,7 @@ int Presenter::count() const {
 
 Picture Presenter::image(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
-  Picture picture = blank(framingAt(sample));
+  Picture picture = blank(framingAt(k));
   addBodies(sample, false, 0, picture);
   addJoints(scene_, sample, framing_.radius, picture);
   if (scene_.show.path) addPaths(scene_, recording_, colours_, k, picture);
@@ -159,7 +166,7 @@ Picture Presenter::image(int k) const {
 
 Picture Presenter::bodiesAlone(int k) const {
   const Sample& sample = recording_.samples[static_cast<std::size_t>(k)];
-  Picture picture = blank(framingAt(sample));
+  Picture picture = blank(framingAt(k));
   picture.instances.clear();
   addBodies(sample, false, 0, picture);
   return picture;
@@ -312,8 +319,7 @@ void Presenter::addTheory(Picture& picture) const {
 void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   const ShowFlags& show = scene_.show;
   addArrows(scene_, sample, arrows_, picture);
-  if (show.contact_forces && show.ladder && !show.joint_forces)
-    addForceLadder(scene_, sample, framing_.page, ways_, picture);
+  if (showsForceLadder(show)) addForceLadder(scene_, sample, framing_.page, ways_, picture);
   if (show.matrix) addContactMatrix(scene_, sample, framing_.page, picture);
   if (show.either_or) addEitherOr(scene_, recording_, sample, framing_.page, picture);
   if (show.boxes) addBoundingBoxes(scene_, sample, picture);

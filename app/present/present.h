@@ -43,7 +43,7 @@ class Presenter {
   void measureWays();
   void gatherWords();
   void follow();
-  Framing framingAt(const Sample& sample) const;
+  Framing framingAt(int k) const;
   std::vector<std::size_t> ghosts() const;
   void addExpectations(Picture& picture) const;
   void addSpike(Picture& picture) const;
@@ -71,6 +71,7 @@ class Presenter {
   Picture words_;                          ///< labels and marks of its start, middle and end
   std::optional<int> followed_;            ///< the body that stays where it is on the image
   Framing following_;                      ///< of it at the start
+  std::vector<Camera> ahead_;              ///< per sample, if they hold what is to come
   double strained_ = 0.0;  ///< of the last colour, if what bends is coloured by strain
   double fastest_ = 1.0;   ///< [m/s] speed of the last colour, if bodies are coloured by speed
   ArrowScale arrows_;

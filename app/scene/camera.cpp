@@ -36,8 +36,8 @@ CameraKey readKey(const Node& node, const std::string& key, double fov, Findings
 void readKeys(Section& section, CameraView& camera) {
   const Array& tables = section.tables("keys");
   if (tables.empty()) return;
-  for (const char* other : {"eye", "target", "follow"})
-    if (section.find(other))
+  for (const char* other : {"eye", "target", "follow", "ahead"})
+    if (section.find(other) && (camera.ahead || other != std::string_view("ahead")))
       section.complain(other, "a camera with `keys` goes where these say; keep one");
   if (tables.size() > kMostKeys)
     return section.complain("keys", "expected 1 to 1000 tables { at, eye, target }");
@@ -60,6 +60,10 @@ CameraView readOneCamera(const Node& node, const std::string& key, Section& root
   section.read("azimuth", camera.azimuth, any("deg"));
   section.read("elevation", camera.elevation, {-90.0, 90.0, false, "deg"});
   section.read("fov", camera.fov, kFov);
+  section.read("ahead", camera.ahead);
+  for (const char* other : {"eye", "target", "follow"})
+    if (camera.ahead && section.find(other))
+      section.complain(other, "a camera that looks `ahead` is placed by the motion; keep one");
   if (camera.eye && camera.target) complainOfNoSight(section, *camera.eye, *camera.target);
   readKeys(section, camera);
   if (!camera.follow.empty()) requireBody(section, "follow", camera.follow, bodies);

@@ -8,6 +8,7 @@
 #include "app/export/pack.h"
 #include "app/export/page.h"
 #include "app/export/scene_json.h"
+#include "app/scene/demos.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -233,4 +234,28 @@ anchor_b = [1.1, 2, 0]
   CHECK((vector(joints[1]["a"][1]) - Vec3(0, 0, 0)).norm() < 1e-6);
   CHECK((vector(joints[1]["b"][1]) - Vec3(0, -0.1, 0)).norm() < 1e-6);
   CHECK(joints[1]["levers"] == nlohmann::json{false, false});
+}
+
+// The page's key, in square brackets.
+nlohmann::json listOf(const std::string& page, const std::string& key) {
+  const std::size_t at = page.find("\"" + key + "\":[");
+  REQUIRE(at != std::string::npos);
+  const std::size_t from = page.find('[', at), to = page.find(",\"", from);
+  return nlohmann::json::parse(page.substr(from, to - from));
+}
+
+// A heap that falls from 3.8 m, seen by keys that show where it comes to lie.
+TEST_CASE("the page is told all that its camera has to hold, unless the scene places it by hand") {
+  Scene scene = readScene(scenePath("pile"));
+  scene.world.duration = 0.1;
+  const Recording recording = record(scene, 30.0);
+  double highest = 0.0, held = 0.0;
+  for (const BodySample& body : recording.samples.front().bodies)
+    highest = std::max(highest, body.x.y());
+  for (const nlohmann::json& point : listOf(pageHtml(scene, recording), "hold"))
+    held = std::max(held, point[1].get<double>());
+  CHECK(held > highest);
+  scene.camera.keys.clear();
+  scene.camera.eye = Vec3(0.0, 1.0, 5.0);
+  CHECK(listOf(pageHtml(scene, recording), "hold").empty());
 }
