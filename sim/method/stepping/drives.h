@@ -84,6 +84,11 @@ struct SpringRow {
   double a = 0.25, b = 0.25, theta = 0.5;
   double before = 0.0;  ///< [m/s] u⁻
   bool stiff = false;
+  /// Whether it has, after a step, the length that its row gives it then.
+  bool isRigid() const {
+    constexpr double kRigid = 0.99;  // of the end of a step, in what it goes by
+    return stiff && across == 0 && a > kRigid;
+  }
 };
 
 /// Linear drag on one body, of all forces together.

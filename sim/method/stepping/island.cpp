@@ -265,6 +265,7 @@ void Stepping::fallAsOne(Island& island, double h) {
   }
   if (bent) flyBent(island, h);
   if (bent && solves) bookWays(island, h);  // of the solids in it
+  if (bonded && !island.smooth && flyAsOne(island, h)) keepSpin(island, h);
   if (!pushed && !island.smooth) return;
   if (isSmooth(island, h))
     for (const int i : island.movers) work_.smooth[i] = 1;

@@ -91,6 +91,7 @@ struct Island {
   std::vector<const Stance*> faces;  ///< the nearest of each normal
   std::vector<RigidBody> ahead;      ///< per body in a joint: after the step
   std::vector<JointRow> jointRows;   ///< of one joint there
+  std::vector<Vec3> ends, speeds;    ///< per mover of what flies as one: see keepSpin
 
   IslandAnswer answer;
 };

@@ -102,6 +102,14 @@ Stepping::Missed Stepping::foretellGaps(Island& island, double h) {
     }
     const int bond = link - static_cast<int>(state_.near.size());
     Row& row = island.problem.rows[island.problem.cones[cone++].row];
+    if (const SpringRow* spring = springOf(link); spring && spring->isRigid()) {
+      const Spring& made = *spring->spring;
+      const double missed = missedStretch(island, *spring, row, h);
+      row.bias += h * made.stiffness * row.compliance * missed;
+      worst.way = std::max(worst.way, std::abs(missed));
+      worst.part = std::max(worst.part, std::abs(missed) / made.rest);
+      continue;
+    }
     if (work_.bonds.owners[bond] < 0 || row.linear.isZero(0.0)) continue;
     const Joint& joint = model_.joints[work_.bonds.owners[bond]];
     if (work_.bonds.owners[bond] != owner) {
@@ -121,6 +129,22 @@ Stepping::Missed Stepping::foretellGaps(Island& island, double h) {
     worst.part = std::max(worst.part, std::sqrt(squares) / reachOf(joint));
   }
   return worst;
+}
+
+/// How much longer [m] a spring is after the step than its row has it.
+double Stepping::missedStretch(Island& island, const SpringRow& spring, const Row& row, double h) {
+  const Spring& made = *spring.spring;
+  const auto end = [&](int i, const Vec3& anchor_B) {
+    if (i == kNoBody) return anchor_B;
+    moveAhead(island, i, h);
+    const RigidBody& body = island.ahead[i];
+    return Vec3(body.x + body.q * anchor_B);
+  };
+  const double after = rowSpeed(row, island.solution.v[row.a], island.solution.v[row.b]);
+  const double damper =
+      made.damping * (spring.theta * after + (1.0 - spring.theta) * spring.before);
+  const double has = ((after + row.bias) / (row.compliance * h) - damper) / made.stiffness;
+  return (end(made.a, made.anchorA_B) - end(made.b, made.anchorB_B)).norm() - made.rest - has;
 }
 
 bool Stepping::isBent(const Row& row) const {

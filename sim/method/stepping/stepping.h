@@ -349,6 +349,7 @@ class Stepping {
   struct Missed {
     double way = 0.0, part = 0.0;  ///< the most: [m], and of the joint's arm
   };
+  double missedStretch(Island& island, const SpringRow& spring, const Row& row, double h);
   /// Tells where the answer of an island leads, and the rows of joints what they missed there.
   Missed foretellGaps(Island& island, double h);
   /// Solves the island once more until the forces of joints alone close their gaps.
@@ -493,6 +494,9 @@ class Stepping {
   /// Whether what stands pushes an island or, if that moved by h falls less than its velocities
   /// say, would be met.
   bool isHeld(const Island& island, const Vec3& falls, double h) const;
+  bool flyAsOne(Island& island, double h);
+  Vec3 spinAmiss(const Island& island, double h) const;
+  void keepSpin(Island& island, double h);
   void flyBent(Island& island, double h);
   void lean(BendingPart& part, double h);
   void turnBent(double h);

@@ -30,23 +30,126 @@ bool Stepping::isHeld(const Island& island, const Vec3& falls, double h) const {
 
 /// What nothing that stands holds moves as a whole by the parabola of what is free, whatever its
 /// bodies do to each other: all go by  h v⁺ − ½ h² ΣF/ΣM,  a shift that changes no way of one
-/// against another.
-void Stepping::flyBent(Island& island, double h) {
-  forBent(island, [](BendingPart& part) { part.held = true; });
+/// against another. What drag brakes decays on its way.
+/// @return whether the island flies so
+bool Stepping::flyAsOne(Island& island, double h) {
   double mass = 0.0;
-  Vec3 force = Vec3::Zero();
+  Vec3 force = Vec3::Zero(), later = Vec3::Zero();  // [N], and [N s] of what acts after the move
   for (const int i : island.movers) {
     const RigidBody& body = state_.bodies[i];
     if (!work_.touched[i]) continue;
-    if (isDriven(i)) return;
+    if (memory_.drives->dragOf[i] >= 0 || isHalved(i)) return false;
     mass += body.M;
     force += body.force;
+    later += work_.later[i] * body.force;
   }
-  bool pinned = false;
-  forBent(island, [&](const BendingPart& part) { pinned = pinned || !part.flies(); });
-  const Vec3 falls = 0.5 * h / mass * force;
-  if (pinned || isHeld(island, falls, h)) return;
+  if (mass == 0.0) return false;
+  const Vec3 falls = 0.5 * h / mass * force - later / mass;
+  if (isHeld(island, falls, h)) return false;
   for (const int i : island.movers) work_.falls[i] = falls;
+  return true;
+}
+
+/// Spin [N·m·s] that a step gives what flies beyond what it should: a taut spring pulls, in the
+/// course of it, along another line than at its start; a wind has another arm.
+Vec3 Stepping::spinAmiss(const Island& island, double h) const {
+  Vec3 amiss = Vec3::Zero(), sum = Vec3::Zero();
+  for (const Link link : island.links) {
+    const SpringRow* spring = isPair(link) ? nullptr : springOf(link);
+    if (!spring || spring->across == 0) continue;
+    const Row& row = work_.bonds.rows[spring->bond];
+    const SpringEnds at = endsOf(*spring->spring, 0.0);
+    amiss += (at.pa - at.pb).cross(work_.bonds.lambda[spring->bond] * row.linear);
+  }
+  double mass = 0.0;
+  bool blown = false;
+  for (const int i : island.movers) {
+    const RigidBody& body = state_.bodies[i];
+    blown = blown || body.force != body.M * model_.def.gravity;
+    mass += body.M;
+    sum += body.M * (work_.after[i].head<3>() - work_.falls[i]);
+  }
+  for (const int i : island.movers) {
+    if (!blown || !work_.touched[i]) continue;
+    const Vec3 way = h * (work_.after[i].head<3>() - work_.falls[i] - sum / mass);
+    amiss -= (0.5 * h - work_.later[i]) * way.cross(state_.bodies[i].force);
+  }
+  return amiss;
+}
+
+/// All of what flies turns faster as one by δ, which gives back the spin that was lost in a step:
+///   Σ M r⁺ × (v + δ × r⁺) − M r × v + I δ = −ΔL,   r⁺ = exp(h δ) r,
+/// with r from the centre to where a body goes. That moves none against another.
+void Stepping::keepSpin(Island& island, double h) {
+  constexpr int kMost = 10;
+  constexpr double kSame = 1e-15;  // [rad]
+  const Vec3 amiss = spinAmiss(island, h);
+  if (amiss.isZero(0.0)) return;
+
+  double mass = 0.0;
+  Vec3 centre = Vec3::Zero();
+  std::vector<Vec3>&ends = island.ends, &speeds = island.speeds;
+  ends.clear();
+  speeds.clear();
+  for (const int i : island.movers) {
+    const RigidBody& body = state_.bodies[i];
+    const Vec3 later = work_.later[i] * body.invM * body.force;
+    if (!work_.touched[i]) work_.falls[i] = 0.5 * h * body.invM * body.force - later;
+    work_.touched[i] = 1;
+    ends.push_back(body.x + h * (work_.after[i].head<3>() - work_.falls[i]));
+    speeds.push_back(work_.after[i].head<3>() + later);
+    mass += body.M;
+    centre += body.M * ends.back();
+  }
+  centre /= mass;
+  Mat3 I = Mat3::Zero(), own = Mat3::Zero();
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const RigidBody& body = state_.bodies[island.movers[k]];
+    const Mat3 lever = skew(ends[k] -= centre);
+    I += body.M * lever * lever.transpose();
+    if (!body.particle) own += body.R * body.Ibody * body.R.transpose();
+  }
+  I += own;
+  const auto inverse = I.completeOrthogonalDecomposition();  // points in a line have none about it
+
+  Vec3 turn = Vec3::Zero();
+  for (int n = 0; n < kMost; ++n) {
+    Vec3 open = -amiss - own * turn;
+    const Quat ahead = rotated(Quat::Identity(), h * turn);
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const double M = state_.bodies[island.movers[k]].M;
+      const Vec3 r = ahead * ends[k];
+      open -= M * (r.cross(speeds[k] + turn.cross(r)) - ends[k].cross(speeds[k]));
+    }
+    const Vec3 change = inverse.solve(open);
+    turn += change;
+    if (h * change.norm() <= kSame) break;
+  }
+  const Quat ahead = rotated(Quat::Identity(), h * turn);
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const int i = island.movers[k];
+    const RigidBody& body = state_.bodies[i];
+    Vec6& after = work_.after[i];
+    const Vec3 r = ahead * ends[k], more = turn.cross(r);
+    after.head<3>() += more;
+    work_.falls[i] += more - (r - ends[k]) / h;
+    double work = body.M * more.dot(work_.before[i].head<3>() + speeds[k] + more);
+    if (!body.particle) {
+      after.tail<3>() += turn;
+      const Vec3 spin = body.R * (body.Ibody * (body.R.transpose() * turn));
+      work += spin.dot(after.tail<3>() + work_.before[i].tail<3>());
+    }
+    island.memory->books.work += 0.5 * work;
+  }
+}
+
+void Stepping::flyBent(Island& island, double h) {
+  bool free = true;
+  forBent(island, [&](BendingPart& part) {
+    part.held = true;
+    free = free && part.flies();
+  });
+  if (!free || !flyAsOne(island, h)) return;
   forBent(island, [](BendingPart& part) { part.held = false; });
 }
 
