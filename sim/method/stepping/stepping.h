@@ -85,9 +85,9 @@ class Stepping {
   void save();
   void restore();
   void moveCarriers(double h);
-  /// Whether two bodies may touch within h seconds, if each strays so far [m] from the way on which
-  /// it is: told by distances and speeds along normals, which are the same in every frame.
-  bool mayMeet(std::size_t pair, double h, double strays = 0.0) const;
+  /// Whether two bodies may touch within h seconds, if the two stray so far [m] from the way on
+  /// which they are: no plane across a gap between them keeps them apart at both ends of it.
+  bool mayMeet(std::size_t pair, double h, double strays = 0.0);
   bool areStrangers(int a, int b) const {
     return work_.cluster[a] != work_.cluster[b] && !model_.fixed(a) && !model_.fixed(b);
   }
