@@ -54,7 +54,7 @@ bool Stepping::isManyContacts(const Island& island) const {
 }
 
 double Stepping::roughTolerance(const Island& island, double scale) const {
-  constexpr double kMoves = 3e-3;  // of the largest speed
+  constexpr double kMoves = 1e-6;  // of the largest speed
   const SteppingSettings& stepping = model_.def.stepping;
   const Problem& problem = island.problem;
   if (!isManyContacts(island) ||
