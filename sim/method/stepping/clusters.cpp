@@ -67,9 +67,9 @@ bool Stepping::mayMeet(std::size_t pair, double h, double strays) {
   double slack = tolerance_.touch + strays + 2.0 * gravity_ * h * h;
   for (const int i : {ia, ib})
     slack += (0.125 + 0.5) * h * h * state_.bodies[i].omega.squaredNorm() * model_.radius[i];
+  const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
   const std::vector<Convex>&partsA = partsOf(ia), &partsB = partsOf(ib);
   const auto gapAfter = [&](const Vec3& n, double t) {
-    const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
     const auto reach = [&](const std::vector<Convex>& parts, const RigidBody& body, const Vec3& m) {
       return reachOf(parts, body.x + t * body.v, rotated(body.q, t * body.omega), m);
     };
