@@ -3,7 +3,6 @@
 // and nothing that happens in one cluster changes a bit of another.
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 #include "sim/body/force.h"
@@ -27,14 +26,6 @@ void clear(NearPairs& known) {
   known.lasting.clear();
 }
 
-/// How far [m] a body of these parts reaches along n from the world's origin.
-double reachOf(std::span<const Convex> parts, const Vec3& x, const Quat& q, const Vec3& n) {
-  const Vec3 own = q.conjugate() * n;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Convex& part : parts) most = std::max(most, own.dot(outermost(part.outline, own)));
-  return n.dot(x) + most;
-}
-
 }  // namespace
 
 void Stepping::findTied() {
@@ -54,31 +45,6 @@ void Stepping::activateAll() {
   work_.solids.clear();
   for (std::size_t k = 0; k < model_.solid.size(); ++k)
     if (!model_.fixed(model_.solid[k])) work_.solids.push_back(static_cast<int>(k));
-}
-
-bool Stepping::mayMeet(std::size_t pair, double h, double strays) {
-  const PairMemory& memory = memory_.pairs[pair];
-  if (memory.seamed) return true;
-  const auto [ib, ia] = state_.near[pair];
-  if (memory.touches.empty() || model_.fixed(ia) || model_.fixed(ib)) return false;
-  // Between two instants a turning body reaches no farther along n than at one of them, but for a
-  // bulge of r (hω)²/8; and ω wanders by no more than hω² where nothing twists it, which moves the
-  // surface by r (hω)²/2.
-  double slack = tolerance_.touch + strays + 2.0 * gravity_ * h * h;
-  for (const int i : {ia, ib})
-    slack += (0.125 + 0.5) * h * h * state_.bodies[i].omega.squaredNorm() * model_.radius[i];
-  const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
-  const std::vector<Convex>&partsA = partsOf(ia), &partsB = partsOf(ib);
-  const auto gapAfter = [&](const Vec3& n, double t) {
-    const auto reach = [&](const std::vector<Convex>& parts, const RigidBody& body, const Vec3& m) {
-      return reachOf(parts, body.x + t * body.v, rotated(body.q, t * body.omega), m);
-    };
-    return -reach(partsA, a, -n) - reach(partsB, b, n);
-  };
-  return std::none_of(memory.touches.begin(), memory.touches.end(), [&](const Touch& touch) {
-    const Vec3& n = touch.contact.point.n;
-    return gapAfter(n, 0.0) > slack && gapAfter(n, h) > slack;
-  });
 }
 
 bool Stepping::findClusters(double h) {

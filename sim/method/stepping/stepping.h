@@ -85,9 +85,6 @@ class Stepping {
   void save();
   void restore();
   void moveCarriers(double h);
-  /// Whether two bodies may touch within h seconds, if the two stray so far [m] from the way on
-  /// which they are: no plane across a gap between them keeps them apart at both ends of it.
-  bool mayMeet(std::size_t pair, double h, double strays = 0.0);
   bool areStrangers(int a, int b) const {
     return work_.cluster[a] != work_.cluster[b] && !model_.fixed(a) && !model_.fixed(b);
   }
@@ -250,6 +247,9 @@ class Stepping {
   /// The forest of islands: each body alone, and two bodies that something joins as one.
   void partBodies();
   void joinBodies(int a, int b);
+  /// Whether two bodies may touch within h seconds, if the two stray so far [m] from the way on
+  /// which they are: no plane across a gap between them keeps them apart at both ends of it.
+  bool mayMeet(std::size_t pair, double h, double strays = 0.0);
   /// The forest in which bodies that are near each other are as one.
   void joinNear(double h);
 
