@@ -39,7 +39,7 @@ std::vector<Vector3d> rimOf(const Instance& body, const Projection& projection) 
     }
     return rim;
   }
-  constexpr std::size_t kFew = 600;  // corners, of which an silhouette is found at once
+  constexpr std::size_t kFew = 600;  // corners, of which a silhouette is found at once
   if (body.form == Form::Facets && body.facets->corners.size() <= kFew) {
     for (const Facets::Corner& corner : body.facets->corners)
       rim.push_back(body.position +
@@ -94,27 +94,23 @@ std::vector<Vector3d> outermost(const std::vector<Vector3d>& points, const Camer
 }
 
 bool Silhouette::meets(const AlignedBox2d& other) const {
-  if (!box.intersects(other)) return false;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector2d& from = corners[k];
-    const Vector2d way = corners[(k + 1) % corners.size()] - from;
-    // The corner of the box that lies furthest inwards of this side.
-    const Vector2d inmost(way.y() > 0.0 ? other.min().x() : other.max().x(),
-                          way.x() > 0.0 ? other.max().y() : other.min().y());
-    if (cross(way, inmost - from) < 0.0) return false;
-  }
-  return true;
+  // Of every side some corner of the box lies inwards: the one that would be furthest outwards of a
+  // box with its corners exchanged.
+  return box.intersects(other) && reachesNoSide(other.max(), other.min());
 }
 
 bool Silhouette::contains(const AlignedBox2d& other) const {
+  return !corners.empty() && reachesNoSide(other.min(), other.max());
+}
+
+bool Silhouette::reachesNoSide(const Vector2d& low, const Vector2d& high) const {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vector2d& from = corners[k];
     const Vector2d way = corners[(k + 1) % corners.size()] - from;
-    const Vector2d outmost(way.y() > 0.0 ? other.max().x() : other.min().x(),
-                           way.x() > 0.0 ? other.min().y() : other.max().y());
+    const Vector2d outmost(way.y() > 0.0 ? high.x() : low.x(), way.x() > 0.0 ? low.y() : high.y());
     if (cross(way, outmost - from) < 0.0) return false;
   }
-  return !corners.empty();
+  return true;
 }
 
 std::optional<Silhouette> silhouetteOf(const Instance& body, const Projection& projection) {

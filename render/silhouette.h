@@ -30,6 +30,10 @@ struct Silhouette {
 
   bool meets(const Eigen::AlignedBox2d& other) const;
   bool contains(const Eigen::AlignedBox2d& other) const;
+
+ private:
+  /// Whether the corner of a box that is furthest outwards of each side lies within it.
+  bool reachesNoSide(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
 };
 
 /// Of the box around a body in its own frame; of a ball, of its circle; of facets that are few, of
