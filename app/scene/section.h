@@ -30,8 +30,9 @@ inline constexpr Range positive(std::string_view unit) {
 inline constexpr Range notNegative(std::string_view unit) {
   return {0.0, 1e30, false, unit};
 }
-inline constexpr Range kLength{1e-9, 1e6, false, "m"};  ///< what solids and points can be apart
-inline constexpr Range kShare{0.0, 1.0, false, {}};     ///< [0, 1]
+/// Shorter, an inertia would underflow; longer, a volume would drown everything else.
+inline constexpr Range kLength{1e-9, 1e6, false, "m"};
+inline constexpr Range kShare{0.0, 1.0, false, {}};  ///< [0, 1]
 
 /// What to say of a key that is unknown here, and has its place elsewhere.
 using Elsewhere = std::map<std::string, std::string, std::less<>>;

@@ -14,8 +14,6 @@ namespace tumble {
 
 namespace {
 
-// Shorter, an inertia would underflow; longer, a volume would drown everything else.
-
 std::optional<Shape> readSphere(Section& shape) {
   Sphere sphere;
   shape.read("sphere", sphere.r, kLength);
