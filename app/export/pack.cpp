@@ -21,9 +21,10 @@ std::string differences(const std::vector<std::vector<std::uint16_t>>& series) {
   for (const std::vector<std::uint16_t>& one : series) {
     std::uint16_t before = 0;
     for (const std::uint16_t value : one) {
-      const std::uint16_t step = static_cast<std::uint16_t>(value - before);
-      low += static_cast<char>(step & 255);
-      high += static_cast<char>(step >> 8);
+      const auto step = static_cast<std::int16_t>(value - before);
+      const auto folded = static_cast<std::uint16_t>(step < 0 ? -2 * step - 1 : 2 * step);
+      low += static_cast<char>(folded & 255);
+      high += static_cast<char>(folded >> 8);
       before = value;
     }
   }

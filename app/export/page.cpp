@@ -11,10 +11,12 @@
 #include "app/claim/verdict.h"
 #include "app/export/drawn.h"
 #include "app/export/pack.h"
+#include "app/export/page_bent.h"
 #include "app/export/page_view.h"
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/present/arrows.h"
+#include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/joints.h"
 #include "app/present/present.h"
@@ -80,7 +82,9 @@ class Writer {
       : scene_(scene),
         recording_(recording),
         presenter_(scene, recording),
-        drawn_(drawnBodies(scene, recording)) {
+        drawn_(drawnBodies(scene, recording)),
+        inSurface_(partsOfSurfaces(scene)) {
+    dropPoints();
     findBounds();
     describe();
     addBodies();
@@ -89,10 +93,22 @@ class Writer {
     addContacts();
     addEvents();
     addClaims();
+    if (!scene.bent.empty()) json_["bent"] = bentJson(scene, recording, json_["radius"]);
   }
   const Json& json() const { return json_; }
 
  private:
+  // Of what bends only the points that joints hold are bodies here.
+  void dropPoints() {
+    const auto isHeld = [&](int body) {
+      return std::any_of(scene_.world.joints.begin(), scene_.world.joints.end(),
+                         [&](const JointDef& joint) { return joint.a == body || joint.b == body; });
+    };
+    std::erase_if(drawn_, [&](const DrawnBody& one) {
+      return inSurface_[static_cast<std::size_t>(one.body)] && !isHeld(one.body);
+    });
+  }
+
   // The box that holds every centre and contact.
   void findBounds() {
     low_ = high_ = recording_.samples.front().bodies.empty() ? Vec3::Zero().eval()
@@ -150,7 +166,8 @@ class Writer {
     json_["hold"] = std::move(hold);
   }
 
-  // Bodies as the first image has them: shape 0 box, 1 cylinder, 2 ellipsoid, 3 ball, 4 … meshes.
+  // Bodies as the first image has them: shape 0 box, 1 cylinder, 2 ellipsoid, 3 ball, 4 … meshes;
+  // −1 is not drawn.
   void addBodies() {
     std::map<const Facets*, int> meshes;
     Json bodies = Json::array(), ranges = Json::array();
@@ -177,6 +194,7 @@ class Writer {
                 : instance.form == Form::Ellipsoid ? 2
                                                    : 3;
       }
+      if (inSurface_[static_cast<std::size_t>(drawn_[i].body)]) shape = -1;
       bodies.push_back(jsonOf(drawn_[i], instance, shape));
     }
     json_["bodies"] = std::move(bodies);
@@ -322,6 +340,7 @@ class Writer {
   const Recording& recording_;
   Presenter presenter_;
   std::vector<DrawnBody> drawn_;
+  std::vector<bool> inSurface_;  // per body of the scene
   Vec3 low_, high_;
   Json json_;
 };
@@ -341,6 +360,8 @@ void fill(std::string& page, const std::string& mark, const std::string& by) {
 
 std::string pageHtml(const Scene& scene, const Recording& recording) {
   std::string page = readFile(dataFolder("page") + "/player.html");
+  fill(page, "/*BENT*/null",
+       scene.bent.empty() ? "null" : readFile(dataFolder("page") + "/bent.js"));
   fill(page, "/*SHADERS*/null", inScript(shaders()));
   fill(page, "/*DATA*/null", inScript(Writer(scene, recording).json()));
   return page;

@@ -37,23 +37,6 @@ std::vector<Vec3> placesOf(const BentDef& bent, const Sample& sample) {
   return places;
 }
 
-// In how many parts each cell of a cloth is drawn along each thread.
-int partsOf(const BentDef& bent) {
-  constexpr int kAcross = 40;  // of a whole cloth: finer than its outline shows
-  if (bent.columns == 0) return 1;
-  return std::max(1, kAcross / std::max({1, bent.columns - 1, bent.count / bent.columns - 1}));
-}
-
-// The cloth with so many points between its own.
-BentDef finer(const BentDef& bent, int parts) {
-  BentDef fine = bent;
-  fine.columns = parts * (bent.columns - 1) + 1;
-  const int rows = parts * (bent.count / bent.columns - 1) + 1;
-  fine.count = fine.columns * rows;
-  fine.triangles = clothTriangles({.columns = fine.columns, .rows = rows});
-  return fine;
-}
-
 Shell shellOf(const BentDef& bent, std::vector<Vec3> places) {
   Shell shell;
   shell.places = std::move(places);
@@ -106,17 +89,6 @@ void addSkin(const BentDef& bent, Shell& shell, Sheet& surface) {
   addFace(bent, shell, 0.0, surface);
 }
 
-// Edges that only one triangle has, each as that triangle goes along it.
-std::vector<std::pair<int, int>> rimOf(const std::vector<Triangle>& triangles) {
-  std::map<std::pair<int, int>, int> seen;
-  for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) ++seen[{t[k], t[(k + 1) % 3]}];
-  std::vector<std::pair<int, int>> rim;
-  for (const auto& [edge, count] : seen)
-    if (!seen.contains({edge.second, edge.first})) rim.push_back(edge);
-  return rim;
-}
-
 void addRim(const BentDef& bent, const Shell& shell, Sheet& surface) {
   const double half = 0.5 * bent.thickness;
   for (const auto& [p, q] : rimOf(bent.triangles)) {
@@ -146,12 +118,11 @@ Instance instanceOf(const Shell& shell, Facets facets, const Colour& colour) {
 // The surface in the colours of the strains of its points.
 void addStrained(const Shell& shell, const Sheet& surface, const std::vector<double>& strains,
                  double top, std::vector<Instance>& surfaces) {
-  constexpr int kBands = 24;
   std::vector<double> values;
   for (const int point : surface.points) values.push_back(strains[static_cast<std::size_t>(point)]);
   int band = 0;
-  for (Facets& part : inBands(surface.facets, values, top, kBands)) {
-    const Colour colour = ramp(strainStops(), (band++ + 0.5) / kBands);
+  for (Facets& part : inBands(surface.facets, values, top, kStrainBands)) {
+    const Colour colour = colourOfBand(band++);
     if (!part.corners.empty()) surfaces.push_back(instanceOf(shell, std::move(part), colour));
   }
 }
@@ -162,6 +133,35 @@ std::vector<bool> partsOfSurfaces(const Scene& scene) {
   std::vector<bool> parts(scene.world.bodies.size(), false);
   for (const BentDef& bent : scene.bent) std::fill_n(parts.begin() + bent.first, bent.count, true);
   return parts;
+}
+
+int drawnParts(const BentDef& bent) {
+  constexpr int kAcross = 40;  // of a whole cloth: finer than its outline shows
+  if (bent.columns == 0) return 1;
+  return std::max(1, kAcross / std::max({1, bent.columns - 1, bent.count / bent.columns - 1}));
+}
+
+BentDef finer(const BentDef& bent, int parts) {
+  BentDef fine = bent;
+  fine.columns = parts * (bent.columns - 1) + 1;
+  const int rows = parts * (bent.count / bent.columns - 1) + 1;
+  fine.count = fine.columns * rows;
+  fine.triangles = clothTriangles({.columns = fine.columns, .rows = rows});
+  return fine;
+}
+
+std::vector<std::pair<int, int>> rimOf(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<int, int>, int> seen;
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) ++seen[{t[k], t[(k + 1) % 3]}];
+  std::vector<std::pair<int, int>> rim;
+  for (const auto& [edge, count] : seen)
+    if (!seen.contains({edge.second, edge.first})) rim.push_back(edge);
+  return rim;
+}
+
+Colour backOf(const BentDef& bent, const Colour& front) {
+  return bent.back ? colourOf(*bent.back) : backOfCloth(front);
 }
 
 std::vector<double> strainsAt(const Scene& scene, const BentDef& bent, const Sample& sample) {
@@ -193,6 +193,10 @@ std::span<const Colour> strainStops() {
   return kHeat;
 }
 
+Colour colourOfBand(int band) {
+  return ramp(strainStops(), (band + 0.5) / kStrainBands);
+}
+
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
                                    const std::vector<Colour>& colours, double top) {
   std::vector<Instance> surfaces;
@@ -205,7 +209,7 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
     std::vector<Vec3> places = placesOf(own, sample);
     std::vector<double> strains = top > 0.0 ? strainsAt(scene, own, sample) : std::vector<double>();
     BentDef bent = own;
-    if (const int parts = partsOf(own); parts > 1) {
+    if (const int parts = drawnParts(own); parts > 1) {
       bent = finer(own, parts);
       places = sheetThrough(places, own.columns, parts);
       if (!strains.empty()) strains = sheetThrough(strains, own.columns, parts);
@@ -229,7 +233,7 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
     add(std::move(outside), half, front);
     Sheet back;
     addFace(bent, shell, -half, back);
-    add(std::move(back), half, bent.back ? colourOf(*bent.back) : backOfCloth(front));
+    add(std::move(back), half, backOf(bent, front));
   }
   return surfaces;
 }

@@ -1,7 +1,9 @@
 // What bends, as surfaces that go with its points.
 #pragma once
 
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "app/record/recording.h"
@@ -21,13 +23,23 @@ std::vector<bool> partsOfSurfaces(const Scene& scene);
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
                                    const std::vector<Colour>& colours, double top = 0.0);
 
+/// How that surface goes through the points: in how many parts each cell of a cloth is drawn along
+/// each thread; the cloth with so many points between its own; edges that only one triangle has,
+/// each as that triangle goes along it; the colour of a cloth's other side.
+int drawnParts(const BentDef& bent);
+BentDef finer(const BentDef& bent, int parts);
+std::vector<std::pair<int, int>> rimOf(const std::vector<std::array<int, 3>>& triangles);
+Colour backOf(const BentDef& bent, const Colour& front);
+
 /// The strain at each point of a cloth or a soft solid at a sample.
 std::vector<double> strainsAt(const Scene& scene, const BentDef& bent, const Sample& sample);
 
 /// What 98 % of the strains of all points and samples stay below; strands of fur have none.
 double usualStrain(const Scene& scene, const Recording& recording);
 
-/// From pale, at rest, to dark red.
+/// From pale, at rest, to dark red; the colour of each even part of what they span.
+inline constexpr int kStrainBands = 24;
 std::span<const Colour> strainStops();
+Colour colourOfBand(int band);
 
 }  // namespace tumble

@@ -12,8 +12,6 @@ namespace {
 
 constexpr float kNoEdge = 1e9f;  // [m] from an edge that is not drawn
 constexpr int kSides = 4;        // of a tube, whose normals are those of a round one
-constexpr int kParts = 2;        // of each piece of a strand
-constexpr float kShades[] = {0.82f, 1.0f, 1.15f};
 
 // A cross-section of a tube.
 struct Ring {
@@ -55,18 +53,23 @@ void addTube(const std::vector<Ring>& rings, Facets& facets) {
 
 }  // namespace
 
+std::array<Colour, 3> shadesOfStrands(const Colour& colour) {
+  return {shade(colour, 0.82f), colour, shade(colour, 1.15f)};
+}
+
 std::vector<Instance> strandTubes(const BentDef& fur, const Sample& sample, const Colour& colour) {
   const auto at = [&](int point) {
     return sample.bodies[static_cast<std::size_t>(fur.first + point)].x;
   };
   Vec3 middle = Vec3::Zero();
   for (int p = 0; p < fur.count; ++p) middle += at(p) / fur.count;
-  std::array<Facets, std::size(kShades)> tubes;
+  const std::array<Colour, 3> shades = shadesOfStrands(colour);
+  std::array<Facets, std::tuple_size_v<decltype(shades)>> tubes;
   for (int first = 0; first + fur.strand <= fur.count; first += fur.strand) {
     std::vector<Vec3> places;
     for (int p = 1; p < fur.strand; ++p) places.push_back(at(first + p) - middle);
     Facets& facets = tubes[static_cast<std::size_t>(first / fur.strand) % tubes.size()];
-    addTube(ringsAlong(curveThrough(places, kParts), 0.5 * fur.thickness), facets);
+    addTube(ringsAlong(curveThrough(places, kPartsOfStrands), 0.5 * fur.thickness), facets);
   }
   std::vector<Instance> instances;
   for (std::size_t k = 0; k < tubes.size(); ++k) {
@@ -75,7 +78,7 @@ std::vector<Instance> strandTubes(const BentDef& fur, const Sample& sample, cons
     Instance& instance = instances.emplace_back();
     instance.form = Form::Facets;
     instance.position = middle;
-    instance.colour = shade(colour, kShades[k]);
+    instance.colour = shades[k];
     instance.facets = std::make_shared<const Facets>(std::move(tubes[k]));
   }
   return instances;

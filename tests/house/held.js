@@ -15,20 +15,25 @@ async function fill(width, height) {
   const edge = (what, side) => frame.contentDocument.querySelector(what).getBoundingClientRect()[side];
   const top = edge('header', 'bottom'), bottom = edge('footer', 'top');
   let left = Infinity, right = -Infinity, high = Infinity, low = -Infinity;
-  for (let k = 0; k < t.count; ++k)
+  const see = (point, name, k) => {
+    const place = t.project(point);
+    if (!place) throw new Error(`${at}: ${name} stands behind the camera at sample ${k}`);
+    left = Math.min(left, place[0]);
+    right = Math.max(right, place[0]);
+    high = Math.min(high, place[1]);
+    low = Math.max(low, place[1]);
+  };
+  for (let k = 0; k < t.count; ++k) {
+    t.points(k).forEach(point => see(point, 'what bends', k));
     t.bodies.forEach((body, i) => {
-      if (!body.moves || body.shape > 3) return;
+      if (!body.moves || body.shape < 0 || body.shape > 3) return;
       const pose = t.pose(i, k), centre = pose.slice(0, 3);
       for (let corner = 0; corner < 8; ++corner) {
         const arm = t.turned(pose, body.half.map((h, axis) => (corner >> axis & 1 ? h : -h)));
-        const place = t.project(arm.map((v, axis) => v + centre[axis]));
-        if (!place) throw new Error(`${at}: ${body.name} stands behind the camera at sample ${k}`);
-        left = Math.min(left, place[0]);
-        right = Math.max(right, place[0]);
-        high = Math.min(high, place[1]);
-        low = Math.max(low, place[1]);
+        see(arm.map((v, axis) => v + centre[axis]), body.name, k);
       }
     });
+  }
   frame.remove();
   const px = v => v.toFixed(0);
   if (left < 0 || right > width || high < top || low > bottom)
