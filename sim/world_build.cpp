@@ -216,15 +216,18 @@ void addBending(Model& model) {
   for (const int i : model.solid) model.solidBends.push_back(model.bends(i));
 }
 
-/// Where a scene stands, and what stands far off in it, tells nothing of its contacts until
-/// rounding of places does.
+/// Where a scene stands, and what stands in it, near or far off, tells nothing of its contacts
+/// until rounding of places does.
 double sizeOf(const Model& model) {
   constexpr double kFar = 1e-2;
   double size = 0.0, way = 0.0;
   for (std::size_t i = 0; i < model.def.bodies.size(); ++i) {
     const BodyDef& body = model.def.bodies[i];
     const double radius = model.radius[i], t = model.def.duration;
-    if (std::isfinite(radius)) size = std::max({size, radius, kFar * body.position.norm()});
+    if (std::isfinite(radius)) {
+      const double own = body.fixed ? std::min(ContactTolerance::kSmall, radius) : radius;
+      size = std::max({size, own, kFar * (radius + body.position.norm())});
+    }
     way = std::max(way, t * (body.velocity.norm() + 0.5 * t * model.def.gravity.norm()));
   }
   // Places that small bodies may fall to are rounded as those of larger ones are.

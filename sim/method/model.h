@@ -155,8 +155,8 @@ struct Model {
                              ///< empty where nothing bends
   std::vector<char> solidBends;  ///< per row of `solid` whether it is such a point; or empty
   std::string_view runs;         ///< def.method, or what "auto" chose
-  /// [m] of the world, for tolerances: the largest bounding radius or, where that is more, a
-  /// hundredth of the largest distance from the origin at the start.
+  /// [m] of the world, for tolerances: the largest bounding radius of what moves or, where that is
+  /// more, a hundredth of how far anything reaches from the origin at the start.
   double size = 1.0;
   Workers workers;  ///< lent by who runs the world
 

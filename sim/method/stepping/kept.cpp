@@ -186,8 +186,9 @@ bool Stepping::rests(const Island& island, double h) const {
 /// stands, where that would bring one of them to another pose: it was no motion. In a crowd it
 /// stands as soon as all of them are at rest.
 void Stepping::stand(Island& island, bool crowd, double h) const {
-  constexpr double kLeft = 100.0;  // of the residual: a jam of blocks answers with 40 times as much
-  const double left = kLeft * island.memory->residual * island.memory->scale;
+  constexpr double kLeft = 100.0;  // of what was asked: a jam of blocks answers with 40 times as much
+  const double residual = std::max(island.memory->residual, model_.def.stepping.tolerance),
+               left = kLeft * residual * island.memory->scale;
   const double still = crowd ? tolerance_.rest : std::min(left, tolerance_.rest);
   const auto stands = [&](int body, const Vec6& twist) {
     return twist.head<3>().norm() + model_.radius[body] * twist.tail<3>().norm() <= still;
