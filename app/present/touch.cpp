@@ -11,17 +11,24 @@
 #include "app/present/named.h"
 #include "app/present/palette.h"
 #include "sim/body/rigid_body.h"
+#include "sim/world.h"
 
 namespace tumble {
 
 namespace {
 
-// Slower than this [m/s] what touches rests.
-constexpr double kResting = 1e-6;
+// Slower along the normal than this [m/s], or than this share of the fastest point that slides,
+// what touches rests: no arrow shows less, and steps leave as much.
+constexpr double kResting = 1e-6, kShareAtRest = 1e-3;
 
-std::string kindOf(double approach) {
-  if (approach < -kResting) return "colliding: n·ṗ < 0";
-  return approach > kResting ? "separating: n·ṗ > 0" : "resting: n·ṗ = 0";
+std::string kindOf(double approach, double resting) {
+  if (approach < -resting) return "colliding: n·ṗ < 0";
+  return approach > resting ? "separating: n·ṗ > 0" : "resting: n·ṗ = 0";
+}
+
+// At the start also of what touches and parts at once, which no method keeps as a contact.
+std::vector<ContactSample> touching(const Scene& scene, const Sample& sample) {
+  return sample.t == 0.0 ? World::checkStart(scene.world).sample.contacts : sample.contacts;
 }
 
 }  // namespace
@@ -38,9 +45,10 @@ void addContactVelocities(const Scene& scene, const Sample& sample, double lengt
   const auto velocityAt = [&](const ContactSample& c) {
     return Vec3(pointVelocity(bodies[c.a], c.p) - pointVelocity(bodies[c.b], c.p));
   };
-  for (const ContactSample& c : sample.contacts) fastest = std::max(fastest, velocityAt(c).norm());
+  const std::vector<ContactSample> contacts = touching(scene, sample);
+  for (const ContactSample& c : contacts) fastest = std::max(fastest, velocityAt(c).norm());
   std::vector<Vec3> drawn;  // of points that would cover each other, the first
-  for (const ContactSample& c : sample.contacts) {
+  for (const ContactSample& c : contacts) {
     const Vec3 velocity = velocityAt(c);
     const double approach = c.n.dot(velocity);
     if (std::any_of(drawn.begin(), drawn.end(),
@@ -53,10 +61,11 @@ void addContactVelocities(const Scene& scene, const Sample& sample, double lengt
     const auto [pair, first] = worst.insert({{c.a, c.b}, {c.p, approach}});
     if (!first && approach < pair->second.approach) pair->second = {c.p, approach};
   }
+  const double resting = std::max(kResting, kShareAtRest * fastest);
   for (const auto& [pair, at] : worst) {
-    const double tidy = std::abs(at.approach) < kResting ? 0.0 : at.approach;
+    const double tidy = std::abs(at.approach) <= resting ? 0.0 : at.approach;
     picture.marks.push_back(
-        {at.p, {kindOf(at.approach), fourDigits(tidy) + " m/s"}, colour::kForce});
+        {at.p, {kindOf(at.approach, resting), fourDigits(tidy) + " m/s"}, colour::kForce});
   }
 }
 
