@@ -17,23 +17,29 @@ Eigen::AlignedBox2d inkOf(const Vector2d& pen, double width, double size, Align 
 void LabelPlaces::cover(const Silhouette& body) {
   constexpr double kGround = 0.12;  // of the page
   const Box shown = body.box.intersection(Box(Vector2d::Zero(), page_));
-  if (!shown.isEmpty() && shown.volume() < kGround * page_.prod()) bodies_.push_back(body);
+  if (shown.isEmpty()) return;
+  (shown.volume() < kGround * page_.prod() ? bodies_ : grounds_).push_back(body);
 }
 
 bool LabelPlaces::isFree(const Box& ink, Off off) const {
   const auto meets = [&](const Box& other) { return other.intersects(ink); };
   if (std::any_of(taken_.begin(), taken_.end(), meets)) return false;
   if (off >= Off::Arrows && std::any_of(crossed_.begin(), crossed_.end(), meets)) return false;
-  return off < Off::Bodies || std::none_of(bodies_.begin(), bodies_.end(),
-                                           [&](const Silhouette& body) { return body.meets(ink); });
+  if (off >= Off::Bodies && std::any_of(bodies_.begin(), bodies_.end(),
+                                        [&](const Silhouette& body) { return body.meets(ink); }))
+    return false;
+  return off < Off::Outlines ||
+         std::none_of(grounds_.begin(), grounds_.end(), [&](const Silhouette& ground) {
+           return ground.meets(ink) && !ground.contains(ink);
+         });
 }
 
 // The body that a label names, as it was told first.
-const Silhouette* LabelPlaces::own(const Label& label) const {
-  const auto at = std::find_if(bodies_.begin(), bodies_.end(), [&](const Silhouette& body) {
+const Silhouette* LabelPlaces::own(const Label& label, const std::vector<Silhouette>& bodies) {
+  const auto at = std::find_if(bodies.begin(), bodies.end(), [&](const Silhouette& body) {
     return label.names && body.centre == *label.names;
   });
-  return at == bodies_.end() ? nullptr : &*at;
+  return at == bodies.end() ? nullptr : &*at;
 }
 
 bool LabelPlaces::isHidden(const Silhouette& body) const {
@@ -47,18 +53,24 @@ bool LabelPlaces::isHidden(const Silhouette& body) const {
 std::optional<LabelPlaces::Standing> LabelPlaces::place(const Label& label, const Vector2d& anchor,
                                                         double width) {
   std::optional<Standing> standing;
-  const Silhouette* body = own(label);
-  if (body && isHidden(*body)) return {};
-  if (label.apart) {
-    standing = beside(label, anchor, width, Off::Bodies);
-    if (!standing && body) standing = onBody(label, width);
-    if (!standing) standing = onRings(label, anchor, width, Off::Bodies);
-  }
+  if (const Silhouette* body = own(label, bodies_); body && isHidden(*body)) return {};
+  if (label.apart) standing = apart(label, anchor, width);
   if (standing || label.names) return standing;
-  const Off off = label.apart ? Off::Arrows : Off::Texts;
+  const Off off = label.apart || label.clear ? Off::Arrows : Off::Texts;
   standing = beside(label, anchor, width, off);
   if (!standing) standing = onRings(label, anchor, width, off);
   return standing.value_or(Standing{anchor + label.offset});
+}
+
+std::optional<LabelPlaces::Standing> LabelPlaces::apart(const Label& label, const Vector2d& anchor,
+                                                        double width) {
+  const Silhouette *body = own(label, bodies_), *ground = own(label, grounds_);
+  std::optional<Standing> standing = beside(label, anchor, width, Off::Outlines);
+  if (!standing && !ground) standing = beside(label, anchor, width, Off::Bodies);
+  if (!standing && (body || ground)) standing = onBody(label, body ? *body : *ground, width);
+  if (!standing) standing = onRings(label, anchor, width, Off::Outlines);
+  if (!standing && !ground) standing = onRings(label, anchor, width, Off::Bodies);
+  return standing;
 }
 
 std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, const Vector2d& anchor,
@@ -67,13 +79,13 @@ std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, con
   // Off bodies a little further out first, on the same line: there nobody takes it for another's.
   const double out = label.align == Align::Left ? 0.7 : label.align == Align::Right ? -0.7 : 0.0;
   std::vector<Vector2d> shifts = {{0.0, 0.0}};
-  if (off == Off::Bodies)
+  if (off >= Off::Bodies)
     for (int k = 1; k <= 4; ++k) shifts.emplace_back(k * out * label.size, 0.0);
   for (const double lines : {-1.0, 1.0, -2.0, 2.0}) shifts.emplace_back(0.0, lines * label.size);
   for (const Vector2d& shift : shifts) {
     const Vector2d pen = anchor + label.offset + shift;
     const Box ink = inkOf(pen, width, label.size, label.align);
-    const bool anywhere = shift.isZero(0.0) && off != Off::Bodies;
+    const bool anywhere = shift.isZero(0.0) && off < Off::Bodies;
     if (!isFree(ink, off) || (!anywhere && !page.contains(ink))) continue;
     take(ink);
     return Standing{pen};
@@ -82,8 +94,8 @@ std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, con
 }
 
 // In the middle of the body, if it has room for it there and nothing stands before it.
-std::optional<LabelPlaces::Standing> LabelPlaces::onBody(const Label& label, double width) {
-  const Silhouette& body = *own(label);
+std::optional<LabelPlaces::Standing> LabelPlaces::onBody(const Label& label, const Silhouette& body,
+                                                         double width) {
   const Vector2d start = body.box.center() + Vector2d(-0.5 * width, 0.3 * label.size);
   const Box ink = inkOf(start, width, label.size, Align::Left);
   const bool covered = std::any_of(bodies_.begin(), bodies_.end(), [&](const Silhouette& other) {
@@ -102,7 +114,7 @@ std::optional<LabelPlaces::Standing> LabelPlaces::onRings(const Label& label,
                                                           const Vector2d& anchor, double width,
                                                           Off off) {
   constexpr int kDirections = 32;
-  const int rings = off == Off::Bodies ? 3 : 16;  // further off a leader crosses too much
+  const int rings = off >= Off::Bodies ? 3 : 16;  // further off a leader crosses too much
   constexpr double kEdge = 6.0, kRoom = 3.0;      // [px] of the page's edge, between labels
   const Vector2d edge = Vector2d::Constant(kEdge);
   const Box page(edge, Vector2d(page_ - edge));

@@ -21,7 +21,7 @@ class LabelPlaces {
   void cross(const Eigen::AlignedBox2d& ink) { crossed_.push_back(ink); }
 
   /// A body, on which only labels that keep apart do not stand. What takes a large part of the
-  /// page is ground.
+  /// page is ground, which they may stand on, but not across its outline: its own name never.
   void cover(const Silhouette& body);
 
   struct Standing {
@@ -40,19 +40,21 @@ class LabelPlaces {
  private:
   using Box = Eigen::AlignedBox2d;
   /// What a label has to keep off.
-  enum class Off { Texts, Arrows, Bodies };
+  enum class Off { Texts, Arrows, Bodies, Outlines };
   bool isFree(const Box& ink, Off off) const;
+  std::optional<Standing> apart(const Label& label, const Eigen::Vector2d& anchor, double width);
   std::optional<Standing> beside(const Label& label, const Eigen::Vector2d& anchor, double width,
                                  Off off);
-  std::optional<Standing> onBody(const Label& label, double width);
+  std::optional<Standing> onBody(const Label& label, const Silhouette& body, double width);
   std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor, double width,
                                   Off off);
-  const Silhouette* own(const Label& label) const;
+  /// The body among those that the label names.
+  static const Silhouette* own(const Label& label, const std::vector<Silhouette>& bodies);
   bool isHidden(const Silhouette& body) const;
 
   Eigen::Vector2d page_;
   std::vector<Box> taken_, crossed_;
-  std::vector<Silhouette> bodies_;
+  std::vector<Silhouette> bodies_, grounds_;
 };
 
 /// What the ink of a line of text covers, about [px].

@@ -56,17 +56,52 @@ Vector2d wordsOffset(std::size_t i) {
   return {0.0, 49.0 + 18.0 * static_cast<double>(i)};
 }
 
-void drawMark(const Mark& mark, const Projection& projection, Canvas& canvas) {
+/// What the lines of a mark cover, as many pixels further down than they would like to stand.
+std::vector<Eigen::AlignedBox2d> wordsOf(const Mark& mark, const Vector2d& centre, double drop,
+                                         Canvas& canvas) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (std::size_t i = 0; i < mark.lines.size(); ++i)
+    boxes.push_back(inkOf(centre + wordsOffset(i) + Vector2d(0.0, drop),
+                          canvas.textWidth(mark.lines[i], kMarkWords), kMarkWords.size,
+                          Align::Centre));
+  return boxes;
+}
+
+/// How far each mark's lines go down so as not to stand on those of others, if that is not far
+/// [px].
+std::vector<double> dropsOf(const std::vector<Mark>& marks, const Projection& projection,
+                            Canvas& canvas) {
+  std::vector<Eigen::AlignedBox2d> taken;
+  std::vector<double> drops(marks.size(), 0.0);
+  for (std::size_t n = 0; n < marks.size(); ++n) {
+    const auto place = projection.project(marks[n].position);
+    if (!place) continue;
+    for (const double drop : {0.0, 18.0, 36.0, 54.0, 72.0}) {
+      const auto words = wordsOf(marks[n], flat(*place), drop, canvas);
+      const bool free = std::none_of(words.begin(), words.end(), [&](const auto& box) {
+        return std::any_of(taken.begin(), taken.end(),
+                           [&](const auto& other) { return other.intersects(box); });
+      });
+      if (free) drops[n] = drop;
+      if (free) break;
+    }
+    for (const auto& box : wordsOf(marks[n], flat(*place), drops[n], canvas)) taken.push_back(box);
+  }
+  return drops;
+}
+
+void drawMark(const Mark& mark, double drop, const Projection& projection, Canvas& canvas) {
   const auto place = projection.project(mark.position);
   if (!place) return;
-  const Vector2d centre = flat(*place);
+  const Vector2d centre = flat(*place), down(0.0, drop);
   if (!mark.lines.empty())
-    canvas.stroke(centre + Vector2d(0.0, 6.0), centre + Vector2d(0.0, 34.0), 1.0, ink::secondary);
+    canvas.stroke(centre + Vector2d(0.0, 6.0), centre + Vector2d(0.0, 34.0) + down, 1.0,
+                  ink::secondary);
   canvas.ring(centre, 5.0, 1.6, mark.colour);
   for (std::size_t i = 0; i < mark.lines.size(); ++i) {
     Canvas::TextStyle style = kMarkWords;
     if (i > 0) style.colour = ink::secondary;
-    canvas.text(centre + wordsOffset(i), mark.lines[i], style);
+    canvas.text(centre + wordsOffset(i) + down, mark.lines[i], style);
   }
 }
 
@@ -88,22 +123,21 @@ void crossArrows(const std::vector<Arrow>& arrows, const Projection& projection,
 
 /// Labels, none on another or on the words of a mark.
 /// @return how many bodies went without their names
-int drawLabels(const Picture& picture, const Projection& projection, Canvas& canvas) {
+int drawLabels(const Picture& picture, const std::vector<double>& drops,
+               const Projection& projection, Canvas& canvas) {
   LabelPlaces places({canvas.width(), canvas.height()});
   if (std::any_of(picture.labels.begin(), picture.labels.end(),
-                  [](const Label& label) { return label.apart; })) {
+                  [](const Label& label) { return label.apart || label.clear; })) {
     crossArrows(picture.arrows, projection, places);
     for (auto body = picture.instances.rbegin(); body != picture.instances.rend(); ++body)
       if (const std::optional<Silhouette> silhouette = silhouetteOf(*body, projection))
         places.cover(*silhouette);
   }
   int unnamed = 0;
-  for (const Mark& mark : picture.marks) {
-    const auto place = projection.project(mark.position);
-    for (std::size_t i = 0; place && i < mark.lines.size(); ++i)
-      places.take(inkOf(flat(*place) + wordsOffset(i), canvas.textWidth(mark.lines[i], kMarkWords),
-                        kMarkWords.size, Align::Centre));
-  }
+  for (std::size_t n = 0; n < picture.marks.size(); ++n)
+    if (const auto place = projection.project(picture.marks[n].position))
+      for (const auto& box : wordsOf(picture.marks[n], flat(*place), drops[n], canvas))
+        places.take(box);
   for (const Label& label : picture.labels) {
     const Face face = label.bold ? Face::Bold : label.italic ? Face::Italic : Face::Regular;
     const Canvas::TextStyle style{label.size, face, label.align, label.colour};
@@ -175,16 +209,20 @@ void drawOverlay(const Picture& picture, const Projection& projection, Canvas& c
       beadSize(std::count_if(picture.lines.begin(), picture.lines.end(), isDotted));
   for (const Polyline& line : picture.lines)
     if (isDotted(line)) drawDots(line, beads, projection, canvas);
-  for (const Mark& mark : picture.marks) drawMark(mark, projection, canvas);
+  const std::vector<double> drops = dropsOf(picture.marks, projection, canvas);
+  for (std::size_t n = 0; n < drops.size(); ++n)
+    drawMark(picture.marks[n], drops[n], projection, canvas);
   for (const PageShape& shape : picture.pageShapes) drawPageShape(shape, canvas);
   for (const PageBar& bar : picture.pageBars) drawBar(bar, projection, canvas);
-  const int unnamed = drawLabels(picture, projection, canvas);
+  const int unnamed = drawLabels(picture, drops, projection, canvas);
   if (picture.bar) drawColourBar(*picture.bar, canvas);
   std::vector<Remark> remarks = picture.remarks;
   if (unnamed > 0 && !picture.title.empty())
-    remarks.push_back({std::to_string(unnamed) + (unnamed == 1 ? " body is" : " bodies are") +
-                           " hidden, or stand too close for a name",
-                       ink::secondary});
+    remarks.push_back(
+        {std::to_string(unnamed) +
+             (unnamed == 1 ? " body is hidden, or stands" : " bodies are hidden, or stand") +
+             " too close for a name",
+         ink::secondary});
   drawTitle(picture, remarks, canvas);
 }
 

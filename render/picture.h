@@ -104,6 +104,7 @@ struct Label {
   Colour colour = {0.17f, 0.18f, 0.21f};
   bool italic = false;
   bool apart = false;  ///< keeps off arrows and bodies, as all labels do off each other
+  bool clear = false;  ///< keeps off arrows, but not off bodies
   /// Centre [m] of the body that it names: one that is hidden, or that it finds no room by, goes
   /// without it, and words say how many do.
   std::optional<Eigen::Vector3d> names = {};

@@ -136,6 +136,7 @@ void addResultants(const std::vector<Push>& found, const Sample& sample, double 
     label.text = forceName(k);
     label.size = 16.0f;
     label.italic = true;
+    label.clear = true;
     label.colour = colour::kForce;
     picture.labels.push_back(label);
   }

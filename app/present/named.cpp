@@ -18,6 +18,7 @@ void addNamedArrow(const Vec3& from, const Vec3& vector, const Colour& colour,
   label.text = name;
   label.size = 16.0f;
   label.italic = true;
+  label.clear = true;
   label.colour = colour;
   picture.labels.push_back(label);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/catch.h"
+#include "tests/render/studio.h"
 
 using namespace tumble;
 using Eigen::Vector2d;
@@ -81,6 +82,38 @@ TEST_CASE("what is crossed by an arrow keeps off labels that stand apart, and no
   CHECK(places.place(label, {100.0, 100.0}, 90.0)->pen == Vector2d(108.0, 105.0));
 }
 
+TEST_CASE("what keeps off arrows alone stands on bodies") {
+  LabelPlaces places({1280.0, 720.0});
+  const Instance box = boxAt({0.0, 0.0, 0.0}, {0.8, 0.8, 0.2});
+  places.cover(*silhouetteOf(box, kAhead));
+  const Eigen::AlignedBox2d arrow(Vector2d(630.0, 300.0), Vector2d(650.0, 420.0));
+  places.cross(arrow);
+  Label label;
+  label.offset = {0.0, 5.0};
+  label.clear = true;
+  const std::optional<LabelPlaces::Standing> place = places.place(label, {640.0, 360.0}, 40.0);
+  const Eigen::AlignedBox2d ink = inkOf(place->pen, 40.0, label.size, label.align);
+  CHECK(!ink.intersects(arrow));
+  CHECK(silhouetteOf(box, kAhead)->contains(ink));
+}
+
+// A board that takes 17 % of the page; right of it a wall of bricks leaves no room.
+TEST_CASE("the name of a large body stands off it or on it, never across its outline") {
+  const Instance board = boxAt({0.0, 0.0, 0.0}, {2.0, 1.0, 0.1});
+  const Silhouette outline = *silhouetteOf(board, kAhead);
+  const bool walled = GENERATE(false, true);
+  LabelPlaces places({1280.0, 720.0});
+  places.cover(outline);
+  for (int row = -12; walled && row <= 12; ++row)
+    places.cover(*silhouetteOf(boxAt({3.2, 0.3 * row, 0.0}, {1.15, 0.15, 0.1}), kAhead));
+  Label label = nameOf(board);
+  label.offset.x() = -10.0;  // where it wants to be is across
+  const std::optional<Eigen::AlignedBox2d> ink = inkBy(places, label, 60.0);
+  REQUIRE(ink);
+  CHECK((!outline.meets(*ink) || outline.contains(*ink)));
+  CHECK(outline.contains(*ink) == walled);
+}
+
 TEST_CASE("a label that stands alone stays where it wants to be, without a line to it") {
   LabelPlaces places({1280.0, 720.0});
   Label label;
@@ -123,4 +156,25 @@ TEST_CASE("in a crowd a name stands on its body if that is large enough, else it
   CHECK(own.contains(*ink));
   CHECK(!inkBy(places, nameOf(wall[7 * 17 + 8]), 200.0));
   CHECK(!inkBy(places, nameOf(hidden), 20.0));
+}
+
+// The ring is in the middle of the page; two lines of words stand 49 and 67 px below it.
+TEST_CASE("words of two marks near each other stand below one another") {
+  const auto inkBelow = [](const std::vector<Mark>& marks, int y0, int y1) {
+    Picture picture;
+    picture.camera = straight(0.0);
+    picture.floor.visible = false;
+    picture.marks = marks;
+    const Image image = studio().draw(picture, kFull);
+    int ink = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = 560; x < 720; ++x) ink += brightness(image, x, y) < 120.0;
+    return ink;
+  };
+  const Mark one{{0.0, 0.0, 0.0}, {"t = 0.10 s", "j = 1 N s"}};
+  const Mark near{{0.05, 0.0, 0.0}, {"t = 0.20 s", "j = 2 N s"}}, far{{3.0, 0.0, 0.0}, near.lines};
+  CHECK(inkBelow({one}, 396, 430) > 100);
+  CHECK(inkBelow({one, far}, 434, 466) == 0);
+  CHECK(inkBelow({one, near}, 434, 466) > 100);
+  CHECK(inkBelow({one, near}, 396, 430) < inkBelow({one}, 396, 430) + 100);
 }
