@@ -58,7 +58,15 @@ int slips(std::string_view a, std::string_view b) {
 }  // namespace
 
 void Findings::complain(Spot spot, const std::string& key, const std::string& what) {
-  diagnostics_.push_back({place(spot), key.empty() ? what : key + ": " + what});
+  const Place at = place(spot);
+  const auto isSaid = [&](const std::pair<Place, std::string>& said) {
+    return said.first.file == at.file && said.first.line == at.line &&
+           said.first.column == at.column &&
+           (key == said.second || key.starts_with(said.second + "."));
+  };
+  if (!key.empty() && std::any_of(faulty_.begin(), faulty_.end(), isSaid)) return;
+  if (!key.empty()) faulty_.emplace_back(at, key);
+  diagnostics_.push_back({at, key.empty() ? what : key + ": " + what});
   if (diagnostics_.size() >= kMostComplaints) raise();
 }
 

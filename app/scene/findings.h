@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/scene/node.h"
@@ -15,7 +16,8 @@ class Findings {
   /// @param sources  the file, then each "--set KEY=VALUE"
   explicit Findings(std::vector<std::string> sources) : sources_(std::move(sources)) {}
 
-  /// Keeps "key: what" for later.
+  /// Keeps "key: what" for later, unless something is wrong with that key there already, or with
+  /// the table that it should be in.
   /// @throws SceneError when there are so many that more help nobody.
   void complain(Spot spot, const std::string& key, const std::string& what);
 
@@ -36,6 +38,7 @@ class Findings {
 
   std::vector<std::string> sources_;
   std::vector<Diagnostic> diagnostics_;
+  std::vector<std::pair<Place, std::string>> faulty_;  // keys, each with where it stands
   std::map<std::string, Place> places_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/scene/choices.h"
+#include "app/scene/findings.h"
 #include "sim/ode/integrator.h"
 #include "sim/problem/problem.h"
 
@@ -191,6 +192,10 @@ void readShow(Section& root, ShowFlags& show) {
   section.read("diagram", diagram, {"none", "state", "solver", "flow"});
   show.diagram = diagram == "none" ? "" : diagram;
   section.read("slots", show.slots);
+  const std::vector<std::string> slots = {"x", "v", "R", "P", "L", "?"};
+  for (const std::string& slot : show.slots)
+    if (std::find(slots.begin(), slots.end(), slot) == slots.end())
+      section.complain("slots", "found '" + slot + "'" + hint(slot, slots));
   section.read("strobe", show.strobe, positive("s"));
   section.finish();
 }

@@ -206,6 +206,7 @@ TEST_CASE("a wrong setting is named with the words and numbers that are valid") 
        "did you mean 'msaa4'? Valid: none, msaa4, ssaa2x2"},
       {"[show]\npaths = true", "9:1", "show.paths: unknown key, did you mean 'path'?"},
       {"[show]\npath = \"yes\"", "9:8", "show.path: expected true or false"},
+      {"[show]\nslots = [\"a\"]", "9:9", "show.slots: found 'a'; valid: x, v, R, P, L, ?"},
       {"[sweep]\nvalues = [1]", "8:1", "sweep.parameter: expected a key, for example"},
       {"[sweep]\nparameter = \"world.duration\"", "8:1", "sweep.values: expected a list"},
       {"[sweep]\nparameter = \"world.duration\"\nvalues = []", "10:10", "expected a list of 1 to"},
@@ -360,6 +361,25 @@ TEST_CASE("a wrong world, or none, is named") {
       {"a" + std::string(40, '.') + "b = 1\n", "1:33", "a key of more than 32 parts"},
   };
   for (const Wrong& wrong : table) check(wrong.text, wrong);
+}
+
+// What is no table lacks its keys, too, and what is no string says nothing.
+TEST_CASE("a value of a wrong kind is one mistake, told once") {
+  const std::string wrong = GENERATE(
+      "[camera]\nkeys = [1]", "[[text]]\npoint = [0, 0, 0]\ntext = 1",
+      "[[expect]]\nequals = 1.0\nvalue = []", "[[graph]]\ncurves = [{ label = \"a\" }]\nbody = 1",
+      "[[graph]]\nbody = \"ball\"\ncurves = 1");
+  CAPTURE(wrong);
+  const std::string text =
+      "[world]\n[[body]]\nname = \"ball\"\nshape = { sphere = 0.1 }\n"
+      "mass = 1.0\n" +
+      wrong + "\n";
+  try {
+    parseScene(text, "scene");
+    FAIL("it is not refused");
+  } catch (const SceneError& error) {
+    CHECK(error.diagnostics().size() == 1);
+  }
 }
 
 TEST_CASE("all mistakes of a file are told together in the order of their places") {
