@@ -20,13 +20,31 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
     text.replace(at, from.size(), to);
 }
 
+// What bends has one name, beside its point furthest to the right.
+void addNamesOfBent(const Scene& scene, const Sample& sample, const Vec3& right, Picture& picture) {
+  for (const BentDef& bent : scene.bent) {
+    const auto first = sample.bodies.begin() + bent.first;
+    const auto furthest = std::max_element(
+        first, first + bent.count,
+        [&](const BodySample& a, const BodySample& b) { return right.dot(a.x) < right.dot(b.x); });
+    Label& label = picture.labels.emplace_back();
+    label.anchor = furthest->x;
+    label.apart = true;
+    label.offset = {kBeside[0], kBeside[1]};
+    label.text = bent.name;
+  }
+}
+
 }  // namespace
 
 std::string labelOf(const Scene& scene, int index) {
   const std::size_t i = static_cast<std::size_t>(index);
   const BodyDef& body = scene.world.bodies[i];
   std::string text = i < scene.labels.size() ? scene.labels[i] : "";
-  if (text.empty() && scene.show.labels && moves(body)) text = body.name;
+  const bool isPoint = std::any_of(scene.bent.begin(), scene.bent.end(), [&](const BentDef& bent) {
+    return index >= bent.first && index < bent.first + bent.count;
+  });
+  if (text.empty() && scene.show.labels && moves(body) && !isPoint) text = body.name;
   if (text.find('{') == std::string::npos) return text;
 
   replaceAll(text, "{name}", body.name);
@@ -53,6 +71,7 @@ void addLabels(const Scene& scene, const Sample& sample, Picture& picture) {
     label.text = text;
     picture.labels.push_back(label);
   }
+  if (scene.show.labels) addNamesOfBent(scene, sample, right, picture);
 }
 
 void addTexts(const Scene& scene, const Sample& sample, Picture& picture) {

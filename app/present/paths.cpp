@@ -1,5 +1,7 @@
 #include "app/present/paths.h"
 
+#include <algorithm>
+
 #include "app/claim/free_body.h"
 #include "app/present/bodies.h"
 #include "app/present/palette.h"
@@ -17,6 +19,12 @@ std::vector<double> hitTimes(const Recording& recording, int body) {
   return times;
 }
 
+// Whether it touches something: then forces that no closed form has keep it from falling.
+bool isHeld(const Sample& sample, int body) {
+  return std::any_of(sample.contacts.begin(), sample.contacts.end(),
+                     [&](const ContactSample& c) { return c.a == body || c.b == body; });
+}
+
 // Samples, and between two of them the place of the first hit: the corner that samples would cut.
 std::vector<Eigen::Vector3d> pathOf(const Scene& scene, const Recording& recording, int body,
                                     int last) {
@@ -30,7 +38,8 @@ std::vector<Eigen::Vector3d> pathOf(const Scene& scene, const Recording& recordi
       const Sample& before = recording.samples[static_cast<std::size_t>(k) - 1];
       const BodySample& from = before.bodies[static_cast<std::size_t>(body)];
       const double s = hits[hit] - before.t;
-      points.push_back(from.x + s * from.v + 0.5 * s * s * acceleration);
+      points.push_back(from.x + s * from.v);
+      if (!isHeld(before, body)) points.back() += 0.5 * s * s * acceleration;
     }
     while (hit < hits.size() && hits[hit] <= sample.t) ++hit;
     points.push_back(sample.bodies[static_cast<std::size_t>(body)].x);

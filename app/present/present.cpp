@@ -53,6 +53,17 @@ std::vector<bool> turning(const Recording& recording) {
   return turns;
 }
 
+// The upper face of a slab by its edges: one that would hide all that moves is seen by these alone.
+Polyline outlineOf(const Instance& slab) {
+  constexpr double kCorners[][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}};
+  Polyline outline;
+  outline.colour = colour::kQuiet;
+  for (const auto& [x, z] : kCorners)
+    outline.points.push_back(slab.position +
+                             slab.orientation * slab.scale.cwiseProduct(Vec3(x, 1.0, z)));
+  return outline;
+}
+
 }  // namespace
 
 Presenter::Presenter(const Scene& scene, const Recording& recording)
@@ -238,7 +249,11 @@ Instance Presenter::body(const Sample& sample, std::size_t i) const {
 void Presenter::addBodies(const Sample& sample, bool byTime, int layer, Picture& picture) const {
   for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
     const BodyDef& def = scene_.world.bodies[i];
-    if (isFloor(def) || inSurface_[i] || hides(def, picture.camera.eye)) continue;
+    if (isFloor(def) || inSurface_[i]) continue;
+    if (hides(def, picture.camera.eye)) {
+      picture.lines.push_back(outlineOf(body(sample, i)));
+      continue;
+    }
     Instance& drawn = picture.instances.emplace_back(body(sample, i));
     if (!moves(def)) continue;
     drawn.layer = layer;
