@@ -102,7 +102,9 @@ class Writer {
   void dropPoints() {
     const auto isHeld = [&](int body) {
       return std::any_of(scene_.world.joints.begin(), scene_.world.joints.end(),
-                         [&](const JointDef& joint) { return joint.a == body || joint.b == body; });
+                         [&](const JointDef& joint) {
+                           return !isSeam(scene_, joint) && (joint.a == body || joint.b == body);
+                         });
     };
     std::erase_if(drawn_, [&](const DrawnBody& one) {
       return inSurface_[static_cast<std::size_t>(one.body)] && !isHeld(one.body);

@@ -135,6 +135,12 @@ std::vector<bool> partsOfSurfaces(const Scene& scene) {
   return parts;
 }
 
+bool isPoint(const Scene& scene, int body) {
+  return std::any_of(scene.bent.begin(), scene.bent.end(), [&](const BentDef& bent) {
+    return body >= bent.first && body < bent.first + bent.count;
+  });
+}
+
 int drawnParts(const BentDef& bent) {
   constexpr int kAcross = 40;  // of a whole cloth: finer than its outline shows
   if (bent.columns == 0) return 1;

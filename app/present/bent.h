@@ -15,6 +15,9 @@ namespace tumble {
 /// Per body whether it is drawn as part of such a surface, not as a ball.
 std::vector<bool> partsOfSurfaces(const Scene& scene);
 
+/// The same of one body.
+bool isPoint(const Scene& scene, int body);
+
 /// The surfaces of all that bends at a sample, smoothly shaded; a cloth has two sides half its
 /// thickness from its points, each with its colour, and a rim.
 /// @param colours  per body

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/claim/free_body.h"
+#include "app/present/bent.h"
 #include "app/present/digits.h"
 #include "app/present/palette.h"
 #include "sim/math/frames.h"
@@ -190,9 +191,14 @@ bool atOnePoint(JointKind kind) {
 
 }  // namespace
 
+bool isSeam(const Scene& scene, const JointDef& joint) {
+  return joint.kind == JointKind::Ball && isPoint(scene, joint.a);
+}
+
 void addJoints(const Scene& scene, const Sample& sample, double size, Picture& picture) {
   const double pin = kPinRadius * size, thin = kRodRadius * size, rail = 0.5 * kRail * size;
   for (const JointDef& def : scene.world.joints) {
+    if (isSeam(scene, def)) continue;
     const Posed at = posed(scene, sample, def);
     if (atOnePoint(def.kind))
       for (const int body : {def.a, def.b}) addLever(scene, sample, body, at.pa, thin, picture);
@@ -232,6 +238,7 @@ JointLooks jointLooks(const Scene& scene, const Sample& start, double size) {
     return Vec3(end.now.q.conjugate() * (p - end.now.x));
   };
   for (const JointDef& def : scene.world.joints) {
+    if (isSeam(scene, def)) continue;
     const Posed at = posed(scene, start, def);
     JointLook& look = looks.joints.emplace_back();
     look.kind = def.kind;

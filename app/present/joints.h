@@ -6,6 +6,10 @@
 
 namespace tumble {
 
+/// Whether it holds a point of what bends to something, as pins and roots do: there is nothing to
+/// see of it but the surface.
+bool isSeam(const Scene& scene, const JointDef& joint);
+
 /// A dark pin at each anchor: a ball, or, of a hinge, along its axis through the body; a thin rod
 /// along a distance; the rail of a slider.
 /// @param size  [m] radius of what the picture shows

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/claim/free_body.h"
+#include "app/present/bent.h"
 #include "render/camera.h"
 
 namespace tumble {
@@ -41,10 +42,7 @@ std::string labelOf(const Scene& scene, int index) {
   const std::size_t i = static_cast<std::size_t>(index);
   const BodyDef& body = scene.world.bodies[i];
   std::string text = i < scene.labels.size() ? scene.labels[i] : "";
-  const bool isPoint = std::any_of(scene.bent.begin(), scene.bent.end(), [&](const BentDef& bent) {
-    return index >= bent.first && index < bent.first + bent.count;
-  });
-  if (text.empty() && scene.show.labels && moves(body) && !isPoint) text = body.name;
+  if (text.empty() && scene.show.labels && moves(body) && !isPoint(scene, index)) text = body.name;
   if (text.find('{') == std::string::npos) return text;
 
   replaceAll(text, "{name}", body.name);

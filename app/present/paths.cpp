@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/claim/free_body.h"
+#include "app/present/bent.h"
 #include "app/present/bodies.h"
 #include "app/present/palette.h"
 
@@ -54,7 +55,7 @@ void addPaths(const Scene& scene, const Recording& recording, std::span<const Co
   const bool single = movingCount(scene) == 1;
   for (int body = 0; body < static_cast<int>(scene.world.bodies.size()); ++body) {
     const std::size_t i = static_cast<std::size_t>(body);
-    if (!moves(scene.world.bodies[i]) || last < 1) continue;
+    if (!moves(scene.world.bodies[i]) || isPoint(scene, body) || last < 1) continue;
     Polyline line;
     line.points = pathOf(scene, recording, body, last);
     line.colour = single ? colour::kInk : shade(colours[i], 0.8f);

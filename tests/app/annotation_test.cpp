@@ -40,21 +40,40 @@ velocity = [0.5, 0, 0]
   CHECK(corners > 2 * 5);  // the hit is one of them
 }
 
-TEST_CASE("what bends has one name, not one for each of its points") {
+TEST_CASE("what bends has one name, and neither a way nor a pin for each of its points") {
   const Scene scene = parseScene(R"([world]
 duration = 0.1
+[[body]]
+name = "pole"
+shape = { box = [0.02, 1, 0.02] }
+mass = 1.0
+position = [-0.5, 0, 0]
 [[cloth]]
 name = "flag"
 columns = 3
 rows = 3
 size = [0.4, 0.4]
+pins = "column"
+pin_to = "pole"
+[[joint]]
+kind = "distance"
+a = "pole"
+b = "flag.8"
+anchor = [-0.5, -0.4, 0]
+anchor_b = [0.2, 0, 0.2]
 [show]
 labels = true
+path = true
 )",
                                  "flag");
-  const Picture picture = Presenter(scene, record(scene, 60.0)).image(0);
-  REQUIRE(picture.labels.size() == 1);
-  CHECK(picture.labels.front().text == "flag");
+  REQUIRE(scene.world.joints.size() == 4);
+  const Picture picture = Presenter(scene, record(scene, 60.0)).image(6);
+  REQUIRE(picture.labels.size() == 2);
+  CHECK(picture.labels.front().text == "pole");
+  CHECK(picture.labels.back().text == "flag");
+  CHECK(picture.lines.size() == 1);  // the way of the pole
+  // The pole, the two sides of the flag, and the rod with a ball at each end.
+  CHECK(picture.instances.size() == 6);
 }
 
 TEST_CASE("a pane that the eye is behind is seen by its edges, one before it whole") {
