@@ -15,7 +15,7 @@ struct Fraction3;
 struct Points {
   std::vector<Vec3> at;                                 ///< [m] rounded
   std::vector<std::shared_ptr<const Fraction3>> exact;  ///< where that is not the whole; else null
-  mutable long looks = 0;  ///< what questions that took whole numbers cost, in triangles looked at
+  mutable long looks = 0;  ///< what whole numbers and long outlines cost, in triangles looked at
 };
 
 /// A triangle of a surface, counter-clockwise seen from outside.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <queue>
 
+#include "sim/shape/join.h"
+
 namespace tumble {
 namespace {
 
@@ -130,6 +132,31 @@ Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double a
   }
   excess.bound = cells.empty() ? 0.0 : std::max(0.0, cells.top().bound);
   return excess;
+}
+
+double reachOfRough(const Polyhedron& hull, const std::vector<std::array<Vec3, 3>>& surface,
+                    double volume) {
+  const std::vector<HalfSpace> faces = facesOf(hull);
+  double below = 0.0;  // w
+  for (const std::array<Vec3, 3>& triangle : surface) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const HalfSpace& face : faces) {
+      double deepest = 0.0;
+      for (const Vec3& p : triangle) deepest = std::max(deepest, face.d - face.n.dot(p));
+      least = std::min(least, deepest);
+    }
+    below = std::max(below, least);
+  }
+  // C is no smaller than the hull without D all over its surface, and has to be in what is
+  // enclosed.
+  double bound = std::numeric_limits<double>::infinity();
+  for (double in = 0.5 * volume / areaOf(hull); in > 2.0 * below; in *= 0.25) {
+    std::vector<HalfSpace> inner = faces;
+    for (HalfSpace& face : inner) face.d -= in;
+    bound = std::min(bound, below * reachOver(hull, inner) / (in - below));
+    if (below == 0.0) break;
+  }
+  return bound;
 }
 
 }  // namespace tumble

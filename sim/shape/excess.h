@@ -1,7 +1,9 @@
 // Chapter 2, shape: how far a convex solid reaches out of a mesh.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "sim/shape/box_tree.h"
 #include "sim/shape/interior.h"
@@ -46,5 +48,16 @@ struct Excess {
 /// out
 ///                 by more than 15/16 of it may be taken for one that reaches out by more.
 Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double allowed);
+
+/// The same for the hull of a closed surface whose triangles all lie near faces of the hull, as
+/// those of flat faces do whose corners have been rounded. With w how far a triangle is below a
+/// face, over all triangles, C the hull with its faces moved in by D > w, and R how far the hull
+/// reaches over C, the surface misses C, and its points, sent on the way that leads to them from
+/// the nearest point of C, come out at the hull within  w R / (D − w).  A point of the hull that is
+/// further from the surface is passed by none of them, and so is inside it, as C is.
+/// @param volume  [m³] > 0 that the surface encloses; the rest of the hull is no room for C
+/// @return [m] a bound; infinite if there is no such C
+double reachOfRough(const Polyhedron& hull, const std::vector<std::array<Vec3, 3>>& surface,
+                    double volume);
 
 }  // namespace tumble

@@ -140,18 +140,26 @@ class Filler {
 
   /// Joins a hole to the loop around it by the shortest tie that crosses nothing.
   void tie(const Loop& hole, const std::vector<Loop>& holes, Loop& loop) const {
-    std::size_t from = 0, to = 0;
-    double least = std::numeric_limits<double>::infinity();
+    struct Tie {
+      double length;  // squared
+      std::size_t from, to;
+    };
+    std::vector<Tie> ties;
     for (std::size_t i = 0; i < hole.size(); ++i)
       for (std::size_t k = 0; k < loop.size(); ++k) {
-        const int p = hole[i], q = loop[k];
-        const double du = u(p) - u(q), dv = v(p) - v(q), length = du * du + dv * dv;
-        if (length >= least || !inCorner(loop, k, p) || crossesAny(p, q, loop)) continue;
-        if (std::any_of(holes.begin(), holes.end(),
-                        [&](const Loop& other) { return crossesAny(p, q, other); }))
-          continue;
-        least = length, from = i, to = k;
+        const double du = u(hole[i]) - u(loop[k]), dv = v(hole[i]) - v(loop[k]);
+        ties.push_back({du * du + dv * dv, i, k});
       }
+    std::stable_sort(ties.begin(), ties.end(),
+                     [](const Tie& a, const Tie& b) { return a.length < b.length; });
+    const auto free = std::find_if(ties.begin(), ties.end(), [&](const Tie& tie) {
+      const int p = hole[tie.from], q = loop[tie.to];
+      return inCorner(loop, tie.to, p) && !crossesAny(p, q, loop) &&
+             std::none_of(holes.begin(), holes.end(),
+                          [&](const Loop& other) { return crossesAny(p, q, other); });
+    });
+    const auto [from, to] = free == ties.end() ? std::pair<std::size_t, std::size_t>{0, 0}
+                                               : std::pair{free->from, free->to};
     Loop joined(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(to) + 1);
     for (std::size_t i = 0; i <= hole.size(); ++i) joined.push_back(at(hole, from + i));
     joined.insert(joined.end(), loop.begin() + static_cast<std::ptrdiff_t>(to), loop.end());
@@ -235,6 +243,8 @@ class Filler {
 
 Surface fill(const Points& points, const std::vector<std::array<int, 2>>& edges, const Vec3& n,
              bool exact) {
+  constexpr long kEdges = 16;  // squared, that cost as much as a triangle
+  points.looks += static_cast<long>(edges.size() * edges.size()) / kEdges;
   Surface filled;
   const Filler filler(points, n, exact);
   filler.run(filler.loopsOf(edges), filled);

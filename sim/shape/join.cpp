@@ -11,15 +11,6 @@
 namespace tumble {
 namespace {
 
-std::vector<HalfSpace> facesOf(const Polyhedron& solid) {
-  std::vector<HalfSpace> planes;
-  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
-    const Vec3& foot = solid.points[static_cast<std::size_t>(solid.faces[f][0])];
-    planes.push_back({solid.normals[f], solid.normals[f].dot(foot)});
-  }
-  return planes;
-}
-
 Aabb boxOf(const Polyhedron& solid, double slack) {
   Aabb box{solid.points[0], solid.points[0]};
   for (const Vec3& p : solid.points) box = {box.lo.cwiseMin(p), box.hi.cwiseMax(p)};
@@ -87,6 +78,15 @@ bool joinOne(std::vector<Joined>& list, const Joining& joint, int& next, Apart& 
 }
 
 }  // namespace
+
+std::vector<HalfSpace> facesOf(const Polyhedron& solid) {
+  std::vector<HalfSpace> planes;
+  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+    const Vec3& foot = solid.points[static_cast<std::size_t>(solid.faces[f][0])];
+    planes.push_back({solid.normals[f], solid.normals[f].dot(foot)});
+  }
+  return planes;
+}
 
 double volumeOf(const Polyhedron& solid) {
   double sum = 0.0;

@@ -12,6 +12,9 @@ namespace tumble {
 double volumeOf(const Polyhedron& solid);
 double areaOf(const Polyhedron& solid);
 
+/// The half-spaces of a convex solid's faces.
+std::vector<HalfSpace> facesOf(const Polyhedron& convex);
+
 /// How far [m] points of a convex solid are from the solid K below these planes and its own faces,
 /// at most. K is convex, so that a corner is farthest. Infinite if the middle of the corners is not
 /// in K.

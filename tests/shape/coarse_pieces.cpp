@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 
 #include "sim/math/rotation.h"
@@ -239,4 +240,123 @@ TEST_CASE("pieces without a notch are held to their reach") {
   const Polyhedron mesh = bent.made();
   const double tolerance = 0.03 * halfDiagonal(mesh);
   CHECK(piecesOf(mesh, PieceKind::Good, tolerance).excess <= tolerance);
+}
+
+namespace {
+
+/// Turned askew, its coordinates rounded to multiples of `grain` [m].
+Polyhedron rounded(solids::Raw raw, double grain) {
+  const Quat aslant(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized()));
+  for (Vec3& p : raw.points) p = grain * ((aslant * p) / grain).array().round().matrix();
+  return raw.made();
+}
+
+/// An L whose faces are cut into squares of 1/n m, and these into triangles.
+solids::Raw fineEll(int n) {
+  std::map<std::array<int, 3>, int> number;
+  solids::Raw raw;
+  const auto at = [&](const std::array<int, 3>& p) {
+    const auto [known, fresh] = number.emplace(p, static_cast<int>(raw.points.size()));
+    if (fresh) raw.points.push_back(Vec3(p[0], p[1], p[2]) / n);
+    return known->second;
+  };
+  const auto isIn = [&](int x, int y, int z) {
+    return x >= 0 && y >= 0 && z >= 0 && z < n && x < 2 * n && y < 2 * n && (x < n || y < n);
+  };
+  for (int x = 0; x < 2 * n; ++x)
+    for (int y = 0; y < 2 * n; ++y)
+      for (int z = 0; z < n; ++z)
+        for (int axis = 0; axis < 3 && isIn(x, y, z); ++axis)
+          for (const int side : {0, 1}) {
+            const std::array<int, 3> cell{x, y, z};
+            std::array<int, 3> beside = cell, foot = cell;
+            beside[axis] += 2 * side - 1;
+            foot[axis] += side;
+            if (isIn(beside[0], beside[1], beside[2])) continue;
+            std::array<int, 3> u = foot, v = foot, w = foot;
+            const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+            ++u[next], ++v[next], ++v[last], ++w[last];
+            std::vector<int> square{at(foot), at(u), at(v), at(w)};
+            if (side == 0) std::reverse(square.begin(), square.end());
+            raw.faces.push_back({square[0], square[1], square[2]});
+            raw.faces.push_back({square[0], square[2], square[3]});
+          }
+  return raw;
+}
+
+}  // namespace
+
+// Oracle: closed form. A cube of 2 m whose top is a pyramid that points inward: over its tip the
+// hull is as far from the faces as they lean, nearly the depth of the tip. A bound of 1.8 times
+// that is what the corners of a cube take; one that is as deep as the cube has room for nothing.
+TEST_CASE("how far the hull of a dented cube reaches out of it is known within a factor of two") {
+  const auto bound = [](double deep) {
+    solids::Raw cube = solids::box({-1, -1, -1}, {1, 1, 1});
+    cube.points.emplace_back(0.0, 0.0, 1.0 - deep);
+    std::erase_if(cube.faces, [&](const std::vector<int>& face) {
+      return std::all_of(face.begin(), face.end(), [&](int i) { return cube.points[i].z() > 0.5; });
+    });
+    for (const auto& [i, j] : {std::pair(4, 5), std::pair(5, 7), std::pair(7, 6), std::pair(6, 4)})
+      cube.faces.push_back({i, j, 8});
+    const Polyhedron dented = cube.made();
+    std::vector<std::array<Vec3, 3>> surface;
+    for (const std::vector<int>& face : dented.faces) {
+      std::vector<std::array<int, 3>> triangles;
+      cutIntoTriangles(dented, face, triangles);
+      for (const auto& [a, b, c] : triangles)
+        surface.push_back({corner(dented, a), corner(dented, b), corner(dented, c)});
+    }
+    Polyhedron hull = convexHull(dented.points);
+    for (Vec3& p : hull.points) p += dented.points[0];
+    return reachOfRough(hull, surface, 8.0 - 4.0 / 3.0 * deep);
+  };
+  for (const double deep : {1e-2, 1e-4, 1e-6}) {
+    CAPTURE(deep);
+    CHECK(bound(deep) >= deep / std::sqrt(1.0 + deep * deep));
+    CHECK(bound(deep) < 2.0 * deep);
+  }
+  CHECK(bound(0.0) < 1e-15);
+  CHECK(std::isinf(bound(1.5)));
+}
+
+// Oracle: the pieces of what is not rounded; points of the pieces beside all faces of the mesh. By
+// where the planes of its rounded faces meet, the finer L needs seven pieces; of the other, corners
+// are further from its cuts than those of six digits, by which it needs more than there may be.
+TEST_CASE("meshes whose corners have six decimals come apart as those that have all", "[figures]") {
+  const auto check = [](const char* name, const solids::Raw& raw, double grain, double share,
+                        std::size_t most) {
+    const Polyhedron mesh = rounded(raw, grain);
+    const double size = halfDiagonal(mesh);
+    const Pieces pieces = piecesOf(mesh, PieceKind::Good, share * size);
+    WARN(name << " of " << mesh.faces.size() << " faces, rounded to " << grain << " m: measured "
+              << pieces.hulls.size() << " pieces, excess " << pieces.excess / size
+              << " of the size");
+    CHECK(pieces.hulls.size() <= most);
+    hold(mesh, pieces, share * size);
+  };
+  check("an L in triangles", fineEll(7), 1e-6, 1e-5, 2);
+  check("an L in triangles", fineEll(5), 1e-5, 1e-4, 2);
+  check("a star of eight tips", solids::star(8), 1e-6, 1e-5, 10);
+  check("a comb", solids::comb(9), 1e-6, 1e-5, 12);
+}
+
+// Oracle: points of the pieces beside all faces. A wall that winds twice round: cuts anywhere spent
+// all that they may, and it was refused, though cuts at its notches leave few pieces.
+TEST_CASE("what cuts anywhere do not take apart is cut at its notches") {
+  std::vector<Vec3> outside, wall;
+  constexpr int kParts = 60;
+  for (int k = 0; k <= kParts; ++k) {
+    const double angle = 4.0 * 3.14159265358979323846 * k / kParts, r = 0.3 + 0.5 * k / kParts;
+    wall.push_back(r * Vec3(std::cos(angle), std::sin(angle), 0.0));
+    outside.push_back((1.0 + 0.08 / r) * wall.back());
+  }
+  wall.insert(wall.begin(), outside.rbegin(), outside.rend());
+  std::reverse(wall.begin(), wall.end());
+  const Polyhedron mesh = rounded(solids::prism(wall, 0.5), 1e-6);
+  const double tolerance = 0.03 * halfDiagonal(mesh);
+  const Pieces pieces = piecesOf(mesh, PieceKind::Good, tolerance);
+  WARN("a spiral of " << mesh.faces.size() << " faces: measured " << pieces.hulls.size()
+                      << " pieces");
+  CHECK(pieces.hulls.size() <= 100);
+  hold(mesh, pieces, tolerance);
 }

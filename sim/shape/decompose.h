@@ -1,0 +1,20 @@
+// Chapter 2, shape: one way of taking a mesh apart.
+#pragma once
+
+#include "sim/shape/pieces.h"
+
+namespace tumble {
+
+/// Where cuts may be, how many triangles may be looked at for them, in all surfaces together, and
+/// what is on them.
+struct Means {
+  bool anywhere = false;  ///< not at notches alone
+  long work = 0;
+  double snap = 0.0;  ///< of the size of the mesh: corners no further from a cut are on it
+};
+
+/// As piecesOf, by these means alone.
+/// @throws NoPieces
+Pieces decompose(const Polyhedron& solid, double tolerance, const Means& means);
+
+}  // namespace tumble
