@@ -19,12 +19,14 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first word of a file; another one for each way of finding pieces.
-constexpr const char* kVersion = "tumble-pieces-9";
+constexpr const char* kVersion = "tumble-pieces-10";
 constexpr double kLong = 0.1;  // s
 constexpr std::size_t kMostCorners = 1'000'000;
 
-std::string keyOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
-  std::string text = fmt::format("{} {} {:a}\n", kVersion, static_cast<int>(kind), tolerance);
+std::string keyOf(const Polyhedron& solid, PieceKind kind, const std::vector<double>& tolerances) {
+  std::string text = fmt::format("{} {}", kVersion, static_cast<int>(kind));
+  for (const double tolerance : tolerances) text += fmt::format(" {:a}", tolerance);
+  text += '\n';
   for (const Vec3& p : solid.points) text += fmt::format("{:a} {:a} {:a}\n", p.x(), p.y(), p.z());
   for (const std::vector<int>& face : solid.faces)
     text += fmt::format("{}\n", fmt::join(face, " "));
@@ -90,6 +92,18 @@ bool readHull(std::istream& in, Pieces& pieces) {
   return true;
 }
 
+Pieces piecesToOne(const Polyhedron& solid, PieceKind kind, const std::vector<double>& tolerances) {
+  try {
+    return piecesOf(solid, kind, tolerances.front());
+  } catch (const NoPieces&) {
+    for (std::size_t k = 1; k < tolerances.size(); ++k) try {
+        return piecesOf(solid, kind, tolerances[k]);
+      } catch (const NoPieces&) {
+      }
+    throw;
+  }
+}
+
 }  // namespace
 
 std::string textOf(const Pieces& pieces) {
@@ -126,15 +140,16 @@ std::shared_ptr<const Pieces> piecesFrom(const std::string& text) {
 }
 
 std::shared_ptr<const Pieces> storedPieces(const Polyhedron& solid, PieceKind kind,
-                                           double tolerance, const std::string& name) {
+                                           const std::vector<double>& tolerances,
+                                           const std::string& name) {
   static std::map<std::string, std::shared_ptr<const Pieces>> known;
-  const std::string key = keyOf(solid, kind, tolerance);
+  const std::string key = keyOf(solid, kind, tolerances);
   std::shared_ptr<const Pieces>& pieces = known[key];
   if (pieces) return pieces;
   const fs::path store = folder(), path = store / ("pieces-" + key + ".txt");
   if (!store.empty() && (pieces = fromFile(path))) return pieces;
   const auto begin = std::chrono::steady_clock::now();
-  pieces = std::make_shared<const Pieces>(piecesOf(solid, kind, tolerance));
+  pieces = std::make_shared<const Pieces>(piecesToOne(solid, kind, tolerances));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (took.count() > kLong)
     fmt::print(stderr, "{}: {} convex pieces, found in {:.2f} s\n", name, pieces->hulls.size(),

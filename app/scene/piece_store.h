@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sim/shape/pieces.h"
 
@@ -12,10 +13,12 @@ namespace tumble {
 /// $XDG_CACHE_HOME/tumble (~/.cache/tumble without), else found now and written there, with a line
 /// on stderr if that took long. Files are named by a digest of the mesh and how it is taken apart;
 /// one that is broken is made anew, and a folder that cannot be written is no error.
-/// @param name  of the mesh, for that line
-/// @throws NoPieces
+/// @param tolerances  [m] one at least; one after the other, until there are pieces
+/// @param name        of the mesh, for that line
+/// @throws NoPieces   as for the first tolerance
 std::shared_ptr<const Pieces> storedPieces(const Polyhedron& solid, PieceKind kind,
-                                           double tolerance, const std::string& name);
+                                           const std::vector<double>& tolerances,
+                                           const std::string& name);
 
 /// Pieces as text, and back: to the last bit. Nothing if the text is not whole.
 std::string textOf(const Pieces& pieces);

@@ -84,9 +84,11 @@ double sizeOf(const Polyhedron& solid) {
 }
 
 std::optional<Shape> readMeshFile(Section& shape) {
-  constexpr double kTolerance = 1e-6;
+  // Of faces that are flat to double precision, or to single; of those whose corners have six
+  // decimals.
+  constexpr double kFlat = 1e-6, kSixDecimals = 1e-5;
   std::string name, pieces = "good";
-  double tolerance = kTolerance;
+  std::optional<double> tolerance;
   shape.read("mesh", name);
   shape.read("pieces", pieces, std::vector<std::string>{"good", "hull", "slivers"});
   shape.read("pieces_tolerance", tolerance, {0.0, 0.5, false, {}});
@@ -98,7 +100,10 @@ std::optional<Shape> readMeshFile(Section& shape) {
   try {
     file = readMesh(meshPath(name, shape.findings().file()));
     Mesh mesh{file.solid, -file.first};
-    mesh.pieces = storedPieces(*mesh.solid, kind, tolerance * sizeOf(*mesh.solid), name);
+    const double size = sizeOf(*mesh.solid);
+    const auto tolerances = tolerance ? std::vector<double>{*tolerance * size}
+                                      : std::vector<double>{kFlat * size, kSixDecimals * size};
+    mesh.pieces = storedPieces(*mesh.solid, kind, tolerances, name);
     return mesh;
   } catch (const MeshError& reason) {
     shape.complain("mesh", reason.what());
