@@ -172,7 +172,7 @@ TEST_CASE("a tree of boxes finds what all pairs of boxes find, in fewer looks", 
 }
 
 // Oracle: the search anew. On a smooth way past each other planes mostly stay.
-TEST_CASE("planes of polygon pairs are remembered, and change no answer") {
+TEST_CASE("planes of polygon pairs are remembered, and change no answer", "[figures]") {
   const Mesh a = meshes::ring(24), b = meshes::ring(24);
   const PolygonSoup soupA(a), soupB(b);
   PolygonPairs known(soupA, soupB);

@@ -68,7 +68,8 @@ WorldDef linkedChain(const char* method, int links) {
 }  // namespace
 
 // Oracle: statics. Link k carries what hangs below it.
-TEST_CASE("a chain of interlocked links hangs, and each link carries what hangs below it") {
+TEST_CASE("a chain of interlocked links hangs, and each link carries what hangs below it",
+          "[figures]") {
   const char* method = GENERATE("stepping", "exact", "course");
   const int links = 4;
   const WorldDef def = linkedChain(method, links);
@@ -93,7 +94,7 @@ TEST_CASE("a chain of interlocked links hangs, and each link carries what hangs 
 }
 
 // Oracle: it is not on the other side.
-TEST_CASE("a thin U that flies at 100 m/s does not pass through a thin plate") {
+TEST_CASE("a thin U that flies at 100 m/s does not pass through a thin plate", "[figures]") {
   const char* method = GENERATE("stepping", "exact", "course");
   const double turn = GENERATE(0.0, 30.0);
   WorldDef def = worldOf(method, 0.06, {box("plate", {0.02, 4.0, 4.0}, {0.0, 0.0, 0.0}, 0.2)});
@@ -119,13 +120,19 @@ TEST_CASE("a thin U that flies at 100 m/s does not pass through a thin plate") {
   u.angularVelocity = {turn, 5.0, -2.0 * turn};
   def.bodies.push_back(u);
   World world(def);
+  double farthest = def.bodies[1].position.x();
   for (int k = 1; k <= 60; ++k) {
     world.advance(0.001 * k);
     REQUIRE_FALSE(world.report().stopped);
     CAPTURE(method, turn, k);
-    REQUIRE(world.sample(0.001 * k).bodies[1].x.x() < 0.0);
+    farthest = std::max(farthest, world.sample(0.001 * k).bodies[1].x.x());
+    REQUIRE(farthest < 0.0);
   }
-  CHECK(world.report().certificate.events > 0);
+  const Certificate& books = world.report().certificate;
+  WARN("a thin U at 100 m/s, " << method << ", turned by " << turn << ": measured its centre "
+                               << -farthest << " m before the plate at least, overlaps to "
+                               << books.audit_max_penetration << " m");
+  CHECK(books.events > 0);
 }
 
 // Oracle: a quarter of a link moves through the hole of another and meets nothing.
@@ -265,7 +272,8 @@ double edgesMeet(const Placed& a, const Placed& b, const Vec3& v) {
 
 // Oracle: every corner against every face and every edge against every edge, in closed form.
 // Measured 4e-16 s, allowed 1e-12 s.
-TEST_CASE("a ring that flies into a ring meets it when the first of all pairs of features meets") {
+TEST_CASE("a ring that flies into a ring meets it when the first of all pairs of features meets",
+          "[figures]") {
   const Mesh ring = meshes::ring(24, 1.0, 0.25), small = meshes::ring(16, 0.5, 0.125);
   double off = 0.0;
   int hits = 0;

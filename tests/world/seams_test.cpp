@@ -250,7 +250,7 @@ BodyDef manySeams() {
 // angle to the world and to each other, and in the mirror, whether the slab glides or not. Measured
 // by `stepping` 3e-13 m, by `exact` 3e-14 m, by `course` 2e-14 m; allowed 1e-9 m, the width of a
 // touch.
-TEST_CASE("what slides over parts of one body that are flush goes as over one part") {
+TEST_CASE("what slides over parts of one body that are flush goes as over one part", "[figures]") {
   const char* method = GENERATE("stepping", "exact", "course");
   const std::vector<Slider> all = sliders();
   double off = worstSeam({method}, {{-20.0}, {all[1], all.back()}, {manySeams()}});
@@ -259,7 +259,8 @@ TEST_CASE("what slides over parts of one body that are flush goes as over one pa
   off = std::max(off, worstSeam({method}, {{60.0}, {all[4]}, {threeSeams()}}));
   WARN("seams of one body, " << method << ": measured off by " << off << " m");
 }
-TEST_CASE("seams of one body at all angles, of all solids, in any order of the parts", "[long]") {
+TEST_CASE("seams of one body at all angles, of all solids, in any order of the parts",
+          "[long][figures]") {
   const auto [method, step] =
       GENERATE(table<const char*, double>({{"stepping", 1.0 / 240.0},
                                            {"stepping", 1e-3},
@@ -341,6 +342,7 @@ void dropLs(int count, int columns, int worlds) {
 TEST_CASE("Ls that fall on each other overlap no more than their certificate says") {
   dropLs(12, 1, 8);
 }
-TEST_CASE("200 Ls that fall on each other overlap no more than their certificate says", "[long]") {
+TEST_CASE("200 Ls that fall on each other overlap no more than their certificate says",
+          "[long][figures]") {
   dropLs(200, 5, 1);
 }

@@ -88,7 +88,8 @@ NutRun runDown(int facets, bool other) {
 // Oracle: a = g/(1 + (2π/p)² I/m), less what flat facets take. Measured 0.160 with 12 to the turn
 // and 0.052 with 24, allowed 0.165 and 0.060; that shrinks as n^-3/2. Overlaps 1e-10 m, allowed
 // 1e-9 m.
-TEST_CASE("a nut runs down a bolt as its pitch and its inertia let it, turned and mirrored too") {
+TEST_CASE("a nut runs down a bolt as its pitch and its inertia let it, turned and mirrored too",
+          "[figures]") {
   const bool other = GENERATE(false, true);
   CAPTURE(other);
   const NutRun few = runDown(12, other), more = runDown(24, other);
