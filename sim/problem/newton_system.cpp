@@ -37,7 +37,9 @@ template <int N>
       invertFactor(factor);
       mover.inertia.noalias() = factor.transpose().lazyProduct(factor);
     }
-    mover.star = problem.vStar[i].template head<N>();
+    // Stiff couplings would magnify the rounding of what is common to all velocities.
+    (problem.couplings.empty() ? mover.star : mover.origin) = problem.vStar[i].template head<N>();
+    (problem.couplings.empty() ? mover.origin : mover.star).setZero();
     mover.moves = moves;
     mover.turns = turns;
   }
@@ -63,6 +65,13 @@ double NewtonSystem<N>::split(const Problem& problem, int body, Vec6& J, double&
   return mobility;
 }
 
+/// What the velocity that a body's own is measured from gives a row, by its part J of that row.
+template <int N>
+double NewtonSystem<N>::alongOrigin(int body, const Vec6& J) const {
+  const int mover = moverOf_[body];
+  return mover >= 0 ? J.head<N>().dot(movers[mover].origin) : 0.0;
+}
+
 /// Reads the rows of a cone into a point. @return those of body b
 template <int N>
 [[gnu::flatten]] auto NewtonSystem<N>::readRows(const Problem& problem, const Cone& cone,
@@ -75,6 +84,7 @@ template <int N>
     Jb << -row.linear, row.angularB;
     double bias = row.bias;
     const double mobility = split(problem, row.a, Ja, bias) + split(problem, row.b, Jb, bias);
+    if (!problem.couplings.empty()) bias += alongOrigin(row.a, Ja) + alongOrigin(row.b, Jb);
     point.compliance = row.compliance;
     point.mobility = std::max(point.mobility, mobility);
     point.length = rowArm(problem, row);
@@ -271,8 +281,10 @@ void NewtonSystem<N>::restart(const Solution& start) {
     mover.v = mover.star;
     if (!known) continue;
     const Vec6& v = start.v[mover.body];
-    if (mover.moves) mover.v.template head<3>() = v.template head<3>();
-    if (mover.turns) mover.v.template tail<3>() = v.template tail<3>();
+    if (mover.moves)
+      mover.v.template head<3>() = v.template head<3>() - mover.origin.template head<3>();
+    if (mover.turns)
+      mover.v.template tail<3>() = v.template tail<3>() - mover.origin.template tail<3>();
   }
   for (Point& point : points) {
     point.lambda.setZero();
@@ -357,7 +369,11 @@ void NewtonSystem<N>::write(const Problem& problem, Solution& solution) const {
       solution.lambda[row] = points[c].length * points[c].force[k];
       if (pulled_) solution.pull[row] = points[c].length * points[c].pull[k];
     }
-  for (const Mover& mover : movers) solution.v[mover.body].template head<N>() = mover.v;
+  for (const Mover& mover : movers) {
+    auto v = solution.v[mover.body].template head<N>();
+    v = mover.v;
+    if (couples()) v += mover.origin;
+  }
 }
 
 template class NewtonSystem<3>;

@@ -48,6 +48,7 @@ class NewtonSystem {
     bool moves = true, turns = true;
     double mass = 1.0;                                               ///< [kg]
     Mat3 inertia = Mat3::Identity(), inertiaInv = Mat3::Identity();  ///< [kg m²] and its inverse
+    Twist origin;  ///< what star and v are measured from: vStar where bodies are coupled, else 0
     Twist star, v, gradient, step;
 
     /// M times a twist.
@@ -142,6 +143,7 @@ class NewtonSystem {
   void addPoints(const Problem& problem);
   void addCouplings(const Problem& problem);
   double split(const Problem& problem, int body, Vec6& J, double& bias) const;
+  double alongOrigin(int body, const Vec6& J) const;
   Rows readRows(const Problem& problem, const Cone& cone, Point& point) const;
   void place(int point, int a, int b, const Rows& ofB);
   void linkBodies();
