@@ -186,7 +186,7 @@ bool Stepping::rests(const Island& island, double h) const {
 /// stands, where that would bring one of them to another pose: it was no motion. In a crowd it
 /// stands as soon as all of them are at rest.
 void Stepping::stand(Island& island, bool crowd, double h) const {
-  constexpr double kLeft = 100.0;  // of what was asked: a jam of blocks answers with 40 times as much
+  constexpr double kLeft = 100.0;  // of what was asked: a jam of blocks answers with 40 times it
   const double residual = std::max(island.memory->residual, model_.def.stepping.tolerance),
                left = kLeft * residual * island.memory->scale;
   const double still = crowd ? tolerance_.rest : std::min(left, tolerance_.rest);
