@@ -76,6 +76,7 @@ class Audit {
   void findStops(const LinearDrag& drag);
   void addLoads();
   void addBent();
+  double unsureOf(const ElasticBody& body, double off) const;
   void addElement(const Element& element, ElementTerms& start, ElementTerms& end);
 
   // balance.cpp
@@ -141,6 +142,7 @@ class Audit {
   std::vector<Vec3> sumP_, sumL_;               ///< of drifts, by root
   std::vector<Vec3> impulse_, moment_;          ///< [N s], [N m s] of loads in this part
   std::vector<char> pushed_;  ///< per body whether anything may have pushed it, or a joint holds it
+  std::vector<char> joined_;  ///< per body whether a joint holds it
   std::vector<Vec3> bentFirst_, bentMore_;  ///< [N s] of what bends; see addBent
   std::vector<Vec3> inside_;                ///< what of impulse_ it is
   std::vector<std::pair<int, int>> feet_;   ///< points of mass that are rubbed, and by whom
@@ -155,6 +157,7 @@ class Audit {
   long seen_ = 0, untold_ = 0, parts_ = 0;
   bool coarse_ = false;  ///< any two bodies may have met between two looks
   bool broken_ = false;  ///< the motion left the range of numbers
+  double unsure_ = 0.0;  ///< [J] of the work of who turns what bends, as much as may be wrong
   double energyStart_ = 0.0, workDone_ = 0.0, gain_ = 0.0;
   double kineticMax_ = 0.0, momentumMax_ = 0.0, spinMax_ = 0.0, driftMaxP_ = 0.0, driftMaxL_ = 0.0;
   double load_ = 0.0, loadPower_ = 0.0, size_ = 0.0, jointGap_ = 0.0;

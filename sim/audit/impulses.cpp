@@ -114,10 +114,14 @@ void Audit::addLoads() {
 
 /// What an implicit step gives the points of what bends, where they were at its start: forces at
 /// its end, linear about its start, or about its end, or between the two: what no solid and no
-/// joint holds tells by how much.
+/// joint holds tells by how much. Where a solid may have pushed any of them, it pushed few: most
+/// are near one of the two. Forces that a step made linear about other places stay unknown.
 void Audit::addBent() {
   std::vector<Vec3>&first = bentFirst_, &more = bentMore_;
   ElementTerms start, end;
+  const auto gainedBy = [&](int i) -> Vec3 {
+    return now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
+  };
   for (const Force& force : model_.def.forces) {
     const Bending* bending = std::get_if<Bending>(&force);
     if (!bending) continue;
@@ -125,18 +129,41 @@ void Audit::addBent() {
     first.assign(bodies_.size(), Vec3::Zero());
     more.assign(bodies_.size(), Vec3::Zero());
     for (const Element& element : bending->body->elements) addElement(element, start, end);
-    double both = 0.0, size = 0.0;
+    double both = 0.0, size = 0.0, offFirst = 0.0, offEnd = 0.0;
     for (const int i : points) {
-      if (!moves(i) || pushed_[i]) continue;
-      const Vec3 gained =
-          now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
-      both += more[i].dot(gained - first[i]);
+      if (!moves(i) || joined_[i]) continue;
+      const Vec3 others = gainedBy(i) - first[i];
+      offFirst += others.norm();
+      offEnd += (others - more[i]).norm();
+      if (pushed_[i]) continue;
+      both += more[i].dot(others);
       size += more[i].squaredNorm();
     }
-    const double share = both > 0.0 ? std::min(both / size, 1.0) : 0.0;
-    for (const int i : points) inside_[i] = first[i] + share * more[i];
+    double share = both > 0.0 ? std::min(both / size, 1.0) : 0.0;
+    if (size == 0.0 && offEnd < offFirst) share = 1.0;
+    double off = size == 0.0 ? std::min(offFirst, offEnd) : 0.0;
+    for (const int i : points) {
+      inside_[i] = first[i] + share * more[i];
+      if (moves(i) && !pushed_[i]) off += (gainedBy(i) - inside_[i]).norm();
+    }
+    unsure_ += unsureOf(*bending->body, off);
     for (const int i : points) impulse_[i] += inside_[i];
   }
+}
+
+/// What impulses that are not known so far [N s] do at most [J] where points turn with who leads
+/// them.
+double Audit::unsureOf(const ElasticBody& body, double off) const {
+  double fastest = 0.0;
+  for (const int i : body.bodies) {
+    int root = i;
+    while (root_[root] != root) root = root_[root];
+    const int fixed = groups_[root].fixed;
+    if (!moves(i) || fixed == kNoBody) continue;
+    const Vec3 arm = last_[i].x - fixedAt(fixed, t_ - h_).x;
+    fastest = std::max(fastest, bodies_[fixed].omega.cross(arm).norm());
+  }
+  return fastest * off;
 }
 
 void Audit::addElement(const Element& element, ElementTerms& start, ElementTerms& end) {
