@@ -151,12 +151,15 @@ void Nearness::see(Known& pair, const Part& part) {
   double way = part.way[pair.a] + part.way[pair.b];
   // In many parts bodies may have been anywhere that they were not to leave unseen.
   if (part.many) way = std::max(way, before_[pair.a] + before_[pair.b]);
-  const double start = pair.fresh ? now - net : now + net;  // or more
+  double start = pair.fresh ? now - net : now + net;  // or more
   pair.fresh = false;
   pair.close = now < reach_[pair.a] + reach_[pair.b];
   if (start > way + near && now > 0.0) return;  // apart all the way
   const double known = deepest_ + kRounding * smaller(pair);
-  if (now < -known || pair.gap > near) look(pair, part);
+  if (now < -known || pair.gap > near) {
+    look(pair, part);
+    start = std::max(start, pair.gap - net);
+  }
   if (std::min(start, pair.gap) > way + near) return;
   touched_.emplace_back(pair.b, pair.a);
   if (!part.many && way > kMidst * smaller(pair)) lookOnTheWay(pair, part);
