@@ -48,7 +48,8 @@ class Audit {
   struct Group {
     int count = 0, fixed = kNoBody;  ///< bodies; one that touches them and does not move freely
     bool held = false;               ///< by a fixed body, a joint to one or to the world
-    bool unlike = false;             ///< by several that move unlike
+    bool unlike = false;             ///< by several that move unlike,
+    bool torn = false;               ///< one of its bodies by two, or one that no forces tell it of
     bool springy = false;            ///< contacts in it are springs
     bool lost = false;               ///< work of loads along the way is unknown,
     bool unseen = false;             ///< and so are their impulses
@@ -92,6 +93,7 @@ class Audit {
   void addStates();
   void addTurns();
   double workOfFixed(int root) const;
+  double workOfSeveral(int root) const;
   void settle();
   void book(int root, double given);
   int rootOf(int body);
@@ -142,6 +144,7 @@ class Audit {
   std::vector<Vec3> sumP_, sumL_;               ///< of drifts, by root
   std::vector<Vec3> impulse_, moment_;          ///< [N s], [N m s] of loads in this part
   std::vector<char> pushed_;  ///< per body whether anything may have pushed it, or a joint holds it
+  std::vector<int> holder_;   ///< per body: what holds it, or kFree
   std::vector<char> joined_;  ///< per body whether a joint holds it
   std::vector<Vec3> bentFirst_, bentMore_;  ///< [N s] of what bends; see addBent
   std::vector<Vec3> inside_;                ///< what of impulse_ it is

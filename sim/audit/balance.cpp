@@ -11,6 +11,8 @@ namespace {
 
 /// What counts as spin at least, of momentum times size: less is rounding.
 constexpr double kLever = 1e-3;
+/// Held by nothing, not by the world either.
+constexpr int kFree = -2;
 
 /// Finds the root of a forest, and shortens the way to it.
 int rootIn(std::vector<int>& forest, int i) {
@@ -46,6 +48,9 @@ void Audit::holdBy(int body, int fixed) {
   Group& g = groups_[rootOf(body)];
   const auto stays = [&](int f) { return f == kNoBody || still(f); };
   if (g.held && g.fixed != fixed && !(stays(g.fixed) && stays(fixed))) g.unlike = true;
+  int& own = holder_[body];
+  if (own != kFree && own != fixed && !(stays(own) && stays(fixed))) g.torn = true;
+  own = fixed;
   g.held = true;
   g.fixed = fixed;
 }
@@ -66,6 +71,9 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
   }
 
   groups_.assign(root_.size(), Group{});
+  holder_.assign(root_.size(), kFree);
+  for (int i = 0; i < model_.count(); ++i)
+    if (moves(i) && !(turns_ && model_.bends(i))) groups_[rootOf(i)].torn = true;
   const bool springs = model_.runs == "course" && model_.def.course.contact == "penalty";
   feet_.clear();
   pushed_.assign(root_.size(), false);
@@ -322,6 +330,23 @@ double Audit::workOfFixed(int root) const {
   return work + moment.dot(start.omega);
 }
 
+/// What fixed bodies that move give points of what bends: each what it pushed, where it was at the
+/// start of an implicit step.
+double Audit::workOfSeveral(int root) const {
+  double work = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    int r = static_cast<int>(i);
+    while (root_[r] != r) r = root_[r];
+    const int f = holder_[i];
+    if (!moves(i) || r != root || f == kFree || f == kNoBody || still(f)) continue;
+    const RigidBody start = fixedAt(f, t_ - h_);
+    const Vec3 push = now_[i].P - last_[i].P - h_ * bodies_[i].M * model_.def.gravity - impulse_[i];
+    work +=
+        push.dot(start.v + start.omega.cross(last_[i].x - start.x)) + rubbed_[i].dot(start.omega);
+  }
+  return work;
+}
+
 /// Books what each group gained and what of its momentum is unexplained.
 void Audit::settle() {
   bool told = true;
@@ -330,14 +355,14 @@ void Audit::settle() {
     if (!moves(i)) continue;
     const int root = rootOf(i);
     const Group& g = groups_[root];
-    const bool led = g.fixed != kNoBody && !still(g.fixed);
-    bool known = !g.lost && !g.unlike && !g.springy && !(led && g.vague);
+    const bool led = g.unlike || (g.fixed != kNoBody && !still(g.fixed));
+    bool known = !g.lost && !(g.unlike && g.torn) && !g.springy && !(led && g.vague);
     if (many_) known = known && stored_ && (winds_ || !led);
     quiet_ = quiet_ && g.held && !led && known;
     if (known) workDone_ += work_[i];
     if (static_cast<int>(i) == root) {
       told = told && known;
-      if (known) book(root, led ? workOfFixed(root) : 0.0);
+      if (known) book(root, g.unlike ? workOfSeveral(root) : led ? workOfFixed(root) : 0.0);
     }
     if (g.held || g.unseen || (many_ && !winds_)) continue;
     driftP_[i] += bodies_[i].M / g.mass * g.P;
