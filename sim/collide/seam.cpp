@@ -73,12 +73,16 @@ bool rises(const PosedPart& part, const Vec3& q, const Vec3& n, double slack) {
   return topOf(part, n) - n.dot(q) > slack;
 }
 
-bool isFree(const Parts& parts, int part, const Vec3& q, const Vec3& n) {
+// Whether no other part that holds q rises above the plane through `top` square to n.
+bool isFree(const Parts& parts, int part, const Vec3& q, const Vec3& top, const Vec3& n) {
   const std::vector<int>& beside = parts.beside[static_cast<std::size_t>(part)];
   return std::none_of(beside.begin(), beside.end(), [&](int k) {
     const PosedPart& other = parts.list[static_cast<std::size_t>(k)];
-    return rises(other, q, n, parts.flush) && holds(other, q, parts.flush);
+    return rises(other, top, n, parts.flush) && holds(other, q, parts.flush);
   });
+}
+bool isFree(const Parts& parts, int part, const Vec3& q, const Vec3& n) {
+  return isFree(parts, part, q, q, n);
 }
 
 // A direction across n.
@@ -275,13 +279,15 @@ void findExposed(const PartView& a, int i, const PartView& b, int j, const Sough
 
 bool isExposed(const Parts& parts, int part, const Vec3& p, const Vec3& n, const Vec3& edge,
                double within) {
-  if (isFree(parts, part, p, n)) return true;
   const PosedPart& own = parts.list[static_cast<std::size_t>(part)];
   const double size = parts.size[static_cast<std::size_t>(part)];
   const double reach = std::min(std::max(kReach * parts.flush, within), kFarthest * size);
   const double off = kOnFace * (size + p.norm());
   // From the point itself, but on the plane that just touches the part, so that what n leans shows.
   const Vec3 foot = p + (topOf(own, n) - n.dot(p)) * n;
+  // What rises no higher than the part itself does not cover it: a part that shares one of its
+  // edges leans as it does.
+  if (isFree(parts, part, p, foot, n)) return true;
   const auto freeAt = [&](const Vec3& way) {
     const Vec3 q = foot + reach * way;
     return holds(own, q, off) && isFree(parts, part, q, n);

@@ -346,3 +346,33 @@ TEST_CASE("what stands on flush parts touches them where it touches one part") {
     }
   WARN("places on flush parts: measured off by " << off << " m");
 }
+
+// Oracle: the corners themselves. A cube in two prisms, which share two of its edges; while it
+// leans on one end of the lower, the other end is a corner of both, and each took it for covered by
+// the other, so that it came down on nothing.
+TEST_CASE("corners that parts share are seen while their solid leans") {
+  Compound cube;
+  for (const double side : {-1.0, 1.0}) {
+    std::vector<Vec3> corners;
+    for (const double up : {-0.5, 0.5})
+      for (const Vec3& p :
+           {Vec3(-0.5, up, -0.5), Vec3(0.5, up, 0.5), Vec3(0.5 * side, up, -0.5 * side)})
+        corners.push_back(p);
+    cube.parts.push_back({Hull{std::make_shared<const Polyhedron>(convexHull(corners))},
+                          {corners[0], Quat::Identity()}});
+  }
+  const Shape parts = readyShape(cube);
+  const double lean = GENERATE(1e-6, 1e-4, 1e-2, -1e-6, -1e-4, -1e-2);  // [rad]
+  const Quat q(Eigen::AngleAxisd(lean, Vec3(1.0, 0.0, -1.0).normalized()));
+  Manifold found;
+  collide(parts, {{0.0, 0.51, 0.0}, q}, HalfSpace{}, {}, 0.05, found);
+  for (const double x : {-0.5, 0.5})
+    for (const double z : {-0.5, 0.5}) {
+      const Vec3 corner = Vec3(0.0, 0.51, 0.0) + q * Vec3(x, -0.5, z);
+      CAPTURE(lean, x, z);
+      CHECK(std::any_of(found.begin(), found.end(), [&](const ContactPoint& c) {
+        return std::abs(c.separation - corner.y()) < 1e-9 &&
+               std::hypot(c.p.x() - corner.x(), c.p.z() - corner.z()) < 1e-9;
+      }));
+    }
+}
