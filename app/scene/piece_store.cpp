@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "app/file/digest.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first word of a file; another one for each way of finding pieces.
-constexpr const char* kVersion = "tumble-pieces-10";
+constexpr const char* kVersion = "tumble-pieces-11";
 constexpr double kLong = 0.1;  // s
 constexpr std::size_t kMostCorners = 1'000'000;
 
@@ -92,16 +93,21 @@ bool readHull(std::istream& in, Pieces& pieces) {
   return true;
 }
 
+/// The fewest pieces that a tolerance gives. What stands out of the mesh by rounding alone needs no
+/// coarser one.
 Pieces piecesToOne(const Polyhedron& solid, PieceKind kind, const std::vector<double>& tolerances) {
-  try {
-    return piecesOf(solid, kind, tolerances.front());
-  } catch (const NoPieces&) {
-    for (std::size_t k = 1; k < tolerances.size(); ++k) try {
-        return piecesOf(solid, kind, tolerances[k]);
-      } catch (const NoPieces&) {
-      }
-    throw;
-  }
+  constexpr double kRounding = 1e-3;  // of the first tolerance
+  std::optional<Pieces> few;
+  std::optional<NoPieces> why;
+  for (const double tolerance : tolerances) try {
+      Pieces pieces = piecesOf(solid, kind, tolerance);
+      if (!few || pieces.hulls.size() < few->hulls.size()) few = std::move(pieces);
+      if (few->excess <= kRounding * tolerances.front()) break;
+    } catch (const NoPieces& reason) {
+      if (!why) why = reason;
+    }
+  if (!few) throw *why;
+  return *std::move(few);
 }
 
 }  // namespace

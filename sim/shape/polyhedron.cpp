@@ -13,8 +13,9 @@
 namespace tumble {
 namespace {
 
-constexpr double kFlat = 1e-12;  // of a face's size: what rounding of its points may bend it by
-constexpr double kFar = 1e60;    // m: fifth powers, as inertia tensors have, stay finite
+constexpr double kFlat = 1e-12;   // of a face's size: what rounding of its points may bend it by
+constexpr double kBeside = 1e-4;  // of a length: six decimals move corners by less
+constexpr double kFar = 1e60;     // m: fifth powers, as inertia tensors have, stay finite
 
 std::string number(double value) {
   char text[32];
@@ -156,24 +157,26 @@ void cutIntoTriangles(const Polyhedron& solid, const std::vector<int>& face,
   n.cwiseAbs().maxCoeff(&axis);
   const double side = n[axis] < 0.0 ? -1.0 : 1.0;
   std::vector<int> left = face;
+  // An ear is a convex corner whose triangle holds no other corner, nor one on the edge that it
+  // leaves but for what rounding has moved.
+  const auto isEar = [&](std::size_t k, double beside) {
+    const int a = left[(k + left.size() - 1) % left.size()], b = left[k],
+              c = left[(k + 1) % left.size()];
+    const auto turn = [&](int i, int j, int l) {
+      return side * turnOf(at(solid, i), at(solid, j), at(solid, l), axis);
+    };
+    const double wide = beside * (at(solid, c) - at(solid, a)).squaredNorm();
+    return turn(a, b, c) > 0.0 && std::none_of(left.begin(), left.end(), [&](int p) {
+             return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
+                    turn(c, a, p) >= -wide;
+           });
+  };
   while (left.size() > 3) {
-    // An ear is a convex corner whose triangle holds no other corner; without one, any will do.
-    std::size_t ear = 1;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const int a = left[(k + left.size() - 1) % left.size()], b = left[k],
-                c = left[(k + 1) % left.size()];
-      const auto turn = [&](int i, int j, int l) {
-        return side * turnOf(at(solid, i), at(solid, j), at(solid, l), axis);
-      };
-      const bool free = std::none_of(left.begin(), left.end(), [&](int p) {
-        return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
-               turn(c, a, p) >= 0.0;
-      });
-      if (turn(a, b, c) > 0.0 && free) {
-        ear = k;
-        break;
-      }
-    }
+    std::size_t ear = left.size();
+    for (const double beside : {kBeside, 0.0})
+      for (std::size_t k = 0; k < left.size() && ear == left.size(); ++k)
+        if (isEar(k, beside)) ear = k;
+    if (ear == left.size()) ear = 1;  // without one, any will do
     triangles.push_back(
         {left[(ear + left.size() - 1) % left.size()], left[ear], left[(ear + 1) % left.size()]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
