@@ -74,8 +74,15 @@ double difference(const Manifold& one, const Manifold& other) {
 
 struct Worst {
   double gap = 0.0, points = 0.0;
-  int compared = 0, differ = 0, touching = 0;
+  int compared = 0, differ = 0, touching = 0, tied = 0;
 };
+
+// Whether the two lie along axes of one separation to rounding: either is right.
+bool areTied(const Manifold& one, const Manifold& other) {
+  constexpr double kAside = 1e-6, kAlike = 2e-13;  // of normals; [m]
+  return !one.empty() && !other.empty() && (one[0].n - other[0].n).norm() > kAside &&
+         std::abs(one[0].separation - other[0].separation) < kAlike;
+}
 
 void compareWays(const Posed& pair, double margin, Worst& worst) {
   worst.gap = std::max(worst.gap, std::abs(pair.general() - pair.special()));
@@ -86,13 +93,18 @@ void compareWays(const Posed& pair, double margin, Worst& worst) {
     ++worst.differ;
     return;
   }
+  if (areTied(general, special)) {
+    ++worst.tied;
+    return;
+  }
   worst.points =
       std::max(worst.points, std::max(difference(general, special), difference(special, general)));
 }
 
 void reportWorst(const char* name, const Worst& worst) {
   WARN(name << ": measured gap " << worst.gap << " m, points " << worst.points << " m, "
-            << worst.differ << " of " << worst.compared << " with another count");
+            << worst.differ << " of " << worst.compared << " with another count, " << worst.tied
+            << " along another axis of one separation");
 }
 
 // Oracle: two methods agree. Coordinates to 1 m: measured 1.3e-15 m and, for points of balls that
@@ -120,16 +132,18 @@ TEST_CASE("balls in the general path meet balls, boxes and half-spaces as in the
 }
 
 // Oracle: two methods agree, where the widest of the 15 axes is that of the distance. Measured
-// 8.3e-14 m, of which all but 1e-15 m is the share that the pair of boxes takes from edges that are
-// nearly parallel; points, where edges cross at small angles, 1.9e-13 m.
+// 8.1e-14 m, of which all but 1e-15 m is the share that the pair of boxes takes from edges that are
+// nearly parallel; points, where edges cross at small angles, 3.3e-13 m. Of boxes turned by 45 or
+// 90 degrees that overlap by a hair, a few do so alike along two axes: measured 2 of 20,000.
 TEST_CASE("boxes in the general path overlap as in their own pair", "[figures]") {
   Random random(52);
   Worst worst;
   int apart = 0;
   for (int k = 0; k < 20000; ++k) {
-    Posed pair = somePosed(random, random.box(), random.box(), 0.8);
-    if (k % 2 == 0)
-      approach(pair, (random.below(2) ? 1.0 : -1.0) * std::pow(10.0, random.uniform(-15.0, -6.0)));
+    const Box a = random.box(), b = random.box();
+    Posed pair = somePosed(random, a, b, 0.8);
+    const double side = random.below(2) ? 1.0 : -1.0;
+    if (k % 2 == 0) approach(pair, side * std::pow(10.0, random.uniform(-15.0, -6.0)));
     const double special = pair.special(), general = pair.general();
     if (special > 0.0) {  // the axes give a lower bound of the distance only
       ++apart;
@@ -143,6 +157,7 @@ TEST_CASE("boxes in the general path overlap as in their own pair", "[figures]")
   REQUIRE(worst.touching > 5000);
   REQUIRE(worst.differ == 0);
   REQUIRE(worst.gap < 2e-13);
+  REQUIRE(worst.tied <= 10);
   REQUIRE(worst.points < 2e-12);
 }
 
