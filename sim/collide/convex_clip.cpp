@@ -103,6 +103,13 @@ void shareOfSegments(const Facet& a, const Facet& b, const Vec3& n, double toler
   }
 }
 
+// Whether a polyhedron holds a point.
+bool holds(const Core& core, const Vec3& p) {
+  for (std::size_t f = 0; f < core.normals.size(); ++f)
+    if (core.normals[f].dot(p - core.points[core.faces[f][0]]) > 0.0) return false;
+  return !core.normals.empty();
+}
+
 // Leaves one point of each group that lies within the tolerance, the lowest feature first.
 void sortAndMerge(PlacedList& points, double tolerance) {
   std::sort(points.begin(), points.end(),
@@ -147,11 +154,13 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
   points.erase(std::remove_if(points.begin(), points.end(),
                               [&](const Placed& p) { return !(p.separation - radii <= margin); }),
                points.end());
-  if (points.empty()) {
-    const ContactPoint c = pointOf(plane, a, b);
-    if (c.separation <= margin) out.push_back(c);
-    return;
-  }
+  // What overlaps may do so beside the facets, which are apart where they face each other.
+  const ContactPoint deepest = pointOf(plane, a, b);
+  const bool overlaps = std::any_of(points.begin(), points.end(),
+                                    [&](const Placed& p) { return p.separation <= radii; });
+  const bool beside =
+      plane.gap < -tolerance && !overlaps && (holds(a, deepest.pb) || holds(b, deepest.pa));
+  if ((points.empty() || beside) && deepest.separation <= margin) out.push_back(deepest);
   sortAndMerge(points, tolerance);
   for (const Placed& p : points) {
     ContactPoint c = pointOf(plane, a, b);

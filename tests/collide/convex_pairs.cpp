@@ -356,4 +356,31 @@ TEST_CASE("an L of two boxes touches with both, and their points have names of t
 }
 
 }  // namespace
+// Oracle: how deep the bar's lower end is put. The top of the block is bent by rounding, so that it
+// is two triangles; the bar leans over both, one end in the block. What the facets share may lie
+// over the triangle that it does not touch: the end that is deep had no point, and sank in unheld.
+TEST_CASE("what overlaps beside the facet that is nearest has a point, in any margin") {
+  constexpr double kBent = 1e-10, kDeep = 2e-3, kLean = 0.02;  // [m], [m], [rad]
+  std::vector<Vec3> corners;
+  for (const double x : {-1.0, 1.0})
+    for (const double z : {-1.0, 1.0})
+      corners.push_back({x, -1.0, z}), corners.push_back({x, x * z > 0.0 ? 0.0 : -kBent, z});
+  const Shape block = hullOf(corners), bar = Box{{0.6, 0.05, 0.05}};
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    const Quat q =
+        turn(Vec3::UnitY(), 45.0 * eighth + 10.0) * Quat(Eigen::AngleAxisd(kLean, Vec3::UnitZ()));
+    const Mat3 R = q.toRotationMatrix();
+    const double below = R.row(1).cwiseAbs().dot(Vec3(0.6, 0.05, 0.05));
+    const Pose pose{{0.0, below - kDeep, 0.0}, q};
+    for (const double margin : {1e-3, 0.01, 0.3}) {
+      Manifold found;
+      collide(bar, pose, block, {}, margin, found);
+      double least = 0.0;
+      for (const ContactPoint& c : found) least = std::min(least, c.separation);
+      CAPTURE(eighth, margin);
+      CHECK(least == Approx(-kDeep).margin(1e-5));
+    }
+  }
+}
+
 }  // namespace tumble
