@@ -95,7 +95,8 @@ bool readHull(std::istream& in, Pieces& pieces) {
 
 /// The fewest pieces that a tolerance gives. What stands out of the mesh by rounding alone needs no
 /// coarser one.
-Pieces piecesToOne(const Polyhedron& solid, PieceKind kind, const std::vector<double>& tolerances) {
+Pieces fewestPieces(const Polyhedron& solid, PieceKind kind,
+                    const std::vector<double>& tolerances) {
   constexpr double kRounding = 1e-3;  // of the first tolerance
   std::optional<Pieces> few;
   std::optional<NoPieces> why;
@@ -155,7 +156,7 @@ std::shared_ptr<const Pieces> storedPieces(const Polyhedron& solid, PieceKind ki
   const fs::path store = folder(), path = store / ("pieces-" + key + ".txt");
   if (!store.empty() && (pieces = fromFile(path))) return pieces;
   const auto begin = std::chrono::steady_clock::now();
-  pieces = std::make_shared<const Pieces>(piecesToOne(solid, kind, tolerances));
+  pieces = std::make_shared<const Pieces>(fewestPieces(solid, kind, tolerances));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (took.count() > kLong)
     fmt::print(stderr, "{}: {} convex pieces, found in {:.2f} s\n", name, pieces->hulls.size(),

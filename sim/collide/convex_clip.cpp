@@ -163,7 +163,7 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
   if ((points.empty() || beside) && deepest.separation <= margin) out.push_back(deepest);
   sortAndMerge(points, tolerance);
   for (const Placed& p : points) {
-    ContactPoint c = pointOf(plane, a, b);
+    ContactPoint c = deepest;
     c.ra = a.radius;
     c.rb = b.radius;
     c.separation = p.separation - radii;

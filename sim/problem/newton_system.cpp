@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/problem/cone.h"
 #include "sim/problem/row.h"
@@ -37,9 +38,10 @@ template <int N>
       invertFactor(factor);
       mover.inertia.noalias() = factor.transpose().lazyProduct(factor);
     }
+    mover.star = problem.vStar[i].template head<N>();
+    mover.origin.setZero();
     // Stiff couplings would magnify the rounding of what is common to all velocities.
-    (problem.couplings.empty() ? mover.star : mover.origin) = problem.vStar[i].template head<N>();
-    (problem.couplings.empty() ? mover.origin : mover.star).setZero();
+    if (!problem.couplings.empty()) std::swap(mover.star, mover.origin);
     mover.moves = moves;
     mover.turns = turns;
   }
