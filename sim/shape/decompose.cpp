@@ -26,6 +26,8 @@ using cut::Triangle;
 
 constexpr long kHullWork = 250;         // triangles that cost as much as a corner of a hull
 constexpr long kStirredWork = 50;       // as much as one of a hull of stirred corners
+constexpr long kLooks = 32;             // looks at planes or boxes that cost as much as a triangle
+constexpr long kInRow = 8;              // planes one after the other, as much as a look at one
 constexpr std::size_t kMostSeeds = 48;  // notches of a piece from which planes are drawn
 constexpr double kThin = 1e-9;          // of size × area: a piece that may be flat
 constexpr std::size_t kMostExact = 4;   // cuts through notches that are tried beside those
@@ -74,11 +76,11 @@ class Decomposer {
       } else if (!leftOut(piece)) {
         if (notches.empty())
           refuseCrossing("no plane parts it where it is not convex", outerOf(piece));
-        refuse("no plane parts the mesh", notches);
+        refuse("no plane parts the mesh", piece, notches);
       }
-      if (spent()) refuse("the mesh is too intricate to be taken apart exactly", notches);
+      if (spent()) refuse("the mesh is too intricate to be taken apart exactly", piece, notches);
       if (done.size() + open.size() > kMostPieces)
-        refuse("the mesh needs more than " + std::to_string(kMostPieces) + " convex pieces",
+        refuse("the mesh needs more than " + std::to_string(kMostPieces) + " convex pieces", piece,
                notches);
     }
     std::reverse(done.begin(), done.end());
@@ -97,7 +99,8 @@ class Decomposer {
   }
 
  private:
-  bool spent() const { return work_ + points_.looks > most_; }
+  long work() const { return work_ + points_.looks + looks_ / kLooks; }
+  bool spent() const { return work() > most_; }
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
   double slack() const { return std::max(tolerance_, kRounding * size_); }
 
@@ -128,7 +131,8 @@ class Decomposer {
     whole.excess = reachOf(piece, whole.hull);
     if (whole.excess <= (distance_ ? snap_ : slack())) return whole;
     if (!distance_) return {};
-    const Excess out = excessOf(whole.hull, *distance_, tolerance_);
+    const Excess out = excessOf(whole.hull, *distance_, tolerance_, kLooks * (most_ - work()));
+    looks_ += out.looks;
     over_ = out.where;
     whole.excess = out.bound;
     return out.bound <= tolerance_ ? std::optional(whole) : std::nullopt;
@@ -158,7 +162,7 @@ class Decomposer {
 
   /// How far a hull reaches out of the mesh at most. What is in front of no face of a piece sees
   /// all its surface from within, and so is in the piece.
-  double reachOf(const Surface& piece, const Polyhedron& hull) const {
+  double reachOf(const Surface& piece, const Polyhedron& hull) {
     std::vector<HalfSpace> planes;
     std::set<int> faces;
     for (const Triangle& t : piece)
@@ -166,13 +170,13 @@ class Decomposer {
         const CutPlane plane = notches_->planeOf(t.face);
         planes.push_back({plane.n, plane.d});
       }
-    const double reach = reachOver(hull, std::move(planes));
+    const double reach = reachOver(hull, std::move(planes), &looks_);
     if (reach <= snap_) return reach;
     std::vector<std::array<Vec3, 3>> surface;
     for (const auto& [corner, face] : piece)
       surface.push_back({at(corner[0]), at(corner[1]), at(corner[2])});
     const double volume = cut::sixfoldVolume(points_, piece) / 6.0;
-    return std::min(reach, reachOfRough(hull, surface, volume));
+    return std::min(reach, reachOfRough(hull, surface, volume, looks_));
   }
 
   /// A plane and what it is worth.
@@ -263,7 +267,8 @@ class Decomposer {
   }
 
   /// Notches deeper than the tolerance under the hull, the deepest first.
-  std::vector<Notch> deepest(const Polyhedron& hull, const std::vector<Notch>& notches) const {
+  std::vector<Notch> deepest(const Polyhedron& hull, const std::vector<Notch>& notches) {
+    looks_ += static_cast<long>(notches.size() * hull.faces.size()) / kInRow;
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t k = 0; k < notches.size(); ++k) {
       const Vec3 p = 0.5 * (at(notches[k].from) + at(notches[k].to));
@@ -325,10 +330,15 @@ class Decomposer {
     return buffer;
   }
 
-  [[noreturn]] void refuse(const std::string& why, const std::vector<Notch>& notches) const {
+  [[noreturn]] void refuse(const std::string& why, const Surface& piece,
+                           const std::vector<Notch>& notches) const {
     std::string where;
     int face = -1;
-    if (!notches.empty()) {
+    if (notches.empty()) {
+      const Triangle outer = outerOf(piece);
+      if (outer.face >= 0) face = faceOf_[static_cast<std::size_t>(outer.face)];
+      where = ", as near " + placeOf(outer.corner[0]);
+    } else {
       const Notch& notch = notches[0];
       face = faceOf_[static_cast<std::size_t>(notch.left)];
       where = ", as at the notch from " + placeOf(notch.from) + " to " + placeOf(notch.to);
@@ -347,8 +357,8 @@ class Decomposer {
   double tolerance_, snap_ = 0.0;         ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
   double gape_ = 0.0, flat_ = 0.0, off_ = 0.0;  ///< [m], [m³] of pieces left out
-  Triangle crossing_ = {{0, 0, 0}};  ///< of the piece whose hull holds most too much: off_ [m³]
-  long work_ = 0, most_;
+  Triangle crossing_ = {{0, 0, 0}};   ///< of the piece whose hull holds most too much: off_ [m³]
+  long work_ = 0, looks_ = 0, most_;  ///< triangles, planes looked at
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "sim/shape/join.h"
+#include "sim/shape/plane_tree.h"
 
 namespace tumble {
 namespace {
@@ -59,6 +60,7 @@ MeshDistance::MeshDistance(const Polyhedron& solid)
 
 void MeshDistance::descend(int node, const Vec3& p, Nearest& best) const {
   const BoxTree::Node& here = tree_.nodes()[static_cast<std::size_t>(node)];
+  ++looks_;
   if (here.item >= 0) {
     const Vec3 q = nearestOn(triangles_[static_cast<std::size_t>(here.item)], p);
     if (const double squared = (q - p).squaredNorm(); squared < best.squared) best = {squared, q};
@@ -87,38 +89,24 @@ Vec3 MeshDistance::nearest(const Vec3& p) const {
   return best.point;
 }
 
-Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double allowed) {
+Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double allowed, long most) {
   constexpr double kFinest = 1.0 / 16.0;  // of what is allowed: smaller cells are not halved
   Vec3 lo = convex.points[0], hi = lo;
   for (const Vec3& p : convex.points) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
-  std::vector<double> top;
-  for (std::size_t f = 0; f < convex.faces.size(); ++f)
-    top.push_back(
-        convex.normals[f].dot(convex.points[static_cast<std::size_t>(convex.faces[f][0])]));
-  // How far p stands over a face at most, and whether a cube about it is wholly over one.
-  const auto height = [&](const Vec3& p, double half, bool& outside) {
-    double most = -std::numeric_limits<double>::infinity();
-    outside = false;
-    for (std::size_t f = 0; f < top.size() && !outside; ++f) {
-      const double h = convex.normals[f].dot(p) - top[f];
-      most = std::max(most, h);
-      outside = h > half * convex.normals[f].lpNorm<1>();
-    }
-    return most;
-  };
+  const PlaneTree faces(facesOf(convex));
+  const long before = distance.looks();
   std::priority_queue<Cell> cells;
   Excess excess;
   double farthest = 0.0;
   const auto add = [&](const Vec3& middle, double half, double reach) {
-    bool outside = false;
-    const double h = height(middle, half, outside);
-    if (outside) return;
+    if (faces.isOver(middle, half)) return;
     const double d = distance(middle, reach), way = std::sqrt(3.0) * half;
-    if (h <= 0.0 && d > farthest) farthest = d, excess.where = middle;
+    if (d > farthest && !faces.isOver(middle, 0.0)) farthest = d, excess.where = middle;
     cells.push({d + way, middle, half, std::abs(d)});
   };
+  const auto looks = [&] { return faces.looks() + distance.looks() - before; };
   add(0.5 * (lo + hi), 0.5 * (hi - lo).maxCoeff(), std::numeric_limits<double>::infinity());
-  while (!cells.empty() && cells.top().bound > allowed && farthest <= allowed) {
+  while (!cells.empty() && cells.top().bound > allowed && farthest <= allowed && looks() < most) {
     const Cell cell = cells.top();
     if (cell.half * std::sqrt(3.0) < kFinest * allowed) {
       if (farthest == 0.0) excess.where = cell.middle;
@@ -131,29 +119,25 @@ Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double a
           (1.0 + 1e-12) * reach);
   }
   excess.bound = cells.empty() ? 0.0 : std::max(0.0, cells.top().bound);
+  excess.looks = looks();
   return excess;
 }
 
 double reachOfRough(const Polyhedron& hull, const std::vector<std::array<Vec3, 3>>& surface,
-                    double volume) {
+                    double volume, long& looks) {
   const std::vector<HalfSpace> faces = facesOf(hull);
+  const PlaneTree tree(faces);
   double below = 0.0;  // w
-  for (const std::array<Vec3, 3>& triangle : surface) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const HalfSpace& face : faces) {
-      double deepest = 0.0;
-      for (const Vec3& p : triangle) deepest = std::max(deepest, face.d - face.n.dot(p));
-      least = std::min(least, deepest);
-    }
-    below = std::max(below, least);
-  }
+  for (const std::array<Vec3, 3>& triangle : surface)
+    below = std::max(below, tree.leastDepth(triangle));
+  looks += tree.looks();
   // C is no smaller than the hull without D all over its surface, and has to be in what is
   // enclosed.
   double bound = std::numeric_limits<double>::infinity();
   for (double in = 0.5 * volume / areaOf(hull); in > 2.0 * below; in *= 0.25) {
     std::vector<HalfSpace> inner = faces;
     for (HalfSpace& face : inner) face.d -= in;
-    bound = std::min(bound, below * reachOver(hull, inner) / (in - below));
+    bound = std::min(bound, below * reachOver(hull, inner, &looks) / (in - below));
     if (below == 0.0) break;
   }
   return bound;

@@ -23,6 +23,9 @@ class MeshDistance {
   /// The point of the surface nearest to p.
   Vec3 nearest(const Vec3& p) const;
 
+  /// Boxes and triangles looked at so far.
+  long looks() const { return looks_; }
+
  private:
   struct Nearest {
     double squared;  ///< [m²]
@@ -34,12 +37,14 @@ class MeshDistance {
   Interior interior_;
   std::vector<std::array<Vec3, 3>> triangles_;
   BoxTree tree_;
+  mutable long looks_ = 0;
 };
 
 /// How far a convex solid reaches out of a mesh.
 struct Excess {
   double bound = 0.0;         ///< [m] no point of the solid is further from the mesh
   Vec3 where = Vec3::Zero();  ///< a point of the solid far from the mesh, if the bound is > allowed
+  long looks = 0;             ///< at triangles of the mesh and faces of the solid
 };
 
 /// Boxes are halved where the distance at their middle, which changes by no more than the way from
@@ -47,7 +52,8 @@ struct Excess {
 /// @param allowed  [m] > 0; the bound is sought no further once it is less. A solid that reaches
 /// out
 ///                 by more than 15/16 of it may be taken for one that reaches out by more.
-Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double allowed);
+/// @param most  looks after which it is sought no further
+Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double allowed, long most);
 
 /// The same for the hull of a closed surface whose triangles all lie near faces of the hull, as
 /// those of flat faces do whose corners have been rounded. With w how far a triangle is below a
@@ -56,8 +62,9 @@ Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double a
 /// the nearest point of C, come out at the hull within  w R / (D − w).  A point of the hull that is
 /// further from the surface is passed by none of them, and so is inside it, as C is.
 /// @param volume  [m³] > 0 that the surface encloses; the rest of the hull is no room for C
+/// @param looks   grows by the planes looked at
 /// @return [m] a bound; infinite if there is no such C
 double reachOfRough(const Polyhedron& hull, const std::vector<std::array<Vec3, 3>>& surface,
-                    double volume);
+                    double volume, long& looks);
 
 }  // namespace tumble

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/shape/convex_hull.h"
+#include "sim/shape/plane_tree.h"
 
 namespace tumble {
 namespace {
@@ -102,32 +103,59 @@ double areaOf(const Polyhedron& solid) {
   return sum;
 }
 
-double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes) {
-  for (const HalfSpace& face : facesOf(convex)) planes.push_back(face);
-  const auto height = [](const HalfSpace& plane, const Vec3& p) {
+namespace {
+
+/// How far a corner is from the solid below all planes of a tree, at most; `middle` is in it. Only
+/// planes that are near it can be passed on the way.
+double wayInto(const PlaneTree& tree, const Vec3& corner, const Vec3& middle) {
+  constexpr double kWide = 1.5;     // of the height over planes: the way is seldom longer
+  constexpr double kGrain = 1e-12;  // of the way to the middle: what rounding may come to
+  constexpr int kRounds = 16;
+  const auto height = [&](int i, const Vec3& p) {
+    const HalfSpace& plane = tree.planes()[static_cast<std::size_t>(i)];
     return plane.n.dot(p) - plane.d;
   };
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& p : convex.points) middle += p / static_cast<double>(convex.points.size());
-  for (const HalfSpace& plane : planes)
-    if (!(height(plane, middle) < 0.0)) return std::numeric_limits<double>::infinity();
-  double reach = 0.0;
-  for (const Vec3& corner : convex.points) {
+  std::vector<int> near;
+  tree.above(corner, 0.0, near);
+  if (near.empty()) return 0.0;
+  double around = kGrain * (middle - corner).norm();
+  for (const int i : near) around = std::max(around, kWide * height(i, corner));
+  for (;; around *= kWide) {
+    tree.above(corner, -around, near);
     // Into K by one plane after the other, then towards the middle for what is left.
-    constexpr int kRounds = 16;
     Vec3 p = corner;
+    double away = 0.0;
     bool inside = false;
     for (int round = 0; round < kRounds && !inside; ++round) {
       inside = true;
-      for (const HalfSpace& plane : planes)
-        if (const double h = height(plane, p); h > 0.0) p -= h * plane.n, inside = false;
+      for (const int i : near)
+        if (const double h = height(i, p); h > 0.0) {
+          p -= h * tree.planes()[static_cast<std::size_t>(i)].n, inside = false;
+          away = std::max(away, (p - corner).norm());
+        }
     }
+    if (away > (1.0 - kGrain) * around) continue;
     double share = 0.0;
-    for (const HalfSpace& plane : planes)
-      if (const double h = height(plane, p); h > 0.0)
-        share = std::max(share, h / (h - height(plane, middle)));
-    reach = std::max(reach, (p + share * (middle - p) - corner).norm());
+    for (const int i : near)
+      if (const double h = height(i, p); h > 0.0)
+        share = std::max(share, h / (h - height(i, middle)));
+    return (p + share * (middle - p) - corner).norm();
   }
+}
+
+}  // namespace
+
+double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes, long* looks) {
+  for (const HalfSpace& face : facesOf(convex)) planes.push_back(face);
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : convex.points) middle += p / static_cast<double>(convex.points.size());
+  if (looks) *looks += static_cast<long>(planes.size());
+  for (const HalfSpace& plane : planes)
+    if (!(plane.n.dot(middle) - plane.d < 0.0)) return std::numeric_limits<double>::infinity();
+  const PlaneTree tree(std::move(planes));
+  double reach = 0.0;
+  for (const Vec3& corner : convex.points) reach = std::max(reach, wayInto(tree, corner, middle));
+  if (looks) *looks += tree.looks();
   return reach;
 }
 

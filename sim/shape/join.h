@@ -18,7 +18,8 @@ std::vector<HalfSpace> facesOf(const Polyhedron& convex);
 /// How far [m] points of a convex solid are from the solid K below these planes and its own faces,
 /// at most. K is convex, so that a corner is farthest. Infinite if the middle of the corners is not
 /// in K.
-double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes);
+/// @param looks  grows by the planes looked at, if given
+double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes, long* looks = nullptr);
 
 /// How two solids may be joined.
 struct Joining {

@@ -7,6 +7,7 @@
 
 #include "sim/math/rotation.h"
 #include "sim/shape/convex_hull.h"
+#include "sim/shape/decompose.h"
 #include "sim/shape/excess.h"
 #include "sim/shape/pieces.h"
 #include "tests/body/notched.h"
@@ -124,7 +125,8 @@ TEST_CASE("the hull of a U reaches out of it by half the width of its opening") 
   Polyhedron hull = convexHull(u.points);
   for (Vec3& p : hull.points) p += u.points[0];
   const MeshDistance distance(u);
-  const Excess loose = excessOf(hull, distance, 1.1), tight = excessOf(hull, distance, 0.9);
+  const Excess loose = excessOf(hull, distance, 1.1, 100'000),
+               tight = excessOf(hull, distance, 0.9, 100'000);
   CHECK(loose.bound >= 1.0);
   CHECK(loose.bound <= 1.1);
   CHECK(tight.bound >= 1.0);
@@ -308,7 +310,8 @@ TEST_CASE("how far the hull of a dented cube reaches out of it is known within a
     }
     Polyhedron hull = convexHull(dented.points);
     for (Vec3& p : hull.points) p += dented.points[0];
-    return reachOfRough(hull, surface, 8.0 - 4.0 / 3.0 * deep);
+    long looks = 0;
+    return reachOfRough(hull, surface, 8.0 - 4.0 / 3.0 * deep, looks);
   };
   for (const double deep : {1e-2, 1e-4, 1e-6}) {
     CAPTURE(deep);
@@ -359,4 +362,25 @@ TEST_CASE("what cuts anywhere do not take apart is cut at its notches") {
                       << " pieces");
   CHECK(pieces.hulls.size() <= 100);
   hold(mesh, pieces, tolerance);
+}
+
+// Invariant: looks end where they should, and what is not known to be allowed is refused. All over
+// a ball with dents just shallower than the tolerance, cubes have to be halved until they are
+// small: 8 · 10⁷ looks, which counted as no work at all.
+TEST_CASE("how far a dented ball reaches out costs no more than is allowed") {
+  const Polyhedron ball = solids::scan(40, 0.02).made();
+  const double tolerance = 0.012 * halfDiagonal(ball);
+  const Polyhedron hull = hullInFrame(ball.points);
+  const MeshDistance distance(ball);
+  const Excess full = excessOf(hull, distance, tolerance, 1'000'000'000);
+  WARN("a ball with dents: measured " << full.looks << " looks, reaches out by "
+                                      << full.bound / tolerance << " of what is allowed");
+  CHECK(full.bound <= tolerance);
+  CHECK(full.looks > 2'000'000);
+  const Excess cut = excessOf(hull, distance, tolerance, 1'000'000);
+  CHECK(cut.looks < 1'100'000);
+  CHECK(cut.bound > tolerance);
+  CHECK_THROWS_WITH(
+      decompose(ball, tolerance, {true, 300'000, 2e-6}),
+      Catch::Matchers::Contains("too intricate") && Catch::Matchers::Contains("point"));
 }
