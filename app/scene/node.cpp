@@ -119,16 +119,40 @@ std::string toToml(const Node& node) {
   return std::visit(Writer{}, node.value);
 }
 
+namespace {
+
+/// The bytes of the character of UTF-8 that a text begins with; 0 if it begins with none that can
+/// be printed: another byte, or what controls a terminal.
+std::size_t lengthOfFirst(std::string_view text) {
+  const auto byte = [&](std::size_t k) {
+    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
+  };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  const std::size_t length = lead < 0xc2   ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xc0) != 0x80) return 0;
+  // Controls, what is written longer than it need be, halves of pairs, what is beyond the last.
+  const unsigned second = byte(1);
+  const bool none = (lead == 0xc2 && second < 0xa0) || (lead == 0xe0 && second < 0xa0) ||
+                    (lead == 0xed && second >= 0xa0) || (lead == 0xf0 && second < 0x90) ||
+                    (lead == 0xf4 && second >= 0x90);
+  return none ? 0 : length;
+}
+
+}  // namespace
+
 std::string inQuotes(std::string_view text) {
   std::string out;
-  for (const char c : text.substr(0, kLongestQuote)) {
-    const unsigned char code = static_cast<unsigned char>(c);
-    out += code < 0x20 || code == 0x7f ? '?' : c;
-  }
-  // A cut must not end inside a UTF-8 sequence.
-  if (text.size() > kLongestQuote) {
-    while (!out.empty() && (static_cast<unsigned char>(out.back()) & 0x80) != 0) out.pop_back();
-    out += "…";
+  while (!text.empty()) {
+    const std::size_t length = lengthOfFirst(text);
+    if (out.size() + std::max<std::size_t>(1, length) > kLongestQuote) return "'" + out + "…'";
+    out += length == 0 ? "?" : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(1, length));
   }
   return "'" + out + "'";
 }

@@ -39,6 +39,15 @@ TEST_CASE("the first of two equally near names is taken") {
 TEST_CASE("foreign text in a message is printable, whole in its letters and short") {
   CHECK(inQuotes("plain") == "'plain'");
   CHECK(inQuotes("a\x1b[31mb\n") == "'a?[31mb?'");
+  CHECK(inQuotes("1 µm – π 😀") == "'1 µm – π 😀'");
+  // No UTF-8: a byte alone, one cut off, too long, half a pair, beyond the last; a control as two.
+  CHECK(inQuotes("\xff\xfe v") == "'?? v'");
+  CHECK(inQuotes("a\xc3") == "'a?'");
+  CHECK(inQuotes("\xe0\x80\x80\xc0\x80") == "'" + std::string(5, '?') + "'");
+  CHECK(inQuotes("\xed\xa0\x80|\xf4\x90\x80\x80") == "'???|" + std::string(4, '?') + "'");
+  CHECK(inQuotes("\xc2\x9b"
+                 "31m") == "'??31m'");
+  CHECK(inQuotes(std::string("\0\0", 2)) == "'" + std::string(2, '?') + "'");
   CHECK(inQuotes(std::string(100, 'x')) == "'" + std::string(60, 'x') + "…'");
   CHECK(inQuotes(std::string(59, 'x') + "é" + std::string(9, 'y')) ==
         "'" + std::string(59, 'x') + "…'");
