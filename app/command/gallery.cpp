@@ -37,6 +37,7 @@ int exhibit(const Options& options, const std::string& asked, Studio& studio,
   shown.scene = load({asked, options.overrides});
   const Scene& scene = shown.scene;
   const std::string& name = scene.name;
+  makeFolder(options.folder);  // a scene that is refused, or given up meanwhile, leaves none
   say(name);
   std::fflush(stdout);
   const std::string folder = options.folder + "/" + name;
@@ -92,7 +93,6 @@ int gallery(int argc, char** argv) {
   addOverrides(line, options.overrides);
   if (!line.read(argc, argv)) return kOk;
 
-  makeFolder(options.folder);
   Studio studio;
   studio.open();
   std::vector<Exhibit> exhibits;

@@ -85,6 +85,7 @@ std::vector<Study> study(const Options& options, const std::string& machine) {
     if (scene.charts.empty())
       throw SceneError(
           {{{scene.file}, "there is no [[chart]] in it, so there is nothing to report"}});
+    makeFolder(options.folder);  // a scene that is refused, or given up meanwhile, leaves none
     for (std::size_t k = 0; k < scene.charts.size(); ++k) {
       thin(extentOf(options).every, scene.charts[k]);
       Progress progress(scene.charts[k].variant.title);
@@ -244,9 +245,9 @@ int report(int argc, char** argv) {
   const bool whole = options.scenes.empty();
   if (whole) options.scenes = reportScenes();
 
-  makeFolder(options.folder);
   const std::string machine = machineLine();
   if (options.convergence) {
+    makeFolder(options.folder);
     writePage(options, "convergence.html", machine,
               {convergenceChapter(convergence(options, machine))});
     return kOk;

@@ -111,6 +111,18 @@ TEST_CASE("a scene that its method refuses leaves no folder of images") {
   CHECK_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+// The same holds for what is interrupted before a scene is read to its end.
+TEST_CASE("a scene that is refused leaves no folder, whatever was to be made of it") {
+  const std::string command =
+      GENERATE("gallery", "report", "sweep", "converge", "render --still 0");
+  const Folder scratch;
+  scratch.file("scene.toml", spoilt("mass = 1.0", "mass = -1.0"));
+  const Outcome outcome = tumbleRun(scratch, command + " scene.toml -o out");
+  CAPTURE(command, outcome.err);
+  CHECK(outcome.code == kScene);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
 TEST_CASE("several mistakes of one file are told together, first first") {
   const Folder scratch;
   std::string text = spoilt("mass = 1.0", "mass = -1.0");
