@@ -24,6 +24,9 @@ class Findings {
   /// Remembers the first place of a path into the world ("bodies[3].mass").
   void note(const std::string& where, Spot spot) { places_.emplace(where, place(spot)); }
 
+  /// The key of the first mesh that was asked for in these words and refused; "" if none was.
+  std::string& refusedMesh(const std::string& words) { return refusedMeshes_[words]; }
+
   /// The scene file.
   const std::string& file() const { return sources_[0]; }
 
@@ -40,6 +43,7 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::pair<Place, std::string>> faulty_;  // keys, each with where it stands
   std::map<std::string, Place> places_;
+  std::map<std::string, std::string> refusedMeshes_;  // keys, by the words that asked for them
 };
 
 /// The name that the word is an everyday one for ("ball", a sphere); else

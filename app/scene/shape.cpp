@@ -1,6 +1,8 @@
 // `shape = { box = [1, 2, 3] }` and `orientation = …`.
 #include "app/scene/shape.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -96,6 +98,12 @@ std::optional<Shape> readMeshFile(Section& shape) {
   const PieceKind kind = pieces == "good"   ? PieceKind::Good
                          : pieces == "hull" ? PieceKind::Hull
                                             : PieceKind::Slivers;
+  std::string& before = shape.findings().refusedMesh(
+      fmt::format("{}\n{} {:a}", name, pieces, tolerance.value_or(-1.0)));
+  if (!before.empty()) {
+    shape.complain("mesh", "refused as " + before + " is");
+    return {};
+  }
   MeshFile file;
   try {
     file = readMesh(meshPath(name, shape.findings().file()));
@@ -110,6 +118,7 @@ std::optional<Shape> readMeshFile(Section& shape) {
   } catch (const NoPieces& reason) {
     shape.complain("mesh", name + file.lineOf(reason.face()) + ": " + reason.what());
   }
+  before = shape.path("mesh");
   return {};
 }
 
