@@ -6,6 +6,7 @@
 
 #include "app/file/file.h"
 #include "app/record/bodies.h"
+#include "sim/shape/pieces.h"
 
 namespace tumble {
 
@@ -156,11 +157,30 @@ std::string jointsCsv(const Recording& recording, const Scene& scene) {
   return out;
 }
 
+namespace {
+
+// How many convex pieces the meshes of all bodies have, and how much those of one overlap at most.
+std::pair<std::size_t, double> piecesOf(const Scene& scene) {
+  std::size_t count = 0;
+  double slack = 0.0;
+  for (const BodyDef& body : scene.world.bodies)
+    if (const Mesh* mesh = std::get_if<Mesh>(&body.shape); mesh && mesh->pieces) {
+      count += mesh->pieces->hulls.size();
+      slack = std::max(slack, mesh->pieces->slack);
+    }
+  return {count, slack};
+}
+
+}  // namespace
+
 std::string summaryJson(const Recording& recording, const Scene& scene) {
   nlohmann::ordered_json json;
   for (const auto& [key, number] : kCertificateFields)
     std::visit([&, key = key](auto field) { json[key] = recording.report.certificate.*field; },
                number);
+  const auto [pieces, slack] = piecesOf(scene);
+  json["mesh_pieces"] = pieces;
+  json["mesh_slack"] = slack;
   json["cpu_seconds"] = recording.cpuSeconds;
   json["method"] = recording.method;
   json["features"] = recording.features;

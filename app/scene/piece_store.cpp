@@ -159,8 +159,8 @@ std::shared_ptr<const Pieces> storedPieces(const Polyhedron& solid, PieceKind ki
   pieces = std::make_shared<const Pieces>(fewestPieces(solid, kind, tolerances));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (took.count() > kLong)
-    fmt::print(stderr, "{}: {} convex pieces, found in {:.2f} s\n", name, pieces->hulls.size(),
-               took.count());
+    fmt::print(stderr, "{}: {} convex piece{}, found in {:.2f} s\n", name, pieces->hulls.size(),
+               pieces->hulls.size() == 1 ? "" : "s", took.count());
   if (!store.empty()) toFile(path, *pieces);
   return pieces;
 }

@@ -97,6 +97,55 @@ shape = { mesh = "m.obj" }
   refused(solid + "v 0 nan 0\n", ":15:5: ", "expected a finite number, found 'nan'");
 }
 
+// What a terminal might take for a command, and what is no text, is not passed on; the second of
+// two bodies of one mesh names the first.
+TEST_CASE("a mesh file that is no text is refused in words alone, and for two bodies once") {
+  const Folder scratch;
+  scratch.file("m.obj", std::string("\xff\xfe\0\x1b[31m\xc2\x9b", 10) + "v 1 2 3\n");
+  scratch.file("bad.toml", R"([world]
+duration = 0.1
+[[body]]
+name = "a"
+mass = 1.0
+shape = { mesh = "m.obj" }
+[[body]]
+name = "b"
+mass = 1.0
+shape = { mesh = "m.obj" }
+[[body]]
+name = "c"
+mass = 1.0
+shape = { mesh = "m.obj", pieces_tolerance = 0.01 }
+)");
+  const Outcome outcome = tumbleRun(scratch, "simulate bad.toml -o out");
+  CHECK(outcome.code == 3);
+  CHECK(
+      outcome.says("bad.toml:6:18: error: body.a.shape.mesh: m.obj:1:1: expected v, f or another "
+                   "keyword of OBJ files, found '????[31m??v'\n"));
+  CHECK(
+      outcome.says("bad.toml:10:18: error: body.b.shape.mesh: refused as body.a.shape.mesh is\n"));
+  CHECK(outcome.says("bad.toml:14:18: error: body.c.shape.mesh: m.obj:1:1: "));
+  CHECK(outcome.lines() == 3);
+  CHECK(filesBelow(scratch.path) == 2);
+}
+
+// Oracle: an L is two boxes.
+TEST_CASE("describe and the summary say how many pieces a mesh has, and what they are off") {
+  const Folder scratch;
+  scratch.file("two.toml",
+               "[world]\nduration = 0.01\ngravity = [0, 0, 0]\n"
+               "[[body]]\nname = \"a\"\nmass = 1.0\nshape = { mesh = \"ell.obj\" }\n"
+               "[[body]]\nname = \"b\"\nmass = 1.0\nposition = [9, 0, 0]\n"
+               "shape = { mesh = \"ell.obj\", pieces = \"hull\" }\n");
+  const Outcome described = tumbleRun(scratch, "describe two.toml");
+  CAPTURE(described.out, described.err);
+  CHECK(holds(described.out, "pieces    a: 2 convex, 0 m out of the mesh, "));
+  CHECK(holds(described.out, "pieces    b: 1 convex, 0 m out of the mesh, 0 m over each other\n"));
+  CHECK(tumbleRun(scratch, "simulate two.toml -o out").code == 0);
+  const std::string summary = textOf(scratch / "out/summary.json");
+  CHECK(holds(summary, "\"mesh_pieces\": 3,\n  \"mesh_slack\": "));
+}
+
 TEST_CASE("a scene of a mesh that is not there ends with 3, one line and no file") {
   const Folder scratch;
   scratch.file("bad.toml",
