@@ -1,14 +1,18 @@
 #include "app/export/gltf.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "app/export/drawn.h"
+#include "app/export/gltf_bent.h"
+#include "app/export/gltf_binary.h"
 #include "app/export/gltf_physics.h"
+#include "app/present/bent.h"
+#include "app/present/palette.h"
 
 namespace tumble {
 
@@ -16,71 +20,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFloat = 5126, kUnsigned = 5125;             // component types
-constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963;  // targets of views
-
-/// The binary half of the file, and what tells of it in the other.
-class Binary {
- public:
-  /// Values of `width` components each; the number of the accessor.
-  int floats(const std::vector<float>& values, int width, bool bounded, int target = 0) {
-    const int accessor =
-        add(values.data(), values.size() * sizeof(float), values.size() / width, kFloat,
-            width == 1   ? "SCALAR"
-            : width == 3 ? "VEC3"
-                         : "VEC4",
-            target);
-    if (bounded) bound(values, width, accessors_[accessor]);
-    return accessor;
-  }
-  int indices(const std::vector<std::uint32_t>& values) {
-    return add(values.data(), values.size() * sizeof(std::uint32_t), values.size(), kUnsigned,
-               "SCALAR", kIndexBuffer);
-  }
-  void tell(Json& json) const {
-    json["accessors"] = accessors_;
-    json["bufferViews"] = views_;
-    json["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  int add(const void* data, std::size_t size, std::size_t count, int component, const char* type,
-          int target) {
-    Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
-    if (target) view["target"] = target;
-    views_.push_back(std::move(view));
-    bytes_.append(static_cast<const char*>(data), size);  // of four bytes each: stays aligned
-    accessors_.push_back({{"bufferView", views_.size() - 1},
-                          {"componentType", component},
-                          {"count", count},
-                          {"type", type}});
-    return static_cast<int>(accessors_.size()) - 1;
-  }
-
-  static void bound(const std::vector<float>& values, int width, Json& accessor) {
-    std::vector<float> lo(values.begin(), values.begin() + width), hi = lo;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      lo[i % width] = std::min(lo[i % width], values[i]);
-      hi[i % width] = std::max(hi[i % width], values[i]);
-    }
-    accessor["min"] = lo;
-    accessor["max"] = hi;
-  }
-
-  Json accessors_ = Json::array(), views_ = Json::array();
-  std::string bytes_;
-};
-
 // sRGB to linear light, IEC 61966-2-1.
 double linear(float channel) {
   return channel <= 0.04045f ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
-}
-
-std::vector<float> flat(const std::vector<Eigen::Vector3f>& points) {
-  std::vector<float> values;
-  for (const Eigen::Vector3f& p : points) values.insert(values.end(), {p.x(), p.y(), p.z()});
-  return values;
 }
 
 /// Numbers, as float has them: what the file says and what the animation's first key says agree.
@@ -101,10 +43,10 @@ class Writer {
       : scene_(scene), recording_(recording), physics_(scene) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "tumble " TUMBLE_VERSION}};
     json_["scene"] = 0;
-    std::vector<float> times;
-    for (const Sample& sample : recording.samples) times.push_back(static_cast<float>(sample.t));
-    times_ = binary_.floats(times, 1, true);
-    for (const DrawnBody& drawn : drawnBodies(scene, recording)) add(drawn);
+    const std::vector<bool> inSurface = partsOfSurfaces(scene);
+    for (const DrawnBody& drawn : drawnBodies(scene, recording))
+      if (!inSurface[static_cast<std::size_t>(drawn.body)]) add(drawn);
+    addBent();
   }
 
   std::string file() {
@@ -139,7 +81,37 @@ class Writer {
     if (drawn.moves) animate(drawn.body, shown + 1);
   }
 
+  void addBent() {
+    const std::vector<std::size_t> keys = bentKeys(recording_);
+    const std::vector<Colour> colours = bodyColours(scene_);
+    std::optional<std::pair<int, int>> times;  // and weights, which all share
+    for (const BentDef& bent : scene_.bent) {
+      const Colour front = colours[static_cast<std::size_t>(bent.first)];
+      const int node = static_cast<int>(nodes_.size());
+      nodes_.push_back({{"name", bent.name}, {"mesh", meshes_.size()}});
+      std::optional<int> back;  // a solid shows none, nor do strands
+      if (bent.columns > 0) back = materialIndex(backOf(bent, front));
+      meshes_.push_back(bentMesh(bent, recording_, keys, materialIndex(front), back, binary_));
+      roots_.push_back(node);
+      if (keys.size() < 2) continue;
+      if (!times) times = {timesOf(keys), binary_.floats(bentWeights(keys.size()), 1, false)};
+      channel(times->first, times->second, node, "weights");
+    }
+  }
+
+  int timesOf(const std::vector<std::size_t>& samples) {
+    std::vector<float> times;
+    for (const std::size_t k : samples)
+      times.push_back(static_cast<float>(recording_.samples[k].t));
+    return binary_.floats(times, 1, true);
+  }
+
   void animate(int body, int node) {
+    if (!times_) {
+      std::vector<std::size_t> all(recording_.samples.size());
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      times_ = timesOf(all);
+    }
     std::vector<float> places, turns;
     for (const Sample& sample : recording_.samples) {
       const BodySample& now = sample.bodies[body];
@@ -147,14 +119,14 @@ class Writer {
       for (int i = 0; i < 3; ++i) places.push_back(static_cast<float>(now.x[i]));
       for (int i = 0; i < 4; ++i) turns.push_back(static_cast<float>(q.coeffs()[i]));
     }
-    channel(binary_.floats(places, 3, false), node, "translation");
-    channel(binary_.floats(turns, 4, false), node, "rotation");
+    channel(*times_, binary_.floats(places, 3, false), node, "translation");
+    channel(*times_, binary_.floats(turns, 4, false), node, "rotation");
   }
 
-  void channel(int output, int node, const char* path) {
+  void channel(int input, int output, int node, const char* path) {
     channels_.push_back(
         {{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});
-    samplers_.push_back({{"input", times_}, {"output", output}, {"interpolation", "LINEAR"}});
+    samplers_.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
   }
 
   // A mesh for each form and colour; those of one form share their numbers.
@@ -165,11 +137,10 @@ class Writer {
     if (known != meshOfForm_.end()) return known->second;
     if (!attributes_.contains(form)) {
       const IndexedMesh mesh = meshOf(instance);
-      attributes_[form] = {
-          {"attributes",
-           {{"POSITION", binary_.floats(flat(mesh.positions), 3, true, kArrayBuffer)},
-            {"NORMAL", binary_.floats(flat(mesh.normals), 3, false, kArrayBuffer)}}},
-          {"indices", binary_.indices(mesh.indices)}};
+      attributes_[form] = {{"attributes",
+                            {{"POSITION", binary_.places(mesh.positions)},
+                             {"NORMAL", binary_.places(mesh.normals)}}},
+                           {"indices", binary_.indices(mesh.indices)}};
     }
     Json primitive = attributes_[form];
     primitive["material"] = material;
@@ -210,7 +181,7 @@ class Writer {
   const Scene& scene_;
   const Recording& recording_;
   Physics physics_;
-  Binary binary_;
+  GltfBinary binary_;
   Json json_;
   Json nodes_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array(),
        samplers_ = Json::array(), channels_ = Json::array();
@@ -218,7 +189,7 @@ class Writer {
   std::map<Colour, int> materialOf_;
   std::map<std::pair<Form, const Facets*>, Json> attributes_;
   std::map<std::tuple<Form, const Facets*, int>, int> meshOfForm_;
-  int times_ = 0;
+  std::optional<int> times_;  // of all samples
 };
 
 }  // namespace

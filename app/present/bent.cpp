@@ -80,13 +80,12 @@ void addFace(const BentDef& bent, const Shell& shell, double offset, Sheet& surf
     }
 }
 
-// The surface of a solid: a skin off its points along the normals of all sides that meet there.
-void addSkin(const BentDef& bent, Shell& shell, Sheet& surface) {
+// A skin off the points of a solid, along the normals of all sides that meet there.
+void putOnSkin(const BentDef& bent, Shell& shell) {
   std::vector<Vec3> out(static_cast<std::size_t>(bent.count), Vec3::Zero());
   for (std::size_t n = 0; n < shell.normals.size(); ++n)
     out[n % static_cast<std::size_t>(bent.count)] += shell.normals[n];
   for (std::size_t p = 0; p < out.size(); ++p) shell.places[p] += bent.skin * out[p];
-  addFace(bent, shell, 0.0, surface);
 }
 
 void addRim(const BentDef& bent, const Shell& shell, Sheet& surface) {
@@ -128,6 +127,15 @@ void addStrained(const Shell& shell, const Sheet& surface, const std::vector<dou
 }
 
 }  // namespace
+
+std::vector<Vec3> surfacePlaces(const BentDef& bent, const Sample& sample) {
+  std::vector<Vec3> places = placesOf(bent, sample);
+  if (bent.skin == 0.0) return places;
+  Shell shell = shellOf(bent, std::move(places));
+  putOnSkin(bent, shell);
+  for (Vec3& place : shell.places) place += shell.middle;
+  return std::move(shell.places);
+}
 
 std::vector<bool> partsOfSurfaces(const Scene& scene) {
   std::vector<bool> parts(scene.world.bodies.size(), false);
@@ -229,7 +237,8 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
     const double half = 0.5 * bent.thickness;
     Sheet outside;
     if (half == 0.0) {
-      addSkin(bent, shell, outside);
+      putOnSkin(bent, shell);
+      addFace(bent, shell, 0.0, outside);
       const double reach = outside.facets.reach;
       add(std::move(outside), reach, front);
       continue;

@@ -26,6 +26,9 @@ bool isPoint(const Scene& scene, int body);
 std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
                                    const std::vector<Colour>& colours, double top = 0.0);
 
+/// Where the points of one are at a sample; those of a solid a skin further out.
+std::vector<Vec3> surfacePlaces(const BentDef& bent, const Sample& sample);
+
 /// How that surface goes through the points: in how many parts each cell of a cloth is drawn along
 /// each thread; the cloth with so many points between its own; edges that only one triangle has,
 /// each as that triangle goes along it; the colour of a cloth's other side.

@@ -5,9 +5,11 @@
 
 #include "app/export/drawn.h"
 #include "app/export/gltf.h"
+#include "app/export/gltf_bent.h"
 #include "app/export/pack.h"
 #include "app/export/page.h"
 #include "app/export/scene_json.h"
+#include "app/present/bent.h"
 #include "app/scene/demos.h"
 #include "tests/catch.h"
 
@@ -106,6 +108,96 @@ TEST_CASE(
     CHECK(view["byteOffset"].get<std::size_t>() % 4 == 0);
     CHECK(view["byteOffset"].get<std::size_t>() + view["byteLength"].get<std::size_t>() <=
           glb.bytes.size());
+  }
+}
+
+// Oracle: the recording. Its first sample is the base, and each key a target that has weight 1
+// there and 0 at all others.
+TEST_CASE("a glTF file has cloth, solids and strands as meshes that go through the run") {
+  const Scene scene = parseScene(R"([world]
+duration = 2.0
+[[body]]
+name = "ball"
+shape = { sphere = 0.3 }
+fixed = true
+[[cloth]]
+name = "towel"
+columns = 3
+rows = 4
+size = [0.4, 0.4]
+density = 0.3
+stretch = 100
+shear = 10
+bend = 1e-5
+damping = 0.1
+position = [0, 2, 0]
+[[soft]]
+name = "jelly"
+cells = [2, 2, 2]
+size = [0.2, 0.2, 0.2]
+density = 500
+young = 2e4
+poisson = 0.3
+position = [1, 1, 0]
+[[fur]]
+on = "ball"
+name = "hair"
+strands = 5
+length = 0.2
+points = 4
+thickness = 0.004
+density = 0.002
+stretch = 20
+bend = 1.5e-5
+damping = 0.002
+)",
+                                 "bends");
+  const Recording recording = record(scene, 60.0);
+  REQUIRE(recording.samples.size() > kMostBentKeys);
+  const std::vector<std::size_t> keys = bentKeys(recording);
+  REQUIRE(keys.size() == kMostBentKeys);
+  CHECK(keys.front() == 0);
+  CHECK(keys.back() == recording.samples.size() - 1);
+  const Glb glb = readGlb(gltfBinary(scene, recording));
+  // The ball, its mesh, and one node for each that bends: their points are no balls.
+  REQUIRE(glb.json["nodes"].size() == 2 + scene.bent.size());
+  REQUIRE(scene.bent.size() == 3);
+  for (std::size_t n = 0; n < 3; ++n) {
+    const BentDef& bent = scene.bent[n];
+    const auto& node = glb.json["nodes"][2 + n];
+    CAPTURE(bent.name);
+    CHECK(node["name"] == bent.name);
+    const auto& mesh = glb.json["meshes"][node["mesh"].get<int>()];
+    CHECK(mesh["primitives"].size() == (bent.columns > 0 ? 2 : 1));
+    const auto& primitive = mesh["primitives"][0];
+    CHECK(primitive["mode"] == (bent.strand > 0 ? 1 : 4));
+    const auto& corners = glb.json["accessors"][primitive["indices"].get<int>()];
+    CHECK(corners["count"] == (bent.strand > 0 ? 2 * 5 * 2 : 3 * bent.triangles.size()));
+    REQUIRE(primitive["targets"].size() == kMostBentKeys - 1);
+    const int base = primitive["attributes"]["POSITION"];
+    const std::size_t count = glb.json["accessors"][base]["count"];
+    // Points of a cloth and of strands are where they were recorded; strands without their first.
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}, kMostBentKeys - 1})
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t p = bent.strand == 0 ? i : i / 3 * 4 + i % 3 + 1;
+        const std::vector<Vec3> places = surfacePlaces(bent, recording.samples[keys[k]]);
+        if (bent.skin > 0.0) continue;
+        const Vec3& x = recording.samples[keys[k]].bodies[bent.first + p].x;
+        CHECK(places[p] == x);
+        for (int axis = 0; axis < 3; ++axis) {
+          double sum = glb.number(base, 3 * i + axis);
+          if (k > 0) sum += glb.number(primitive["targets"][k - 1]["POSITION"], 3 * i + axis);
+          CHECK(sum == Approx(x[axis]).margin(1e-6));
+        }
+      }
+    const auto& channel = glb.json["animations"][0]["channels"][n];
+    CHECK(channel["target"]["path"] == "weights");
+    const auto& sampler = glb.json["animations"][0]["samplers"][channel["sampler"].get<int>()];
+    for (std::size_t k = 0; k < kMostBentKeys; ++k) {
+      CHECK(glb.number(sampler["input"], k) == static_cast<float>(recording.samples[keys[k]].t));
+      for (std::size_t t = 0; t + 1 < kMostBentKeys; ++t)
+        CHECK(glb.number(sampler["output"], k * (kMostBentKeys - 1) + t) == (t + 1 == k ? 1 : 0));
+    }
   }
 }
 

@@ -128,6 +128,11 @@ gallery() {
   tests/house/axe.sh "$release"
 }
 
+# Runs as glTF files, by Khronos' validator.
+gltf() {
+  tests/house/gltf.sh "$release"
+}
+
 # The window, driven by keys and mouse on a virtual display.
 window() {
   tests/house/window.sh "$release"
@@ -165,6 +170,7 @@ steps=(
   "oracle:references in many digits"
   "egl_goldens:goldens by EGL"
   "page:pages of runs play in a headless browser"
+  "gltf:glTF files of runs have no remark by Khronos' validator"
   "window:the window does what keys and mouse ask for"
   "gallery:the gallery's page has no finding by axe-core"
 )
