@@ -94,7 +94,7 @@ std::optional<Decomposed> decomposed(const Mesh& mesh) {
   if (!mesh.pieces || mesh.pieces->excess > 0.0) return {};
   const auto by = [&](PieceKind kind) {
     Mesh other = mesh;
-    other.pieces = storedPieces(*mesh.solid, kind, {0.5 * mesh.pieces->slack}, "mesh");
+    other.pieces = storedPieces(*mesh.solid, kind, 0.5 * mesh.pieces->slack, 0.0, "mesh");
     return readyShape(contactShape(other));
   };
   return Decomposed{by(PieceKind::Good), by(PieceKind::Slivers), by(PieceKind::Hull)};

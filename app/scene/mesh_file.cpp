@@ -54,6 +54,7 @@ MeshFile parseMesh(const std::string& text, const std::string& file) {
   std::vector<std::size_t> corners;
   for (const std::vector<int>& face : obj.faces) corners.push_back(face.size());
   MeshFile mesh{nullptr, std::move(obj.lines)};
+  mesh.grain = obj.grain;
   if (!obj.points.empty()) mesh.first = obj.points.front();
   try {
     mesh.solid = std::make_shared<const Polyhedron>(

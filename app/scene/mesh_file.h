@@ -20,6 +20,7 @@ struct MeshFile {
   std::shared_ptr<const Polyhedron> solid;
   std::vector<int> lines;     ///< per face of the solid: the line, from 1, on which it begins
   Vec3 first = Vec3::Zero();  ///< [m] the file's first point, which all of the solid's are less
+  double grain = 0.0;         ///< [m] of its coordinates: the last digit written
 
   /// ":12", the line of a face; "" for −1.
   std::string lineOf(int face) const;

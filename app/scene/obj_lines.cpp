@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "app/scene/node.h"
@@ -94,6 +95,43 @@ bool whole(std::string_view text, Number& number) {
   return !text.empty() && result.ec == std::errc() && result.ptr == end;
 }
 
+// How many digits the coordinates of a file have. They are all written alike, to a number of
+// decimals or of significant digits, of which zeros at the end may be left out.
+class Digits {
+ public:
+  void take(std::string_view text, double number) {
+    const std::size_t e = std::min(text.find_first_of("eE"), text.size());
+    int power = 0;
+    if (e < text.size()) whole(text.substr(e + 1), power);
+    int decimals = 0, significant = 0;
+    bool fraction = false;
+    for (const char c : text.substr(0, e)) {
+      if (c == '.') fraction = true;
+      if (c < '0' || c > '9') continue;
+      if (fraction) ++decimals;
+      if (significant > 0 || c != '0') ++significant;
+    }
+    decimals_ = std::max(decimals_, decimals - power);
+    if (fraction) ofFraction_ = std::max(ofFraction_, significant);
+    significant_ = std::max(significant_, significant);
+    largest_ = std::max(largest_, std::abs(number));
+  }
+  // [m]
+  double grain() const {
+    if (largest_ == 0.0) return 0.0;
+    const double decimal = std::pow(10.0, -decimals_),
+                 single = largest_ * std::numeric_limits<float>::epsilon();
+    // Significant digits are what is limited only if whole numbers keep to it too.
+    if (ofFraction_ < significant_) return std::max(decimal, single);
+    const double places = std::floor(std::log10(largest_)) + 1.0;
+    return std::max({decimal, std::pow(10.0, places - significant_), single});
+  }
+
+ private:
+  int decimals_ = 0, significant_ = 0, ofFraction_ = 0;
+  double largest_ = 0.0;  // [m]
+};
+
 class ObjReader {
  public:
   explicit ObjReader(const std::string& file) : file_(file) {}
@@ -105,7 +143,10 @@ class ObjReader {
     if (std::find(std::begin(kPassedOver), std::end(kPassedOver), key) == std::end(kPassedOver))
       refuse(words[0], "v, f or another keyword of OBJ files");
   }
-  ObjFile taken() && { return std::move(taken_); }
+  ObjFile taken() && {
+    taken_.grain = digits_.grain();
+    return std::move(taken_);
+  }
 
  private:
   [[noreturn]] void refuse(const Word& word, const std::string& expected,
@@ -125,7 +166,9 @@ class ObjReader {
       double number = 0.0;
       if (!whole(words[k].text, number) || !std::isfinite(number))
         refuse(words[k], "a finite number");
-      if (k < 4) p[static_cast<Eigen::Index>(k) - 1] = number;
+      if (k > 3) continue;
+      p[static_cast<Eigen::Index>(k) - 1] = number;
+      digits_.take(words[k].text, number);
     }
     needThree(words, "numbers");
     taken_.points.push_back(p);
@@ -165,6 +208,7 @@ class ObjReader {
 
   const std::string& file_;
   ObjFile taken_;
+  Digits digits_;
 };
 
 }  // namespace

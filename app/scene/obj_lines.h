@@ -20,6 +20,8 @@ struct ObjFile {
   std::vector<Vec3> points;             ///< [m] the nearest numbers to those written
   std::vector<std::vector<int>> faces;  ///< indices of points, from 0
   std::vector<int> lines;               ///< per face: the line, from 1, on which it begins
+  double grain = 0.0;  ///< [m] the last digit written of the coordinates that have fewest; with as
+                       ///< many as a single-precision number has, what that leaves open
 };
 
 /// Reads

@@ -20,14 +20,13 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first word of a file; another one for each way of finding pieces.
-constexpr const char* kVersion = "tumble-pieces-11";
+constexpr const char* kVersion = "tumble-pieces-12";
 constexpr double kLong = 0.1;  // s
 constexpr std::size_t kMostCorners = 1'000'000;
 
-std::string keyOf(const Polyhedron& solid, PieceKind kind, const std::vector<double>& tolerances) {
-  std::string text = fmt::format("{} {}", kVersion, static_cast<int>(kind));
-  for (const double tolerance : tolerances) text += fmt::format(" {:a}", tolerance);
-  text += '\n';
+std::string keyOf(const Polyhedron& solid, PieceKind kind, double tolerance, double grain) {
+  std::string text =
+      fmt::format("{} {} {:a} {:a}\n", kVersion, static_cast<int>(kind), tolerance, grain);
   for (const Vec3& p : solid.points) text += fmt::format("{:a} {:a} {:a}\n", p.x(), p.y(), p.z());
   for (const std::vector<int>& face : solid.faces)
     text += fmt::format("{}\n", fmt::join(face, " "));
@@ -93,24 +92,6 @@ bool readHull(std::istream& in, Pieces& pieces) {
   return true;
 }
 
-/// The fewest pieces that a tolerance gives. What stands out of the mesh by rounding alone needs no
-/// coarser one.
-Pieces fewestPieces(const Polyhedron& solid, PieceKind kind,
-                    const std::vector<double>& tolerances) {
-  constexpr double kRounding = 1e-3;  // of the first tolerance
-  std::optional<Pieces> few;
-  std::optional<NoPieces> why;
-  for (const double tolerance : tolerances) try {
-      Pieces pieces = piecesOf(solid, kind, tolerance);
-      if (!few || pieces.hulls.size() < few->hulls.size()) few = std::move(pieces);
-      if (few->excess <= kRounding * tolerances.front()) break;
-    } catch (const NoPieces& reason) {
-      if (!why) why = reason;
-    }
-  if (!few) throw *why;
-  return *std::move(few);
-}
-
 }  // namespace
 
 std::string textOf(const Pieces& pieces) {
@@ -147,16 +128,16 @@ std::shared_ptr<const Pieces> piecesFrom(const std::string& text) {
 }
 
 std::shared_ptr<const Pieces> storedPieces(const Polyhedron& solid, PieceKind kind,
-                                           const std::vector<double>& tolerances,
+                                           double tolerance, double grain,
                                            const std::string& name) {
   static std::map<std::string, std::shared_ptr<const Pieces>> known;
-  const std::string key = keyOf(solid, kind, tolerances);
+  const std::string key = keyOf(solid, kind, tolerance, grain);
   std::shared_ptr<const Pieces>& pieces = known[key];
   if (pieces) return pieces;
   const fs::path store = folder(), path = store / ("pieces-" + key + ".txt");
   if (!store.empty() && (pieces = fromFile(path))) return pieces;
   const auto begin = std::chrono::steady_clock::now();
-  pieces = std::make_shared<const Pieces>(fewestPieces(solid, kind, tolerances));
+  pieces = std::make_shared<const Pieces>(piecesOf(solid, kind, tolerance, grain));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (took.count() > kLong)
     fmt::print(stderr, "{}: {} convex piece{}, found in {:.2f} s\n", name, pieces->hulls.size(),

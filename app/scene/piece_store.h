@@ -13,13 +13,10 @@ namespace tumble {
 /// $XDG_CACHE_HOME/tumble (~/.cache/tumble without), else found now and written there, with a line
 /// on stderr if that took long. Files are named by a digest of the mesh and how it is taken apart;
 /// one that is broken is made anew, and a folder that cannot be written is no error.
-/// @param tolerances  [m] one at least, the closest first; a coarser one where it gives fewer
-/// pieces
-/// @param name        of the mesh, for that line
-/// @throws NoPieces   as for the first tolerance
+/// @param name       of the mesh, for that line
+/// @throws NoPieces  as `piecesOf` does
 std::shared_ptr<const Pieces> storedPieces(const Polyhedron& solid, PieceKind kind,
-                                           const std::vector<double>& tolerances,
-                                           const std::string& name);
+                                           double tolerance, double grain, const std::string& name);
 
 /// Pieces as text, and back: to the last bit. Nothing if the text is not whole.
 std::string textOf(const Pieces& pieces);

@@ -86,9 +86,8 @@ double sizeOf(const Polyhedron& solid) {
 }
 
 std::optional<Shape> readMeshFile(Section& shape) {
-  // Of faces that are flat to double precision, or to single; of those whose corners have six
-  // decimals.
-  constexpr double kFlat = 1e-6, kSixDecimals = 1e-5;
+  // Of the size: more than rounding leaves of faces that are flat to double precision.
+  constexpr double kFlat = 1e-6;
   std::string name, pieces = "good";
   std::optional<double> tolerance;
   shape.read("mesh", name);
@@ -109,9 +108,10 @@ std::optional<Shape> readMeshFile(Section& shape) {
     file = readMesh(meshPath(name, shape.findings().file()));
     Mesh mesh{file.solid, -file.first};
     const double size = sizeOf(*mesh.solid);
-    const auto tolerances = tolerance ? std::vector<double>{*tolerance * size}
-                                      : std::vector<double>{kFlat * size, kSixDecimals * size};
-    mesh.pieces = storedPieces(*mesh.solid, kind, tolerances, name);
+    const double allowed = tolerance.value_or(kFlat) * size;
+    // Who allows less than the digits leave open means what they say.
+    const bool closer = tolerance && allowed < kRoughPieces * file.grain;
+    mesh.pieces = storedPieces(*mesh.solid, kind, allowed, closer ? 0.0 : file.grain, name);
     return mesh;
   } catch (const MeshError& reason) {
     shape.complain("mesh", reason.what());

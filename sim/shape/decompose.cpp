@@ -53,7 +53,7 @@ class Decomposer {
       }
     }
     for (const Vec3& p : solid.points) size_ = std::max(size_, (p - solid.points[0]).norm());
-    snap_ = std::min(tolerance, means.snap * size_);
+    snap_ = std::min(tolerance, means.snap);
     notches_.emplace(points_, whole_, cut::OnPlane{.slack = slack(), .snap = snap_});
     if (means.anywhere) distance_.emplace(solid);
   }
@@ -170,13 +170,7 @@ class Decomposer {
         const CutPlane plane = notches_->planeOf(t.face);
         planes.push_back({plane.n, plane.d});
       }
-    const double reach = reachOver(hull, std::move(planes), &looks_);
-    if (reach <= snap_) return reach;
-    std::vector<std::array<Vec3, 3>> surface;
-    for (const auto& [corner, face] : piece)
-      surface.push_back({at(corner[0]), at(corner[1]), at(corner[2])});
-    const double volume = cut::sixfoldVolume(points_, piece) / 6.0;
-    return std::min(reach, reachOfRough(hull, surface, volume, looks_));
+    return reachOver(hull, std::move(planes), &looks_);
   }
 
   /// A plane and what it is worth.

@@ -10,7 +10,7 @@ namespace tumble {
 struct Means {
   bool anywhere = false;  ///< not at notches alone
   long work = 0;
-  double snap = 0.0;  ///< of the size of the mesh: corners no further from a cut are on it
+  double snap = 0.0;  ///< [m] corners no further from a cut are on it
 };
 
 /// As piecesOf, by these means alone.

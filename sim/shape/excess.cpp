@@ -123,24 +123,4 @@ Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double a
   return excess;
 }
 
-double reachOfRough(const Polyhedron& hull, const std::vector<std::array<Vec3, 3>>& surface,
-                    double volume, long& looks) {
-  const std::vector<HalfSpace> faces = facesOf(hull);
-  const PlaneTree tree(faces);
-  double below = 0.0;  // w
-  for (const std::array<Vec3, 3>& triangle : surface)
-    below = std::max(below, tree.leastDepth(triangle));
-  looks += tree.looks();
-  // C is no smaller than the hull without D all over its surface, and has to be in what is
-  // enclosed.
-  double bound = std::numeric_limits<double>::infinity();
-  for (double in = 0.5 * volume / areaOf(hull); in > 2.0 * below; in *= 0.25) {
-    std::vector<HalfSpace> inner = faces;
-    for (HalfSpace& face : inner) face.d -= in;
-    bound = std::min(bound, below * reachOver(hull, inner, &looks) / (in - below));
-    if (below == 0.0) break;
-  }
-  return bound;
-}
-
 }  // namespace tumble

@@ -55,16 +55,4 @@ struct Excess {
 /// @param most  looks after which it is sought no further
 Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double allowed, long most);
 
-/// The same for the hull of a closed surface whose triangles all lie near faces of the hull, as
-/// those of flat faces do whose corners have been rounded. With w how far a triangle is below a
-/// face, over all triangles, C the hull with its faces moved in by D > w, and R how far the hull
-/// reaches over C, the surface misses C, and its points, sent on the way that leads to them from
-/// the nearest point of C, come out at the hull within  w R / (D − w).  A point of the hull that is
-/// further from the surface is passed by none of them, and so is inside it, as C is.
-/// @param volume  [m³] > 0 that the surface encloses; the rest of the hull is no room for C
-/// @param looks   grows by the planes looked at
-/// @return [m] a bound; infinite if there is no such C
-double reachOfRough(const Polyhedron& hull, const std::vector<std::array<Vec3, 3>>& surface,
-                    double volume, long& looks);
-
 }  // namespace tumble

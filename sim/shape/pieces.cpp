@@ -5,28 +5,35 @@
 
 #include "sim/shape/convex_hull.h"
 #include "sim/shape/decompose.h"
+#include "sim/shape/flatten.h"
 #include "sim/shape/slivers.h"
 
 namespace tumble {
 namespace {
 
-constexpr double kCoarse = 1e-3;  // of the size: from this tolerance on, cuts are anywhere
-constexpr double kSnap = 2e-6;    // of the size: corners no further from a cut are on it
-constexpr double kSnapMore = 10.0;
-constexpr long kMostWork = 20'000'000;      // triangles looked at
-constexpr long kTrialWork = 2'000'000;      // to see whether cuts at notches alone are fewer
-constexpr long kMostCoarse = 200'000'000;   // where cuts may be anywhere
+/// [m] from the first point to the farthest.
+double sizeOf(const Polyhedron& solid) {
+  double size = 0.0;
+  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
+  return size;
+}
+
+constexpr double kCoarse = 1e-3;           // of the size: from this tolerance on, cuts are anywhere
+constexpr double kSnap = 2e-6;             // of the size: corners no further from a cut are on it
+constexpr long kMostWork = 20'000'000;     // triangles looked at
+constexpr long kTrialWork = 2'000'000;     // to see whether cuts at notches alone are fewer
+constexpr long kMostCoarse = 200'000'000;  // where cuts may be anywhere
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
 
 /// By cuts at notches alone, or anywhere if these leave fewer pieces, as of a scan.
-Pieces fewest(const Polyhedron& solid, double tolerance) {
+Pieces fewest(const Polyhedron& solid, double tolerance, double snap) {
   std::optional<Pieces> few;
   try {
-    few = decompose(solid, tolerance, {false, kTrialWork, kSnap});
+    few = decompose(solid, tolerance, {false, kTrialWork, snap});
   } catch (const NoPieces&) {
   }
   try {
-    Pieces pieces = decompose(solid, tolerance, {true, few ? kMostWork : kMostCoarse, kSnap});
+    Pieces pieces = decompose(solid, tolerance, {true, few ? kMostWork : kMostCoarse, snap});
     if (!few || pieces.hulls.size() < few->hulls.size()) return pieces;
   } catch (const NoPieces&) {
     if (!few) throw;
@@ -34,19 +41,8 @@ Pieces fewest(const Polyhedron& solid, double tolerance) {
   return *std::move(few);
 }
 
-/// By cuts at notches. Where corners are rounded so much that too many pieces are left, cuts take
-/// more of them for on it.
-Pieces atNotches(const Polyhedron& solid, double tolerance, double size) {
-  for (double snap = kSnap;; snap *= kSnapMore) try {
-      return decompose(solid, tolerance, {false, kMostWork, snap});
-    } catch (const NoPieces&) {
-      if (snap * size >= tolerance) throw;
-    }
-}
-
-}  // namespace
-
-Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
+/// Of a mesh whose corners are what they say, to `snap` [m].
+Pieces piecesOfFlat(const Polyhedron& solid, PieceKind kind, double tolerance, double snap) {
   if (kind == PieceKind::Hull) {
     Polyhedron hull = convexHull(solid.points);
     Pieces one;
@@ -58,18 +54,29 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance) {
                        std::to_string(kMostFaces) +
                        " are taken apart; simplify it, or take pieces = \"hull\"",
                    -1);
-  double size = 0.0;
-  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
+  const double size = sizeOf(solid);
   const bool coarse = tolerance >= kCoarse * size;
-  if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance);
-  Pieces pieces = coarse ? decompose(solid, tolerance, {true, kMostCoarse, kSnap})
-                         : atNotches(solid, tolerance, size);
+  if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance, snap);
+  Pieces pieces = coarse ? decompose(solid, tolerance, {true, kMostCoarse, snap})
+                         : decompose(solid, tolerance, {false, kMostWork, snap});
   if (kind == PieceKind::Slivers) pieces.hulls = slivered(pieces.hulls, solid);
   if (pieces.hulls.size() > kMostPieces)
     throw NoPieces("the mesh makes " + std::to_string(pieces.hulls.size()) +
                        " slivers, more than " + std::to_string(kMostPieces) +
                        "; take pieces = \"good\"",
                    -1);
+  return pieces;
+}
+
+}  // namespace
+
+Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance, double grain) {
+  const std::optional<Flattened> flat = flattened(solid, grain);
+  if (!flat) return piecesOfFlat(solid, kind, tolerance, kSnap * sizeOf(solid));
+  Pieces pieces =
+      piecesOfFlat(flat->solid, kind, std::max(tolerance, kRoughPieces * grain) - flat->moved,
+                   std::max(kSnap * sizeOf(solid), grain));
+  pieces.excess += flat->moved;
   return pieces;
 }
 

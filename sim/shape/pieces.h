@@ -27,6 +27,10 @@ enum class PieceKind {
 /// The largest number of pieces; a mesh that needs more is refused.
 inline constexpr std::size_t kMostPieces = 512;
 
+/// What the pieces of a mesh whose corners are rounded may stand out by, in last digits: corners
+/// that are in one plane, but of no face in it, are off it by some.
+inline constexpr double kRoughPieces = 4.0;
+
 /// A mesh that has no decomposition within bounds; the text says why, and what may help. It names
 /// points by their numbers from 1, as in OBJ files.
 class NoPieces : public std::runtime_error {
@@ -48,7 +52,10 @@ class NoPieces : public std::runtime_error {
 /// the piece are tried beside these, and that one is taken whose parts fill their hulls best.
 /// @param tolerance  [m] that a piece may stand out of the mesh; 0: the union of the pieces is the
 ///                   mesh, their corners rounded once
+/// @param grain      [m] the last digit of the corners' coordinates: where it has bent the faces,
+///                   it is the mesh with flat ones (`flattened`) that is taken apart, and pieces
+///                   may stand out by kRoughPieces of it, if that is more; 0: corners are as given
 /// @throws NoPieces  for more than kMostPieces, or too much work to find them
-Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance);
+Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance, double grain = 0.0);
 
 }  // namespace tumble

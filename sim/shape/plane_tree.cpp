@@ -102,37 +102,4 @@ bool PlaneTree::isOver(const Vec3& p, double half) const {
       });
 }
 
-void PlaneTree::descend(int index, std::span<const Vec3> points, double& least) const {
-  const Node& node = nodes_[static_cast<std::size_t>(index)];
-  ++looks_;
-  if (node.second < 0) {
-    looks_ += node.to - node.from;
-    for (int k = node.from; k < node.to; ++k) {
-      const HalfSpace& plane =
-          planes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])];
-      double deepest = 0.0;
-      for (const Vec3& p : points) deepest = std::max(deepest, plane.d - plane.n.dot(p));
-      least = std::min(least, deepest);
-    }
-    return;
-  }
-  const auto depth = [&](int child) {
-    double deepest = 0.0;
-    for (const Vec3& p : points)
-      deepest = std::max(deepest, -highest(nodes_[static_cast<std::size_t>(child)], p));
-    return deepest;
-  };
-  int child[2] = {index + 1, node.second};
-  double bound[2] = {depth(child[0]), depth(child[1])};
-  const int near = bound[1] < bound[0] ? 1 : 0;
-  for (const int k : {near, 1 - near})
-    if (bound[k] < least) descend(child[k], points, least);
-}
-
-double PlaneTree::leastDepth(std::span<const Vec3> points) const {
-  double least = std::numeric_limits<double>::infinity();
-  if (!nodes_.empty()) descend(0, points, least);
-  return least;
-}
-
 }  // namespace tumble

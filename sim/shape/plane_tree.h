@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "sim/shape/shape.h"
@@ -25,9 +24,6 @@ class PlaneTree {
   /// @param half  [m] of the cube's edge; 0: a point
   bool isOver(const Vec3& p, double half) const;
 
-  /// How far the lowest of these points is below the plane for which that is least [m], ≥ 0.
-  double leastDepth(std::span<const Vec3> points) const;
-
   /// Nodes and planes looked at so far.
   long looks() const { return looks_; }
 
@@ -44,7 +40,6 @@ class PlaneTree {
   /// Calls visit(i) for planes of nodes that `opens` lets pass, until it returns true.
   template <class Opens, class Visit>
   bool any(const Opens& opens, const Visit& visit) const;
-  void descend(int node, std::span<const Vec3> points, double& least) const;
 
   std::vector<HalfSpace> planes_;
   std::vector<int> order_;
