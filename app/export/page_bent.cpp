@@ -72,17 +72,23 @@ Eigen::AlignedBox3d roomOf(const Recording& recording, const std::vector<std::si
   return room;
 }
 
-std::string placesOf(const Recording& recording, const std::vector<std::size_t>& points,
-                     const Vec3& low, double grain) {
-  Series series;
-  for (const std::size_t p : points)
+// In grains; of a strand from the second point on how far it is from the one before, which goes
+// nearly as it does.
+void addPlaces(const Recording& recording, const BentDef& bent, const Vec3& low, double grain,
+               Series& series) {
+  const std::vector<std::size_t> points = drawnPoints(bent);
+  const auto inGrains = [&](std::size_t p, int axis, const Sample& sample) {
+    return static_cast<std::uint16_t>(std::lround((sample.bodies[p].x[axis] - low[axis]) / grain));
+  };
+  for (std::size_t n = 0; n < points.size(); ++n)
     for (int axis = 0; axis < 3; ++axis) {
+      const bool follows = bent.strand > 0 && n % static_cast<std::size_t>(bent.strand - 1) > 0;
       std::vector<std::uint16_t>& one = series.emplace_back();
-      for (const Sample& sample : recording.samples)
-        one.push_back(static_cast<std::uint16_t>(
-            std::lround((sample.bodies[p].x[axis] - low[axis]) / grain)));
+      for (const Sample& sample : recording.samples) {
+        const int before = follows ? inGrains(points[n - 1], axis, sample) : 0;
+        one.push_back(static_cast<std::uint16_t>(inGrains(points[n], axis, sample) - before));
+      }
     }
-  return packed(differences(series));
 }
 
 // Point by point; strands have none.
@@ -108,18 +114,18 @@ std::string strainsOf(const Scene& scene, const Recording& recording, double top
 
 Json bentJson(const Scene& scene, const Recording& recording, double radius) {
   const std::vector<Colour> colours = bodyColours(scene);
-  std::vector<std::size_t> points;
+  Eigen::AlignedBox3d room;
+  for (const BentDef& bent : scene.bent) room.extend(roomOf(recording, drawnPoints(bent)));
+  const double grain = std::max(radius / kGrainsToRadius, room.sizes().maxCoeff() / 65535.0);
   Json weaves = Json::array();
+  Series places;
   for (const BentDef& bent : scene.bent) {
     weaves.push_back(weaveOf(bent, colours));
-    const std::vector<std::size_t> own = drawnPoints(bent);
-    points.insert(points.end(), own.begin(), own.end());
+    addPlaces(recording, bent, room.min(), grain, places);
   }
-  const Eigen::AlignedBox3d room = roomOf(recording, points);
-  const double grain = std::max(radius / kGrainsToRadius, room.sizes().maxCoeff() / 65535.0);
   Json json = {{"grain", grain},
                {"low", {room.min().x(), room.min().y(), room.min().z()}},
-               {"places", placesOf(recording, points, room.min(), grain)},
+               {"places", packed(differences(places))},
                {"weaves", std::move(weaves)}};
   const double top = scene.show.strain ? usualStrain(scene, recording) : 0.0;
   if (top == 0.0) return json;

@@ -11,7 +11,13 @@ async (gl, mesh, bodyBuffer, solids) => {
   for (const weave of weaves) {
     weave.first = first;
     first += weave.count;
-    if (weave.strand) continue;
+    if (weave.strand) {  // from its second point on each is told from the one before
+      for (let p = 0; p < weave.count; ++p) if (p % weave.strand) {
+        const at = 3 * (weave.first + p) * samples;
+        for (let i = at; i < at + 3 * samples; ++i) places[i] += places[i - 3 * samples];
+      }
+      continue;
+    }
     weave.triangles = await rowsOf(weave.triangles, 3);
     weave.rim = await rowsOf(weave.rim, 2);
     weave.sides = new Uint8Array(await unpacked(weave.sides));
