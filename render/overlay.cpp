@@ -178,27 +178,29 @@ void drawPageShape(const PageShape& shape, Canvas& canvas) {
   }
 }
 
-// Title, subtitle and remarks, as large as the shorter side of the page asks, each in as many lines
-// as it takes and below those before.
+// Title, subtitle and remarks, as large as the shorter side of the page asks, but never too small
+// to be read, each in as many lines as it takes and below those before.
 void drawTitle(const Picture& picture, const std::vector<Remark>& remarks, Canvas& canvas) {
-  constexpr double kLeft = 32.0, kFirst = 46.0;
+  constexpr double kLeft = 32.0, kFirst = 46.0, kLegible = 10.0;  // [px] of 720
   const double small = std::min(1.0, canvas.width() / canvas.height());
   const double left = kLeft * small, width = canvas.width() - 2.0 * left;
   double baseline = kFirst * small;
-  const auto draw = [&](const std::string& text, const Canvas::TextStyle& style, double advance) {
+  const auto draw = [&](const std::string& text, double size, double advance, Face face,
+                        const Colour& colour) {
+    const double share = std::max(small, std::min(1.0, kLegible / size));
+    const Canvas::TextStyle style{size * share, face, Align::Left, colour};
     for (const std::string& line : canvas.lines(text, width, style)) {
       canvas.text({left, baseline}, line, style);
-      baseline += advance * small;
+      baseline += advance * share;
     }
   };
-  draw(picture.title, {22.0 * small, Face::Bold, Align::Left, ink::text}, 26.0);
+  draw(picture.title, 22.0, 26.0, Face::Bold, ink::text);
   const bool titled = !picture.title.empty();
   if (titled) baseline = std::max(baseline - 2.0 * small, 70.0 * small);
-  draw(picture.subtitle, {15.0 * small, Face::Regular, Align::Left, ink::secondary}, 19.0);
+  draw(picture.subtitle, 15.0, 19.0, Face::Regular, ink::secondary);
   baseline += 11.0 * small;
   if (titled) baseline = std::max(baseline, 100.0 * small);
-  for (const Remark& remark : remarks)
-    draw(remark.text, {13.0 * small, Face::Regular, Align::Left, remark.colour}, 19.0);
+  for (const Remark& remark : remarks) draw(remark.text, 13.0, 19.0, Face::Regular, remark.colour);
 }
 
 }  // namespace

@@ -578,6 +578,31 @@ TEST_CASE("where there is no title, the subtitle stands in its place") {
   CHECK(top("Hill", "Hill") == title);
 }
 
+// A page 405 wide and 720 high: letters went by the shorter side alone, 7 of 720 high.
+TEST_CASE("remarks on a page that is taller than wide can be read") {
+  const auto rowsOf = [](int width) {  // that the remark covers
+    Picture picture = stage();
+    picture.floor.visible = false;
+    RenderOptions format = kFull;
+    format.width = width;
+    const Image without = studio().draw(picture, format);
+    picture.remarks = {{"Height"}};
+    const Image with = studio().draw(picture, format);
+    int rows = 0;
+    for (int y = 0; y < 720; ++y) {
+      bool covered = false;
+      for (int x = 0; x < width; ++x)
+        covered = covered || brightness(with, x, y) != brightness(without, x, y);
+      rows += covered;
+    }
+    return rows;
+  };
+  const double wide = rowsOf(1280), tall = rowsOf(405);
+  CAPTURE(wide, tall);
+  CHECK(tall >= 0.7 * wide);  // 10 of 13 px; measured 10 of 13 rows
+  CHECK(tall < wide);
+}
+
 TEST_CASE("remarks stand below title and subtitle, in however many lines these are") {
   const std::string words = "words that go on and on and on and on and on and on and on and on ";
   const auto linesOf = [](Picture picture) {  // of pixels that its remark alone covers
