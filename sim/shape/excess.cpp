@@ -40,6 +40,7 @@ struct Cell {
   Vec3 middle;
   double half;  ///< [m] of an edge
   double size;  ///< [m] of the distance at the middle
+  bool met;     ///< whether it is known to meet the solid
   bool operator<(const Cell& other) const { return bound < other.bound; }
 };
 
@@ -99,10 +100,11 @@ Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double a
   Excess excess;
   double farthest = 0.0;
   const auto add = [&](const Vec3& middle, double half, double reach) {
-    if (faces.isOver(middle, half)) return;
     const double d = distance(middle, reach), way = std::sqrt(3.0) * half;
+    const bool matters = d + way > allowed;
+    if (matters && faces.isOver(middle, half)) return;
     if (d > farthest && !faces.isOver(middle, 0.0)) farthest = d, excess.where = middle;
-    cells.push({d + way, middle, half, std::abs(d)});
+    cells.push({d + way, middle, half, std::abs(d), matters});
   };
   const auto looks = [&] { return faces.looks() + distance.looks() - before; };
   add(0.5 * (lo + hi), 0.5 * (hi - lo).maxCoeff(), std::numeric_limits<double>::infinity());
@@ -118,6 +120,9 @@ Excess excessOf(const Polyhedron& convex, const MeshDistance& distance, double a
       add(cell.middle + half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), half,
           (1.0 + 1e-12) * reach);
   }
+  // Of cells that did not matter those beside the solid are left out now, up to the bound.
+  while (!cells.empty() && !cells.top().met && faces.isOver(cells.top().middle, cells.top().half))
+    cells.pop();
   excess.bound = cells.empty() ? 0.0 : std::max(0.0, cells.top().bound);
   excess.looks = looks();
   return excess;

@@ -331,7 +331,7 @@ TEST_CASE("what cuts anywhere do not take apart is cut at its notches") {
 
 // Invariant: looks end where they should, and what is not known to be allowed is refused. All over
 // a ball with dents just shallower than the tolerance, cubes have to be halved until they are
-// small: 8 · 10⁷ looks, which counted as no work at all.
+// small: 5 · 10⁷ looks, which counted as no work at all.
 TEST_CASE("how far a dented ball reaches out costs no more than is allowed") {
   const Polyhedron ball = solids::scan(40, 0.02).made();
   const double tolerance = 0.012 * halfDiagonal(ball);
