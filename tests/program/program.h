@@ -20,12 +20,14 @@ struct Outcome {
   int code = -1;  ///< exit code, or 128 + number of the signal that ended it
   std::string out, err;
 
-  /// Lines on the error stream, without those that tell a slow run's progress.
+  /// Lines on the error stream, without those that tell a slow run's progress, or what a mesh was
+  /// taken apart into for the first time.
   long lines() const {
     long count = 0;
     std::istringstream text(err);
     for (std::string line; std::getline(text, line);)
-      count += line.find(" % after ") == std::string::npos;
+      count += line.find(" % after ") == std::string::npos &&
+               line.find(" convex piece") == std::string::npos;
     return count;
   }
   bool says(const std::string& text) const { return err.find(text) != std::string::npos; }
