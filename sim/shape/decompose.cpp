@@ -176,11 +176,12 @@ class Decomposer {
   /// A plane and what it is worth.
   struct Cut {
     CutPlane plane;
-    int resolved = 0, crossed = 0;
+    int fewer = 0;    ///< notches after it than before
+    int crossed = 0;  ///< edges
   };
 
   bool isBetter(const Cut& a, const Cut& b) const {
-    return a.resolved != b.resolved ? a.resolved > b.resolved : a.crossed < b.crossed;
+    return a.fewer != b.fewer ? a.fewer > b.fewer : a.crossed < b.crossed;
   }
 
   /// The parts that the best cut leaves; none if there is no cut.
@@ -241,21 +242,27 @@ class Decomposer {
       const Notch& notch = deep[tolerance_ > 0.0 ? k : k * deep.size() / seeds];
       for (const CutPlane& plane : notches_->planesAt(notch, deep)) cuts.push_back({plane});
     }
+    const double on = std::max(snap_, kRounding * size_);
+    const auto crosses = [&](const CutPlane& plane, int from, int to) {
+      const double h = plane.height(at(from)), g = plane.height(at(to));
+      return (h > on && g < -on) || (h < -on && g > on);
+    };
     for (Cut& c : cuts) {
       work_ += static_cast<long>(deep.size());
-      for (const Notch& notch : deep) c.resolved += notches_->resolves(c.plane, notch) ? 1 : 0;
+      // A notch that is cut in two is one more; but where hairs are notches too, cuts that spare
+      // them would leave pieces flatter than numbers can tell.
+      for (const Notch& notch : deep) {
+        if (notches_->resolves(c.plane, notch)) ++c.fewer;
+        if (tolerance_ > 0.0 && crosses(c.plane, notch.from, notch.to)) --c.fewer;
+      }
     }
-    int most = 0;
-    for (const Cut& c : cuts) most = std::max(most, c.resolved);
-    const double on = std::max(snap_, kRounding * size_);
+    int most = std::numeric_limits<int>::min();
+    for (const Cut& c : cuts) most = std::max(most, c.fewer);
     for (Cut& c : cuts) {
-      if (c.resolved < most) continue;
+      if (c.fewer < most) continue;
       for (const auto& [corner, face] : piece)
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double h = c.plane.height(at(corner[k])),
-                       g = c.plane.height(at(corner[(k + 1) % 3]));
-          c.crossed += (h > on && g < -on) || (h < -on && g > on) ? 1 : 0;
-        }
+        for (std::size_t k = 0; k < 3; ++k)
+          c.crossed += crosses(c.plane, corner[k], corner[(k + 1) % 3]) ? 1 : 0;
     }
     return cuts;
   }

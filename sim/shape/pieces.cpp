@@ -20,6 +20,7 @@ double sizeOf(const Polyhedron& solid) {
 
 constexpr double kCoarse = 1e-3;           // of the size: from this tolerance on, cuts are anywhere
 constexpr double kSnap = 2e-6;             // of the size: corners no further from a cut are on it
+constexpr double kRoughSnap = 2.0;         // of the grain: the same, if corners are rounded
 constexpr long kMostWork = 20'000'000;     // triangles looked at
 constexpr long kTrialWork = 2'000'000;     // to see whether cuts at notches alone are fewer
 constexpr long kMostCoarse = 200'000'000;  // where cuts may be anywhere
@@ -75,7 +76,7 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance, doubl
   if (!flat) return piecesOfFlat(solid, kind, tolerance, kSnap * sizeOf(solid));
   Pieces pieces =
       piecesOfFlat(flat->solid, kind, std::max(tolerance, kRoughPieces * grain) - flat->moved,
-                   std::max(kSnap * sizeOf(solid), grain));
+                   std::max(kSnap * sizeOf(solid), kRoughSnap * grain));
   pieces.excess += flat->moved;
   return pieces;
 }

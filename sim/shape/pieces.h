@@ -29,7 +29,7 @@ inline constexpr std::size_t kMostPieces = 512;
 
 /// What the pieces of a mesh whose corners are rounded may stand out by, in last digits: corners
 /// that are in one plane, but of no face in it, are off it by some.
-inline constexpr double kRoughPieces = 4.0;
+inline constexpr double kRoughPieces = 6.0;
 
 /// A mesh that has no decomposition within bounds; the text says why, and what may help. It names
 /// points by their numbers from 1, as in OBJ files.
@@ -44,8 +44,9 @@ class NoPieces : public std::runtime_error {
 
 /// Takes a polyhedron apart at its notches, the edges at which it is not convex. Each cut is by a
 /// plane through corners of the mesh: that along a face at a notch, between its faces or through
-/// two notches which resolves most of them, then crosses fewest edges, then comes first. What is
-/// on which side is decided exactly; corners within `tolerance` of a cut count as on it.
+/// two notches which leaves fewest of them (it resolves some, and may cut others in two), then
+/// crosses fewest edges, then comes first. What is on which side is decided exactly; corners within
+/// `tolerance` of a cut count as on it.
 ///   Chazelle, "Convex Partitions of Polyhedra", SIAM J. Comput. 13, 1984. Departure: one plane
 ///   takes several notches, and notches shallower than the tolerance stay.
 /// From a tolerance of a thousandth of the size on, as scans need it, planes into dents and across

@@ -299,7 +299,7 @@ TEST_CASE("meshes whose corners have few decimals come apart as those that have 
               << pieces.hulls.size() << " pieces, excess " << pieces.excess / grain
               << " of the last digit");
     CHECK(pieces.hulls.size() <= most);
-    hold(mesh, pieces, std::max(1e-6 * size, 4.0 * grain), grain);
+    hold(mesh, pieces, std::max(1e-6 * size, kRoughPieces * grain), grain);
   };
   for (const double grain : {1e-6, 1e-5, 1e-4}) {
     check("an L in triangles", fineEll(7), grain, 2);
