@@ -138,22 +138,25 @@ double seamWidth(const PartView& side) {
   return side.parts() ? side.parts()->flush : 0.0;
 }
 
+// Whether a point in the world is on the surface of one side, with nothing of it higher over the
+// plane square to n.
+bool isOn(const PartView& side, int part, const Vec3& q, const Vec3& n, double slack) {
+  if (!side.parts()) return holds(side.solid(part), side.pose(), q, slack);
+  const Parts& parts = *side.parts();
+  const Vec3 q_B = toBody(side.pose(), q), n_B = side.pose().q.conjugate() * n;
+  const auto holdsIt = [&](int k) {
+    return holds(parts.list[static_cast<std::size_t>(k)], q_B, slack);
+  };
+  const std::vector<int>& beside = parts.beside[static_cast<std::size_t>(part)];
+  return isFree(parts, part, q_B, n_B) &&
+         (holdsIt(part) || std::any_of(beside.begin(), beside.end(), holdsIt));
+}
+
 // Whether the surface of one side goes on from a point in the world both ways along `way`, at its
 // own height over the plane square to n.
 bool goesOn(const PartView& side, int part, const Vec3& p, const Vec3& n, const Vec3& way,
             double slack) {
-  const auto isOn = [&](const Vec3& q) {
-    if (!side.parts()) return holds(side.solid(part), side.pose(), q, slack);
-    const Parts& parts = *side.parts();
-    const Vec3 q_B = toBody(side.pose(), q), n_B = side.pose().q.conjugate() * n;
-    const auto holdsIt = [&](int k) {
-      return holds(parts.list[static_cast<std::size_t>(k)], q_B, slack);
-    };
-    const std::vector<int>& beside = parts.beside[static_cast<std::size_t>(part)];
-    return isFree(parts, part, q_B, n_B) &&
-           (holdsIt(part) || std::any_of(beside.begin(), beside.end(), holdsIt));
-  };
-  return isOn(p + way) && isOn(p - way);
+  return isOn(side, part, p + way, n, slack) && isOn(side, part, p - way, n, slack);
 }
 
 // Whether test(direction [1]) holds for the edge of a solid that a point is named after, or for one
@@ -207,17 +210,26 @@ bool isBetween(const PartView& a, int i, const PartView& b, int j, const Contact
   const Side ofA{a, i, featureOfA(c.feature), c.pa - c.ra * c.n, -c.n, c.ra, c.ea, c.rimA};
   const Side ofB{b, j, featureOfB(c.feature), c.pb + c.rb * c.n, c.n, c.rb, c.eb, c.rimB};
   const double slack = std::max(levelOf(a), levelOf(b)), reach = kReach * slack;
-  const auto isOn = [&](const Side& on, const Side& within) {
+  const auto isBetweenOn = [&](const Side& on, const Side& within) {
+    const double far = kFarthest * on.view.radiusOf(on.part);
+    // What bends by a hair goes on nearby, and is off by a hair's share of the way further on: a
+    // corner, and it may be the lowest. What is off by more has ended on the way.
+    const auto bends = [&](const Vec3& way) {
+      return on.rim == 0.0 && on.radius == 0.0 &&
+             !isOn(on.view, on.part, on.p + way, on.n, slack) &&
+             isOn(on.view, on.part, on.p + way, on.n, far / kReach);
+    };
     const auto goesAlong = [&](const Vec3& edge) {
       const Vec3 way = reach * edge;
-      return goesOn(on.view, on.part, on.p, on.n, way, slack) && within.isWithin(way, slack);
+      return goesOn(on.view, on.part, on.p, on.n, way, slack) && within.isWithin(way, slack) &&
+             !(bends(far * edge) || bends(-far * edge));
     };
     if (c.crosses) return goesAlong(on.rim > 0.0 ? Vec3(c.n.cross(on.e).normalized()) : on.e);
     const Quat q = on.view.poseOf(on.part).q;
     return anyEdgeAt(on.view.solid(on.part), on.code,
                      [&](const Vec3& edge) { return goesAlong(q * edge); });
   };
-  return isOn(ofA, ofB) || isOn(ofB, ofA);
+  return isBetweenOn(ofA, ofB) || isBetweenOn(ofB, ofA);
 }
 
 void leaveBetween(const PartView& a, int i, const PartView& b, int j, std::size_t first,
