@@ -20,44 +20,49 @@ constexpr double kOnFace = 1e-13;
 // Normals of a ball that lean by less against each other are not told apart by what its part shows.
 constexpr double kAlike = 1e-6;
 
-// Whether a solid holds the point p to `slack` [m], own frame.
-bool holds(const Sphere& s, const Vec3& p, double slack) {
-  return p.norm() <= s.r + slack;
+// How far [m] a solid must grow at least to hold the point p, own frame; < 0 inside.
+double outsideOf(const Sphere& s, const Vec3& p) {
+  return p.norm() - s.r;
 }
-bool holds(const Box& box, const Vec3& p, double slack) {
-  return (p.cwiseAbs() - box.half).maxCoeff() <= slack;
+double outsideOf(const Box& box, const Vec3& p) {
+  return (p.cwiseAbs() - box.half).maxCoeff();
 }
-bool holds(const Cylinder& c, const Vec3& p, double slack) {
-  return std::abs(p.y()) <= 0.5 * c.h + slack &&
-         std::sqrt(p.x() * p.x() + p.z() * p.z()) <= c.r + slack;
+double outsideOf(const Cylinder& c, const Vec3& p) {
+  return std::max(std::abs(p.y()) - 0.5 * c.h, std::sqrt(p.x() * p.x() + p.z() * p.z()) - c.r);
 }
-bool holds(const Capsule& c, const Vec3& p, double slack) {
+double outsideOf(const Capsule& c, const Vec3& p) {
   const double beyond = std::max(std::abs(p.y()) - 0.5 * c.h, 0.0);
-  return Vec3(p.x(), beyond, p.z()).norm() <= c.r + slack;
+  return Vec3(p.x(), beyond, p.z()).norm() - c.r;
 }
-bool holds(const Ellipsoid& e, const Vec3& p, double slack) {
-  return p.cwiseQuotient(e.half + Vec3::Constant(slack)).norm() <= 1.0;
+double outsideOf(const Ellipsoid& e, const Vec3& p) {
+  return (p.cwiseQuotient(e.half).norm() - 1.0) * e.half.minCoeff();
 }
-bool holds(const Hull& hull, const Vec3& p, double slack) {
+double outsideOf(const Hull& hull, const Vec3& p) {
   const Polyhedron& solid = *hull.solid;
   const Vec3 q = p + hull.origin;
+  double most = -std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
     const Vec3& foot = solid.points[static_cast<std::size_t>(solid.faces[f][0])];
-    if (solid.normals[f].dot(q - foot) > slack) return false;
+    most = std::max(most, solid.normals[f].dot(q - foot));
   }
-  return true;
+  return most;
 }
-bool holds(const HalfSpace& plane, const Vec3& p, double slack) {
-  return plane.n.dot(p) - plane.d <= slack;
+double outsideOf(const HalfSpace& plane, const Vec3& p) {
+  return plane.n.dot(p) - plane.d;
 }
 template <class S>
-bool holds(const S&, const Vec3&, double) {
-  return false;
+double outsideOf(const S&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();
+}
+double outsideOf(const PosedPart& part, const Vec3& p) {
+  const Vec3 p_P = toBody(part.pose, p);
+  return std::visit([&](const auto& s) { return outsideOf(s, p_P); }, part.solid);
 }
 
+// Whether a solid holds the point p to `slack` [m], own frame.
 bool holds(const Shape& solid, const Pose& pose, const Vec3& p, double slack) {
   const Vec3 p_P = toBody(pose, p);
-  return std::visit([&](const auto& s) { return holds(s, p_P, slack); }, solid);
+  return std::visit([&](const auto& s) { return outsideOf(s, p_P) <= slack; }, solid);
 }
 bool holds(const PosedPart& part, const Vec3& p, double slack) {
   return holds(part.solid, part.pose, p, slack);
@@ -68,18 +73,23 @@ double topOf(const PosedPart& part, const Vec3& n) {
   return n.dot(part.pose.x) + reachAlong(part.solid, part.pose.q.conjugate() * n);
 }
 
-// Whether a part has points above the plane through q square to n.
-bool rises(const PosedPart& part, const Vec3& q, const Vec3& n, double slack) {
-  return topOf(part, n) - n.dot(q) > slack;
+// Whether a part covers q, along n, over the plane through `top`: it holds q to what is flush, and
+// rises above the plane near by. One that q is `out` outside of is up to there as far below, and
+// comes up to its height H over the plane on a way no longer than itself: in a valley it does so
+// far away, or at once.
+bool covers(const Parts& parts, int part, const Vec3& q, const Vec3& top, const Vec3& n) {
+  const PosedPart& other = parts.list[static_cast<std::size_t>(part)];
+  const double height = topOf(other, n) - n.dot(top);
+  if (!(height > parts.flush)) return false;
+  const double out = outsideOf(other, q), way = 2.0 * parts.radius[static_cast<std::size_t>(part)];
+  return out <= parts.flush && out * way <= kReach * parts.flush * (height + out);
 }
 
-// Whether no other part that holds q rises above the plane through `top` square to n.
+// Whether no other part covers q over the plane through `top` square to n.
 bool isFree(const Parts& parts, int part, const Vec3& q, const Vec3& top, const Vec3& n) {
   const std::vector<int>& beside = parts.beside[static_cast<std::size_t>(part)];
-  return std::none_of(beside.begin(), beside.end(), [&](int k) {
-    const PosedPart& other = parts.list[static_cast<std::size_t>(k)];
-    return rises(other, top, n, parts.flush) && holds(other, q, parts.flush);
-  });
+  return std::none_of(beside.begin(), beside.end(),
+                      [&](int k) { return covers(parts, k, q, top, n); });
 }
 bool isFree(const Parts& parts, int part, const Vec3& q, const Vec3& n) {
   return isFree(parts, part, q, q, n);
