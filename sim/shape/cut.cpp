@@ -169,7 +169,11 @@ class Splitter {
   /// +1 above, −1 below, 0 on the plane: exactly, or to the tolerance.
   int askSideOf(int p) const {
     const double height = plane_.height(at(points_, p));
-    if (!exact_) return height > tolerance_ ? 1 : height < -tolerance_ ? -1 : 0;
+    if (!exact_ && std::abs(height) <= tolerance_) {
+      points_.snapped = std::max(points_.snapped, std::abs(height));
+      return 0;
+    }
+    if (!exact_) return height > 0.0 ? 1 : -1;
     const double size = (at(points_, p) - plane_.a).norm() + plane_.a.norm();
     if (std::abs(height) > kSure * size) return height > 0.0 ? 1 : -1;
     if (!points_.exact[static_cast<std::size_t>(p)])

@@ -16,6 +16,7 @@ struct Points {
   std::vector<Vec3> at;                                 ///< [m] rounded
   std::vector<std::shared_ptr<const Fraction3>> exact;  ///< where that is not the whole; else null
   mutable long looks = 0;  ///< what whole numbers and long outlines cost, in triangles looked at
+  mutable double snapped = 0.0;  ///< [m] how far from a cut corners were that counted as on it
 };
 
 /// A triangle of a surface, counter-clockwise seen from outside.

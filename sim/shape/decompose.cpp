@@ -92,7 +92,7 @@ class Decomposer {
     if (tolerance_ > 0.0) excess_ += joined;
     checkVolume(done);
     // Hulls of what a plane parts stay on their sides of it, however much they stand out elsewhere.
-    Pieces pieces{{}, excess_, 2.0 * snap_ + gape_};
+    Pieces pieces{{}, excess_, 2.0 * points_.snapped + gape_};
     for (Polyhedron& hull : done)
       pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
     return pieces;
@@ -220,6 +220,7 @@ class Decomposer {
   /// Volume [m³] of the hulls of what a plane leaves of a piece, outside of it.
   double hollowBeside(const Surface& piece, const CutPlane& plane) {
     const std::size_t known = points_.at.size();
+    const double snapped = points_.snapped;
     const cut::Halves halves = cut::halve(points_, piece, plane, snap_);
     double hollow = 0.0;
     for (const Surface* half : {&halves.below, &halves.above})
@@ -231,6 +232,7 @@ class Decomposer {
         }
     points_.at.resize(known);
     points_.exact.resize(known);
+    points_.snapped = snapped;
     return hollow;
   }
 
