@@ -321,7 +321,8 @@ class Decomposer {
     const std::string bent =
         tolerance_ > 0.0 ? "; is it bent by more than pieces_tolerance, or " : "; ";
     throw NoPieces(why + bent + "does the surface touch or cross itself" +
-                       (face < 0 ? "?" : " near " + placeOf(near.corner[0]) + "?"),
+                       (face < 0 ? "" : " near " + placeOf(near.corner[0])) +
+                       "? Try another pieces_tolerance, closer or wider, or pieces = \"hull\"",
                    face);
   }
 
