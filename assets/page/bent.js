@@ -105,7 +105,7 @@ async (gl, mesh, bodyBuffer, solids) => {
   });
   // Each triangle cut where the strain passes from one colour to the next.
   function inBands([corners, faces]) {
-    const cut = [], threes = [], bandOf = value => Math.min(bands.length - 1, Math.floor(value * bands.length));
+    const cut = [], threes = [], bandOf = value => Math.min(bands.length - 1, Math.max(0, Math.floor(value * bands.length)));  // curves may pass below 0
     const put = (polygon, band) => {
       const a = cut.length;
       for (const c of polygon) cut.push([...c.slice(0, 6), ...bands[band], ...c.slice(9)]);
