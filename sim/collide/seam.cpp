@@ -54,15 +54,14 @@ template <class S>
 double outsideOf(const S&, const Vec3&) {
   return std::numeric_limits<double>::infinity();
 }
-double outsideOf(const PosedPart& part, const Vec3& p) {
-  const Vec3 p_P = toBody(part.pose, p);
-  return std::visit([&](const auto& s) { return outsideOf(s, p_P); }, part.solid);
+double outsideOf(const Shape& solid, const Pose& pose, const Vec3& p) {
+  const Vec3 p_P = toBody(pose, p);
+  return std::visit([&](const auto& s) { return outsideOf(s, p_P); }, solid);
 }
 
 // Whether a solid holds the point p to `slack` [m], own frame.
 bool holds(const Shape& solid, const Pose& pose, const Vec3& p, double slack) {
-  const Vec3 p_P = toBody(pose, p);
-  return std::visit([&](const auto& s) { return outsideOf(s, p_P) <= slack; }, solid);
+  return outsideOf(solid, pose, p) <= slack;
 }
 bool holds(const PosedPart& part, const Vec3& p, double slack) {
   return holds(part.solid, part.pose, p, slack);
@@ -81,7 +80,8 @@ bool covers(const Parts& parts, int part, const Vec3& q, const Vec3& top, const 
   const PosedPart& other = parts.list[static_cast<std::size_t>(part)];
   const double height = topOf(other, n) - n.dot(top);
   if (!(height > parts.flush)) return false;
-  const double out = outsideOf(other, q), way = 2.0 * parts.radius[static_cast<std::size_t>(part)];
+  const double out = outsideOf(other.solid, other.pose, q),
+               way = 2.0 * parts.radius[static_cast<std::size_t>(part)];
   return out <= parts.flush && out * way <= kReach * parts.flush * (height + out);
 }
 

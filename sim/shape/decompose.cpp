@@ -52,7 +52,7 @@ class Decomposer {
         faceOf_.push_back(static_cast<int>(&face - solid.faces.data()));
       }
     }
-    for (const Vec3& p : solid.points) size_ = std::max(size_, (p - solid.points[0]).norm());
+    size_ = sizeOf(solid);
     snap_ = std::min(tolerance, means.snap);
     notches_.emplace(points_, whole_, cut::OnPlane{.slack = slack(), .snap = snap_});
     if (means.anywhere) distance_.emplace(solid);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sim/shape/face_groups.h"
+#include "sim/shape/join.h"
 
 namespace tumble {
 namespace {
@@ -164,8 +165,7 @@ bool lookAlike(const Polyhedron& a, const Polyhedron& b) {
 }  // namespace
 
 std::optional<Flattened> flattened(const Polyhedron& solid, double grain) {
-  double size = 0.0;
-  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
+  const double size = sizeOf(solid);
   if (!(grain > 0.0) || grain > kShape * size) return {};
   const std::vector<FaceGroup> groups = faceGroups(solid, kOpen * grain);
   if (!isRough(groups, solid.points.size(), kBent * size)) return {};

@@ -89,6 +89,12 @@ std::vector<HalfSpace> facesOf(const Polyhedron& solid) {
   return planes;
 }
 
+double sizeOf(const Polyhedron& solid) {
+  double size = 0.0;
+  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
+  return size;
+}
+
 double volumeOf(const Polyhedron& solid) {
   double sum = 0.0;
   for (const std::vector<int>& face : solid.faces)

@@ -1,4 +1,4 @@
-// Chapter 2, shape: convex solids measured, and joined where their union is convex.
+// Chapter 2, shape: solids measured, and convex ones joined where their union is convex.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,9 @@
 #include "sim/shape/shape.h"
 
 namespace tumble {
+
+/// How far [m] the farthest point is from the first.
+double sizeOf(const Polyhedron& solid);
 
 /// Volume [m³] and surface [m²].
 double volumeOf(const Polyhedron& solid);

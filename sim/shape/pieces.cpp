@@ -6,17 +6,11 @@
 #include "sim/shape/convex_hull.h"
 #include "sim/shape/decompose.h"
 #include "sim/shape/flatten.h"
+#include "sim/shape/join.h"
 #include "sim/shape/slivers.h"
 
 namespace tumble {
 namespace {
-
-/// [m] from the first point to the farthest.
-double sizeOf(const Polyhedron& solid) {
-  double size = 0.0;
-  for (const Vec3& p : solid.points) size = std::max(size, (p - solid.points[0]).norm());
-  return size;
-}
 
 constexpr double kCoarse = 1e-3;           // of the size: from this tolerance on, cuts are anywhere
 constexpr double kSnap = 2e-6;             // of the size: corners no further from a cut are on it
