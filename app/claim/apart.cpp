@@ -86,7 +86,8 @@ Compound sliced(const Compound& compound) {
   return cut;
 }
 
-// A shape that is a compound of boxes and hulls, in three decompositions.
+// A shape that is a compound of boxes and hulls, or a mesh of which its pieces are all, in three
+// decompositions.
 struct Decomposed {
   Shape parts, slivers, hull;
 };
@@ -94,7 +95,7 @@ std::optional<Decomposed> decomposed(const Mesh& mesh) {
   if (!mesh.pieces || mesh.pieces->excess > 0.0) return {};
   const auto by = [&](PieceKind kind) {
     Mesh other = mesh;
-    other.pieces = storedPieces(*mesh.solid, kind, 0.5 * mesh.pieces->slack, 0.0, "mesh");
+    other.pieces = storedPieces(*mesh.solid, kind, 0.0, 0.0, "mesh");
     return readyShape(contactShape(other));
   };
   return Decomposed{by(PieceKind::Good), by(PieceKind::Slivers), by(PieceKind::Hull)};
