@@ -19,6 +19,13 @@ constexpr double kClothLooks = 32.0;
 /// largest; overlaps and gaps, of the smallest body.
 constexpr double kEnergyShare = 1e-2, kMomentumShare = 1e-2, kOverlapShare = 1e-4;
 
+/// How far [m] a body was moved beyond the way that its speed makes, if farther than its own
+/// radius: what is lifted out of another goes less far.
+double astrayOf(const Recorded& from, const Recorded& to, double way, double radius) {
+  const double beyond = (to.x - from.x).norm() - way;
+  return beyond > radius ? beyond : 0.0;
+}
+
 }  // namespace
 
 Audit::Audit(const Model& model, std::span<const RigidBody> start)
@@ -139,10 +146,12 @@ void Audit::addWays() {
     if (r == 0.0 || (!moves(i) && still(i))) continue;
     double fastest = moves(i) ? 0.0 : bodies_[i].v.norm() + r * bodies_[i].omega.norm();
     const auto wayOf = [&](const Recorded& p, const Recorded& q, double h) {
-      if (moves(i))
-        fastest = std::max(
-            fastest, bodies_[i].invM * std::max(p.P.norm(), q.P.norm()) +
-                         r * std::max(spinOf(bodies_[i], p).norm(), spinOf(bodies_[i], q).norm()));
+      if (moves(i)) {
+        const double speed = bodies_[i].invM * std::max(p.P.norm(), q.P.norm());
+        const double spin = std::max(spinOf(bodies_[i], p).norm(), spinOf(bodies_[i], q).norm());
+        fastest = std::max(fastest, speed + r * spin);
+        if (struck_ && !many_) astray_ = std::max(astray_, astrayOf(p, q, h * speed, r));
+      }
       return std::max(wayBetween(p.x, p.q, q.x, q.q, r), h * fastest);
     };
     net_[i] = wayBetween(last_[i].x, last_[i].q, now_[i].x, now_[i].q, r);
@@ -203,6 +212,7 @@ void Audit::findDisagreements(Report& report) const {
   hold("spin that nothing gave, relative", books.audit_spin_error, 0.0, kMomentumShare);
   hold("deepest overlap / m", books.audit_max_penetration, books.max_penetration,
        kOverlapShare * nearness_.least());
+  hold("way that no speed makes / m", astray_, 0.0, 0.0);
   hold("gap of joints / m", books.audit_joint_gap, 2.0 * books.max_joint_gap,
        kOverlapShare * nearness_.least());
   if (const double open = books.audit_energy_error;

@@ -164,6 +164,7 @@ class Audit {
   double energyStart_ = 0.0, workDone_ = 0.0, gain_ = 0.0;
   double kineticMax_ = 0.0, momentumMax_ = 0.0, spinMax_ = 0.0, driftMaxP_ = 0.0, driftMaxL_ = 0.0;
   double load_ = 0.0, loadPower_ = 0.0, size_ = 0.0, jointGap_ = 0.0;
+  double astray_ = 0.0;  ///< [m] farthest that a body was moved beyond what its speed explains
 
   // Of reading flights.
   std::vector<long> flightsSeen_;
