@@ -106,8 +106,6 @@ void Stepping::solveEach(double h) {
     misses_ = misses_ || answer.misses;
     memory_.missed = std::max(memory_.missed, answer.parts);
     if (work_.crushed.empty()) work_.crushed = answer.crushed;
-    if (answer.above)
-      report_.note("some steps were left above the tolerance; max_complementarity has the worst");
   }
 }
 
@@ -125,6 +123,8 @@ void Stepping::bookIslands(double h) {
     certificate.energy_lost_friction += memory.books.lostFriction;
     certificate.work_of_forces += memory.books.work;
     state_.externalImpulse += memory.books.external;
+    if (answer.above)
+      report_.note("some steps were left above the tolerance; max_complementarity has the worst");
   }
   if (!work_.bonds.empty() || !joints().empty()) bookJoints(h);
 }
