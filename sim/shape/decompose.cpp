@@ -11,6 +11,7 @@
 #include "sim/shape/coarse_cuts.h"
 #include "sim/shape/convex_hull.h"
 #include "sim/shape/excess.h"
+#include "sim/shape/flat_faces.h"
 #include "sim/shape/join.h"
 #include "sim/shape/notches.h"
 
@@ -44,17 +45,19 @@ class Decomposer {
       : given_(static_cast<int>(solid.points.size())), tolerance_(tolerance), most_(means.work) {
     points_.at = solid.points;
     points_.exact.resize(solid.points.size());
-    for (const std::vector<int>& face : solid.faces) {
+    size_ = sizeOf(solid);
+    const FlatFaces flat =
+        tolerance > 0.0 ? flatFacesOf(solid, kRounding * size_) : allFacesOf(solid);
+    for (std::size_t f = 0; f < flat.faces.size(); ++f) {
       std::vector<std::array<int, 3>> triangles;
-      cutIntoTriangles(solid, face, triangles);
+      cutIntoTriangles(solid, flat.faces[f], triangles);
       for (const auto& corner : triangles) {
         whole_.push_back({corner, static_cast<int>(whole_.size())});
-        faceOf_.push_back(static_cast<int>(&face - solid.faces.data()));
+        faceOf_.push_back(flat.first[f]);
       }
     }
-    size_ = sizeOf(solid);
     snap_ = std::min(tolerance, means.snap);
-    notches_.emplace(points_, whole_, cut::OnPlane{.slack = slack(), .snap = snap_});
+    notches_.emplace(points_, whole_, faceOf_, cut::OnPlane{.slack = slack(), .snap = snap_});
     if (means.anywhere) distance_.emplace(solid);
   }
 

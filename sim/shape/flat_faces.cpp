@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace tumble {
@@ -105,43 +106,79 @@ std::vector<std::vector<int>> ringsOf(const Polyhedron& solid, const std::vector
   return rings;
 }
 
-/// Without the points at which fewer than three faces meet.
-Polyhedron withoutOthers(const Polyhedron& solid, const std::vector<std::vector<int>>& rings) {
-  std::vector<int> meeting(solid.points.size(), 0), number(solid.points.size(), -1);
-  for (const std::vector<int>& ring : rings)
-    for (const int i : ring) ++meeting[static_cast<std::size_t>(i)];
-  Polyhedron flat;
-  for (std::size_t i = 0; i < meeting.size(); ++i) {
-    if (meeting[i] < 3) continue;
-    number[i] = static_cast<int>(flat.points.size());
-    flat.points.push_back(solid.points[i]);
-  }
-  for (const std::vector<int>& ring : rings) {
-    std::vector<int> face;
-    for (const int i : ring)
-      if (number[static_cast<std::size_t>(i)] >= 0)
-        face.push_back(number[static_cast<std::size_t>(i)]);
-    flat.faces.push_back(std::move(face));
-  }
-  return flat;
+/// How many faces meet at each point.
+std::vector<int> facesAt(const Polyhedron& solid, const std::vector<std::vector<int>>& faces) {
+  std::vector<int> meeting(solid.points.size(), 0);
+  for (const std::vector<int>& face : faces)
+    for (const int i : face) ++meeting[static_cast<std::size_t>(i)];
+  return meeting;
 }
 
-/// Faces with three corners or more, and V − E + F = 2.
-bool isClosed(const Polyhedron& solid) {
+/// Without the points at which fewer than three faces meet.
+std::vector<std::vector<int>> withoutOthers(const Polyhedron& solid,
+                                            std::vector<std::vector<int>> faces) {
+  const std::vector<int> meeting = facesAt(solid, faces);
+  for (std::vector<int>& face : faces)
+    std::erase_if(face, [&](int i) { return meeting[static_cast<std::size_t>(i)] < 3; });
+  return faces;
+}
+
+/// V − E + F of faces with three corners or more; nothing if one has fewer.
+std::optional<std::ptrdiff_t> eulerOf(const Polyhedron& solid,
+                                      const std::vector<std::vector<int>>& faces) {
   std::size_t corners = 0;
-  for (const std::vector<int>& face : solid.faces) {
-    if (face.size() < 3) return false;
+  for (const std::vector<int>& face : faces) {
+    if (face.size() < 3) return {};
     corners += face.size();
   }
-  return solid.points.size() + solid.faces.size() == corners / 2 + 2;
+  const std::vector<int> meeting = facesAt(solid, faces);
+  const auto points =
+      std::count_if(meeting.begin(), meeting.end(), [](int count) { return count > 0; });
+  return points - static_cast<std::ptrdiff_t>(corners / 2) +
+         static_cast<std::ptrdiff_t>(faces.size());
 }
 
 }  // namespace
 
+FlatFaces allFacesOf(const Polyhedron& solid) {
+  FlatFaces all{solid.faces, std::vector<int>(solid.faces.size())};
+  std::iota(all.first.begin(), all.first.end(), 0);
+  return all;
+}
+
+FlatFaces flatFacesOf(const Polyhedron& solid, double tolerance) {
+  const std::vector<int> group = groupsOf(solid, tolerance);
+  const std::vector<std::vector<int>> rings = ringsOf(solid, group);
+  FlatFaces flat;
+  std::vector<char> taken(rings.size(), 0);
+  for (std::size_t f = 0; f < group.size(); ++f) {
+    const auto g = static_cast<std::size_t>(group[f]);
+    if (taken[g] != 0) continue;
+    taken[g] = rings[g].empty() ? 0 : 1;
+    flat.faces.push_back(rings[g].empty() ? solid.faces[f] : rings[g]);
+    flat.first.push_back(static_cast<int>(f));
+  }
+  flat.faces = withoutOthers(solid, std::move(flat.faces));
+  return eulerOf(solid, flat.faces) == eulerOf(solid, solid.faces) ? flat : allFacesOf(solid);
+}
+
 Polyhedron withFlatFaces(const Polyhedron& triangles, double tolerance) {
-  const Polyhedron flat =
+  const std::vector<std::vector<int>> faces =
       withoutOthers(triangles, ringsOf(triangles, groupsOf(triangles, tolerance)));
-  return isClosed(flat) ? flat : triangles;
+  if (eulerOf(triangles, faces) != 2) return triangles;
+  Polyhedron flat;
+  const std::vector<int> meeting = facesAt(triangles, faces);
+  std::vector<int> number(meeting.size(), -1);
+  for (std::size_t i = 0; i < meeting.size(); ++i) {
+    if (meeting[i] == 0) continue;
+    number[i] = static_cast<int>(flat.points.size());
+    flat.points.push_back(triangles.points[i]);
+  }
+  for (const std::vector<int>& face : faces) {
+    flat.faces.emplace_back();
+    for (const int i : face) flat.faces.back().push_back(number[static_cast<std::size_t>(i)]);
+  }
+  return flat;
 }
 
 }  // namespace tumble

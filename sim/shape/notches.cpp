@@ -20,13 +20,15 @@ std::map<std::pair<int, int>, int> edgesOf(const Surface& surface) {
 }  // namespace
 
 // Decided exactly.
-Notches::Notches(const Points& points, const Surface& whole, OnPlane on)
+Notches::Notches(const Points& points, const Surface& whole, const std::vector<int>& flat,
+                 OnPlane on)
     : points_(points), whole_(whole), on_(on) {
   const auto left = edgesOf(whole);
   for (const auto& [edge, f] : left) {
     const auto other = left.find({edge.second, edge.first});
     if (other == left.end() || edge.first > edge.second) continue;
     const int g = other->second;
+    if (flat[static_cast<std::size_t>(f)] == flat[static_cast<std::size_t>(g)]) continue;
     const auto [a, b] = edge;
     const auto apex = [&, a = a, b = b](int t) {
       for (const int p : whole_[static_cast<std::size_t>(t)].corner)

@@ -25,11 +25,12 @@ struct OnPlane {
   double snap = 0.0;   ///< [m] corners that a cut takes for on it; 0: it decides exactly
 };
 
-/// The notches of a closed mesh, found once; of its pieces afterwards. Keeps `points` and `whole`,
-/// which must outlive it.
+/// The notches of a closed mesh, found once; of its pieces afterwards. `flat` numbers the flat face
+/// that each triangle is a part of: within it is none. Keeps `points` and `whole`, which must
+/// outlive it.
 class Notches {
  public:
-  Notches(const Points& points, const Surface& whole, OnPlane on);
+  Notches(const Points& points, const Surface& whole, const std::vector<int>& flat, OnPlane on);
 
   std::vector<Notch> of(const Surface& piece) const;
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kCoarse = 1e-3;           // of the size: from this tolerance on, cuts are anywhere
 constexpr double kSnap = 2e-6;             // of the size: corners no further from a cut are on it
 constexpr double kRoughSnap = 2.0;         // of the grain: the same, if corners are rounded
-constexpr long kMostWork = 20'000'000;     // triangles looked at
+constexpr long kMostWork = 50'000'000;     // triangles looked at
 constexpr long kTrialWork = 2'000'000;     // to see whether cuts at notches alone are fewer
 constexpr long kMostCoarse = 200'000'000;  // where cuts may be anywhere
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
