@@ -27,7 +27,7 @@ using cut::Triangle;
 
 constexpr long kHullWork = 250;         // triangles that cost as much as a corner of a hull
 constexpr long kStirredWork = 50;       // as much as one of a hull of stirred corners
-constexpr long kLooks = 32;             // looks at planes or boxes that cost as much as a triangle
+constexpr long kLooks = 8;              // looks at planes or boxes that cost as much as a triangle
 constexpr long kInRow = 8;              // planes one after the other, as much as a look at one
 constexpr std::size_t kMostSeeds = 48;  // notches of a piece from which planes are drawn
 constexpr double kThin = 1e-9;          // of size × area: a piece that may be flat
