@@ -33,15 +33,23 @@ bool Stepping::isCrowd(const Island& island) const {
   return bounces && weight > kReflectionsReach;
 }
 
+/// One body or two among many faces have many points near and strike few of them.
 bool Stepping::isCrowd() const {
-  int weight = 0;
-  bool bounces = false;
-  for (const PairMemory& pair : memory_.pairs) {
+  int weight = 0, movers[] = {kNoBody, kNoBody};
+  bool bounces = false, many = false;
+  for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
+    const PairMemory& pair = memory_.pairs[k];
     if (pair.touches.empty()) continue;
     bounces = bounces || pair.bounces;
     weight += weightOf(pair);
+    for (const int i : {state_.near[k].first, state_.near[k].second}) {
+      if (model_.fixed(i) || many) continue;
+      int& mover = movers[movers[0] == kNoBody || movers[0] == i ? 0 : 1];
+      many = mover != kNoBody && mover != i;
+      mover = i;
+    }
   }
-  return (bounces || model_.def.stepping.anyCrowd) && weight > kReflectionsReach;
+  return many && (bounces || model_.def.stepping.anyCrowd) && weight > kReflectionsReach;
 }
 
 bool Stepping::strikesAsCrowd() const {

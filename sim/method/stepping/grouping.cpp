@@ -65,9 +65,17 @@ void Stepping::joinNear(double h) {
   weight.assign(state_.bodies.size(), 0);
   for (std::size_t k = 0; k < state_.near.size(); ++k)
     if (!memory_.pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(memory_.pairs[k]);
-  work_.dense.assign(state_.bodies.size(), 0);
+  constexpr int kFew = 2;                    // bodies that are no crowd, whatever they are near
+  std::vector<int>& members = work_.number;  // per root
+  members.assign(state_.bodies.size(), 0);
   for (const int i : work_.active)
-    work_.dense[i] = !model_.fixed(i) && weight[islandRoot(work_.root, i)] > kReflectionsReach;
+    if (!model_.fixed(i)) ++members[islandRoot(work_.root, i)];
+  work_.dense.assign(state_.bodies.size(), 0);
+  for (const int i : work_.active) {
+    if (model_.fixed(i)) continue;
+    const int root = islandRoot(work_.root, i);
+    work_.dense[i] = members[root] > kFew && weight[root] > kReflectionsReach;
+  }
   partBodies();
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto [b, a] = state_.near[k];
