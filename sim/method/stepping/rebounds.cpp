@@ -93,8 +93,14 @@ double Stepping::untilHit(double soon, double h, double least) {
   for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
     PairMemory& pair = memory_.pairs[k];
     const bool tumbled = std::exchange(pair.tumbles, tumbles(k, h));
-    if (!pair.bounces && !tumbled && !pair.tumbles) continue;
+    const bool foreseen = pair.bounces || tumbled || pair.tumbles,
+               comes = !foreseen && seemsToMeet(k, h);
+    if (!foreseen && !comes) continue;
     if (!std::exchange(heldKnown, true)) findHeld();
+    if (comes) {
+      foreseePassing(k, h);
+      continue;
+    }
     pair.lasts = pair.tumbles ? partOnRim(k) : h;
     first = std::min(first, pair.lasts);
     if (pair.bounces) {
@@ -193,6 +199,30 @@ void Stepping::foresee(Touch& touch, const RigidBody& a, const RigidBody& b, dou
   if (touch.rebounds || !closed(touch))
     touch.due = way.meets() ? way.due() : std::numeric_limits<double>::infinity();
   if (touch.rebounds && held && row.meets()) touch.due = std::min(touch.due, row.due());
+}
+
+bool Stepping::seemsToMeet(std::size_t pair, double h) {
+  const auto [ib, ia] = state_.near[pair];
+  const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
+  std::vector<Touch>& touches = memory_.pairs[pair].touches;
+  bool open = !crowd_ && !model_.bends(ia) && !model_.bends(ib);
+  for (Touch& touch : touches) {
+    touch.due = 0.0;
+    open = open && !closed(touch);
+  }
+  return open && std::any_of(touches.begin(), touches.end(), [&](const Touch& touch) {
+           const ContactPoint& c = touch.contact.point;
+           const double push = pushAlong(a, c) - pushAlong(b, c);
+           return c.separation + h * (approachVelocity(a, b, c) + 0.5 * h * push) < 0.0;
+         });
+}
+
+void Stepping::foreseePassing(std::size_t pair, double h) {
+  const auto [ib, ia] = state_.near[pair];
+  constexpr double kAhead = 2.0;  // steps: what meets in the next one lands in this
+  if (!fliesFree(ia) || !fliesFree(ib) || firstMeeting(pair, kAhead * h) < kAhead * h) return;
+  for (Touch& touch : memory_.pairs[pair].touches)
+    touch.due = std::numeric_limits<double>::infinity();
 }
 
 bool Stepping::anyHit(double within) const {

@@ -147,6 +147,11 @@ class Stepping {
   void foresee(std::size_t pair, double least);
   /// The same of one point; a and b are its bodies as underWay has them.
   void foresee(Touch& touch, const RigidBody& a, const RigidBody& b, double least) const;
+  /// Whether points of a pair without restitution, all of them open, meet within h seconds along
+  /// their normals as they are now.
+  bool seemsToMeet(std::size_t pair, double h);
+  /// Of such a pair, whether it passes by in truth: its points wait then.
+  void foreseePassing(std::size_t pair, double h);
 
   // tumbling.cpp: the hits of bodies that turn too fast for parabolas.
   /// Tells pairs of few bodies from those in a crowd, whose hits divide no step.
@@ -161,6 +166,8 @@ class Stepping {
   bool fliesFree(int body) const;
   /// Finds when the two first touch within h seconds; all points of theirs that are open wait.
   void foreseeMeeting(std::size_t pair, double h);
+  /// When two that fly free first touch within h seconds, or h.
+  double firstMeeting(std::size_t pair, double h);
   const std::vector<Convex>& partsOf(int body);
 
   /// The body under its forces and, if it is held, under all that acted on it in the step before.

@@ -74,6 +74,19 @@ const std::vector<Convex>& Stepping::partsOf(int body) {
   return parts;
 }
 
+double Stepping::firstMeeting(std::size_t pair, double h) {
+  const auto [ib, ia] = state_.near[pair];
+  const auto flightOf = [&](int i) {
+    const RigidBody& body = state_.bodies[i];
+    return Flight(body, body.invM * body.force, 0.0);
+  };
+  const Flight flightA = flightOf(ia), flightB = flightOf(ib);
+  RigidBody a = state_.bodies[ia], b = state_.bodies[ib];
+  constexpr double kShare = 1e-2;  // of the touch
+  return firstTouch({flightA, partsOf(ia), a}, {flightB, partsOf(ib), b}, kShare * tolerance_.touch,
+                    h);
+}
+
 void Stepping::foreseeMeeting(std::size_t pair, double h) {
   const auto [ib, ia] = state_.near[pair];
   std::vector<Touch>& touches = memory_.pairs[pair].touches;
@@ -87,15 +100,7 @@ void Stepping::foreseeMeeting(std::size_t pair, double h) {
     const auto gap = [](const Touch& t) { return t.contact.point.separation; };
     if (!nearest || gap(touch) < gap(*nearest)) nearest = &touch;
   }
-  const auto flightOf = [&](int i) {
-    const RigidBody& body = state_.bodies[i];
-    return Flight(body, body.invM * body.force, 0.0);
-  };
-  const Flight flightA = flightOf(ia), flightB = flightOf(ib);
-  RigidBody a = state_.bodies[ia], b = state_.bodies[ib];
-  constexpr double kShare = 1e-2;  // of the touch
-  const double first = firstTouch({flightA, partsOf(ia), a}, {flightB, partsOf(ib), b},
-                                  kShare * tolerance_.touch, h);
+  const double first = firstMeeting(pair, h);
   if (first == h) return;
   nearest->rebounds = true;
   nearest->due = first;
