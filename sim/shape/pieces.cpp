@@ -44,11 +44,6 @@ Pieces piecesOfFlat(const Polyhedron& solid, PieceKind kind, double tolerance, d
     one.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull)), -solid.points[0]});
     return one;
   }
-  if (solid.faces.size() > kMostFaces)
-    throw NoPieces("the mesh has " + std::to_string(solid.faces.size()) + " faces, and at most " +
-                       std::to_string(kMostFaces) +
-                       " are taken apart; simplify it, or take pieces = \"hull\"",
-                   -1);
   const double size = sizeOf(solid);
   const bool coarse = tolerance >= kCoarse * size;
   if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance, snap);
@@ -66,7 +61,13 @@ Pieces piecesOfFlat(const Polyhedron& solid, PieceKind kind, double tolerance, d
 }  // namespace
 
 Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance, double grain) {
-  const std::optional<Flattened> flat = flattened(solid, grain);
+  const bool many = solid.faces.size() > kMostFaces;
+  if (many && kind != PieceKind::Hull)
+    throw NoPieces("the mesh has " + std::to_string(solid.faces.size()) + " faces, and at most " +
+                       std::to_string(kMostFaces) +
+                       " are taken apart; simplify it, or take pieces = \"hull\"",
+                   -1);
+  const std::optional<Flattened> flat = many ? std::nullopt : flattened(solid, grain);
   if (!flat) return piecesOfFlat(solid, kind, tolerance, kSnap * sizeOf(solid));
   Pieces pieces =
       piecesOfFlat(flat->solid, kind, std::max(tolerance, kRoughPieces * grain) - flat->moved,
