@@ -120,6 +120,7 @@ void ModeForces::solve(std::span<const RigidBody> bodies) {
     for (std::size_t i = first; i < rows_.size(); ++i)
       if (heap[i] == heap[first]) own.push_back(i);
     const Eigen::Index n = static_cast<Eigen::Index>(own.size());
+    cubes_ += static_cast<double>(n) * static_cast<double>(n) * static_cast<double>(n);
     matrix_.resize(n, n);
     VecX rhs(n);
     for (Eigen::Index i = 0; i < n; ++i) {

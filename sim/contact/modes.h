@@ -42,6 +42,9 @@ class ModeForces {
   /// slips if it sticks. @return those impulses on a [N·s], one for each contact
   std::vector<Vec3> still(std::span<RigidBody> bodies, std::span<const Contact> contacts);
 
+  /// Σ n³ over all systems of n rows that were solved so far: what they cost, in proportion.
+  double cubes() const { return cubes_; }
+
  private:
   /// As apply(), with growth as it is.
   void give(std::span<RigidBody> bodies, std::span<Contact> contacts);
@@ -64,6 +67,7 @@ class ModeForces {
   std::vector<RigidBody> tried_;    ///< bodies under the forces of a growth that is tried
   MatX matrix_;
   VecX rhs_, lambda_;
+  double cubes_ = 0.0;
 };
 
 /// How much of the push of a sliding contact is left to part its bodies, after its friction turned

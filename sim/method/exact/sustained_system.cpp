@@ -1,6 +1,7 @@
 #include "sim/method/exact/sustained_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/math/rotation.h"
@@ -109,8 +110,10 @@ void SustainedSystem::findForces(std::span<RigidBody> bodies) const {
   for (const RigidBody& body : bodies)
     if (!body.fixed()) outerForce_ += body.force;
   for (Contact& c : contacts_) follow(bodies[c.a], bodies[c.b], c);
+  const double before = modes_.cubes();
   modes_.apply(bodies, contacts_);
-  effort.done += moving_ + static_cast<long>(contacts_.size());
+  effort.done += moving_ + static_cast<long>(contacts_.size()) +
+                 std::lround((modes_.cubes() - before) / Effort::kCubes);
 }
 
 SustainedSystem::Books SustainedSystem::rates() const {
