@@ -191,6 +191,15 @@ void addPivots(Model& model, std::vector<RigidBody>& bodies) {
   }
 }
 
+/// What keeps cloths apart.
+void addLayers(Model& model) {
+  std::vector<std::shared_ptr<const ElasticBody>> cloths;
+  for (const Force& force : model.def.forces)
+    if (const auto* bending = std::get_if<Bending>(&force)) cloths.push_back(bending->body);
+  const auto layers = std::make_shared<const Layers>(cloths);
+  if (!layers->empty()) model.def.forces.push_back(Layering{layers});
+}
+
 /// Which bodies are points of what bends.
 void addBending(Model& model) {
   for (std::size_t k = 0; k < model.def.forces.size(); ++k) {
@@ -213,6 +222,7 @@ void addBending(Model& model) {
              "\"" + bending->body->name + "\" has an element with points that are not its own");
   }
   if (model.bending.empty()) return;
+  addLayers(model);
   for (const int i : model.solid) model.solidBends.push_back(model.bends(i));
 }
 

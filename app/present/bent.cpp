@@ -57,12 +57,12 @@ Shell shellOf(const BentDef& bent, std::vector<Vec3> places) {
 }
 
 // Triangles, and the point that each of their corners goes with.
-struct Sheet {
+struct Side {
   Facets facets;
   std::vector<int> points;
 };
 
-void addCorner(int point, const Vec3& place, const Vec3& normal, Sheet& surface) {
+void addCorner(int point, const Vec3& place, const Vec3& normal, Side& surface) {
   surface.facets.corners.push_back(
       {place.cast<float>(), normal.cast<float>(), Eigen::Vector3f::Constant(kNoEdge)});
   surface.facets.reach = std::max(surface.facets.reach, place.norm());
@@ -70,7 +70,7 @@ void addCorner(int point, const Vec3& place, const Vec3& normal, Sheet& surface)
 }
 
 // One face, `offset` [m] from the points along their normals; turned over if that is negative.
-void addFace(const BentDef& bent, const Shell& shell, double offset, Sheet& surface) {
+void addFace(const BentDef& bent, const Shell& shell, double offset, Side& surface) {
   const double side = offset < 0.0 ? -1.0 : 1.0;
   for (std::size_t n = 0; n < bent.triangles.size(); ++n)
     for (int k = 0; k < 3; ++k) {
@@ -88,7 +88,7 @@ void putOnSkin(const BentDef& bent, Shell& shell) {
   for (std::size_t p = 0; p < out.size(); ++p) shell.places[p] += bent.skin * out[p];
 }
 
-void addRim(const BentDef& bent, const Shell& shell, Sheet& surface) {
+void addRim(const BentDef& bent, const Shell& shell, Side& surface) {
   const double half = 0.5 * bent.thickness;
   for (const auto& [p, q] : rimOf(bent.triangles)) {
     const Vec3 along = shell.places[q] - shell.places[p];
@@ -115,7 +115,7 @@ Instance instanceOf(const Shell& shell, Facets facets, const Colour& colour) {
 }
 
 // The surface in the colours of the strains of its points.
-void addStrained(const Shell& shell, const Sheet& surface, const std::vector<double>& strains,
+void addStrained(const Shell& shell, const Side& surface, const std::vector<double>& strains,
                  double top, std::vector<Instance>& surfaces) {
   std::vector<double> values;
   for (const int point : surface.points) values.push_back(strains[static_cast<std::size_t>(point)]);
@@ -229,13 +229,13 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
       if (!strains.empty()) strains = sheetThrough(strains, own.columns, parts);
     }
     Shell shell = shellOf(bent, std::move(places));
-    const auto add = [&](Sheet surface, double thickness, const Colour& colour) {
+    const auto add = [&](Side surface, double thickness, const Colour& colour) {
       surface.facets.thickness = thickness;
       if (top > 0.0) return addStrained(shell, surface, strains, top, surfaces);
       surfaces.push_back(instanceOf(shell, std::move(surface.facets), colour));
     };
     const double half = 0.5 * bent.thickness;
-    Sheet outside;
+    Side outside;
     if (half == 0.0) {
       putOnSkin(bent, shell);
       addFace(bent, shell, 0.0, outside);
@@ -246,7 +246,7 @@ std::vector<Instance> bentSurfaces(const Scene& scene, const Sample& sample,
     addFace(bent, shell, half, outside);
     addRim(bent, shell, outside);
     add(std::move(outside), half, front);
-    Sheet back;
+    Side back;
     addFace(bent, shell, -half, back);
     add(std::move(back), half, backOf(bent, front));
   }

@@ -89,7 +89,7 @@ void readCloths(Section& root, const Materials& materials, BodyList& bodies, Sce
         section, bent, clothPlaces(cloth), clothMasses(cloth), 0.5 * thickness,
         [&](ElasticBody& body, int first) {
           body.elements = clothElements(cloth, first);
-          body.sheet = clothTriangles(cloth, first);
+          body.sheet = clothSheet(cloth, thickness, first);
         },
         bodies, scene));
     scene.bent.back().triangles = clothTriangles(cloth);

@@ -92,7 +92,7 @@ template <class Kind>
 void append(const Kind& force, Section& section, const BodyList& bodies,
             std::vector<Force>& forces) {
   if constexpr (std::is_same_v<Kind, PointForce> || std::is_same_v<Kind, Spring> ||
-                std::is_same_v<Kind, Bending>) {
+                std::is_same_v<Kind, Bending> || std::is_same_v<Kind, Layering>) {
     forces.push_back(force);
   } else {
     for (const int body : bodies.group(section, "body")) {

@@ -230,7 +230,7 @@ void Audit::tellWeakness(Report& report) const {
   const Certificate& books = report.certificate;
   if (crossings_ > 0)
     report.note(("cloth passes through cloth in up to " + std::to_string(crossings_) +
-                 " places: nothing keeps it from that")
+                 " places: it was hit or pressed too hard to be kept apart")
                     .c_str());
   if (2 * untold_ > seen_)
     report.note(("the audit could not judge the energy of " + std::to_string(untold_) + " of " +

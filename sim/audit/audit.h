@@ -88,6 +88,10 @@ class Audit {
   void addRubs();
   void addRub(const Ways::Part& part, const Vec3& P, const Ways::Part& other);
   void joinBent(const std::vector<int>& points);
+  void joinLayers(const Layers& layers);
+  void holdLayers();
+  void findLayerBearers(const Layers& layers);
+  void addLayers();
   void holdBent(const std::vector<int>& points);
   void holdBy(int body, int fixed);
   void addStates();
@@ -120,6 +124,9 @@ class Audit {
   Nearness nearness_;
   std::vector<int> bears_;  ///< per body: what bends, by its number among the forces, or −1
   std::vector<int> alone_;  ///< numbers of the other forces
+  const Layers* layers_ = nullptr;  ///< of the cloths that are kept apart, if there are any,
+  std::vector<int> layerBearer_;    ///< and per point of these the body that bears their energy
+  Layers::Look layersLook_;
   std::vector<Bond> bonds_;
   ClothCrossings cloths_;
   long crossings_ = 0;        ///< the most at a look

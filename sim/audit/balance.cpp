@@ -68,6 +68,7 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
     if (const Spring* spring = std::get_if<Spring>(&force))
       if (free(spring->a) && free(spring->b)) join(spring->a, spring->b);
     if (const Bending* bending = std::get_if<Bending>(&force)) joinBent(bending->body->bodies);
+    if (const auto* layering = std::get_if<Layering>(&force)) joinLayers(*layering->layers);
   }
 
   groups_.assign(root_.size(), Group{});
@@ -91,6 +92,7 @@ void Audit::group(const std::vector<Nearness::Pair>& touched) {
     }
   for (const Force& force : model_.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force)) holdBent(bending->body->bodies);
+  if (layers_) holdLayers();
   for (const Bond& bond : bonds_) {
     for (const int i : {bond.a, bond.b})
       if (i != kNoBody) pushed_[i] = true;
@@ -177,6 +179,55 @@ void Audit::joinBent(const std::vector<int>& points) {
   }
 }
 
+/// Cloths that met in the step are one group, and so is what bears their energy.
+void Audit::joinLayers(const Layers& layers) {
+  if (layers.firsts().size() < 2) return;
+  std::vector<Vec3> x, way;
+  for (const int i : layers.points()) {
+    x.push_back(last_[i].x);
+    way.push_back(now_[i].x - last_[i].x);
+  }
+  layers.look(x, way, layersLook_);
+  for (const auto& [a, b] : layersLook_.met) {
+    const int p = layerBearer_[layers.firsts()[a]], q = layerBearer_[layers.firsts()[b]];
+    if (p != kNoBody && q != kNoBody) join(p, q);
+  }
+}
+
+/// A cloth that stands holds those that met it.
+void Audit::holdLayers() {
+  const std::vector<int>&points = layers_->points(), &firsts = layers_->firsts();
+  for (const auto& [a, b] : layersLook_.met) {
+    const int p = layerBearer_[firsts[a]], q = layerBearer_[firsts[b]];
+    if ((p == kNoBody) != (q == kNoBody))
+      holdBy(p != kNoBody ? p : q, points[p != kNoBody ? firsts[b] : firsts[a]]);
+  }
+}
+
+/// What presses is booked with the first point that moves of the cloth of its first point, or of
+/// its last.
+void Audit::findLayerBearers(const Layers& layers) {
+  layers_ = &layers;
+  const std::vector<int>&points = layers.points(), &firsts = layers.firsts();
+  for (std::size_t c = 0; c < firsts.size(); ++c) {
+    const auto begin = points.begin() + firsts[c],
+               end = c + 1 < firsts.size() ? points.begin() + firsts[c + 1] : points.end();
+    const auto first = std::find_if(begin, end, [&](int i) { return moves(i); });
+    layerBearer_.insert(layerBearer_.end(), end - begin, first != end ? *first : kNoBody);
+  }
+}
+
+void Audit::addLayers() {
+  if (!layers_) return;
+  std::vector<Vec3> x;
+  for (const int i : layers_->points()) x.push_back(now_[i].x);
+  layers_->look(x, {}, layersLook_);
+  for (const LayerPair& pair : layersLook_.pairs) {
+    const int p = layerBearer_[pair.points[0]], q = layerBearer_[pair.points[3]];
+    if (p != kNoBody || q != kNoBody) energyNow_[p != kNoBody ? p : q] += pair.energy();
+  }
+}
+
 /// held by those that do not.
 void Audit::holdBent(const std::vector<int>& points) {
   const auto moving = std::find_if(points.begin(), points.end(), [&](int i) { return moves(i); });
@@ -196,6 +247,10 @@ RigidBody Audit::fixedAt(int body, double t) const {
 void Audit::findBearers() {
   bears_.assign(bodies_.size(), -1);
   for (std::size_t k = 0; k < model_.def.forces.size(); ++k) {
+    if (const auto* layering = std::get_if<Layering>(&model_.def.forces[k])) {
+      findLayerBearers(*layering->layers);
+      continue;
+    }
     const Bending* bending = std::get_if<Bending>(&model_.def.forces[k]);
     if (!bending) {
       alone_.push_back(static_cast<int>(k));
@@ -244,6 +299,7 @@ void Audit::addMotions() {
     momentum += P;
     spin += r.L.norm() + kLever * nearness_.radius(i) * P;
   }
+  addLayers();
   for (const Force& force : model_.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force)) spin += turnOf(*bending->body);
   kineticMax_ = std::max(kineticMax_, kinetic);

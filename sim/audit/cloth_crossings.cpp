@@ -29,7 +29,7 @@ void forMet(const BoxTree& tree, const Aabb& box, const Visit& visit) {
 ClothCrossings::ClothCrossings(const Model& model) {
   for (const Force& force : model.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force))
-      for (const std::array<int, 3>& corners : bending->body->sheet) {
+      for (const std::array<int, 3>& corners : bending->body->sheet.triangles) {
         triangles_.push_back(corners);
         for (int k = 0; k < 3; ++k)
           edges_.emplace_back(std::minmax(corners[k], corners[(k + 1) % 3]));

@@ -1,5 +1,4 @@
-// Chapter 10, audit: where cloth passes through itself or through other cloth, which nothing keeps
-// it from.
+// Chapter 10, audit: where cloth passes through itself or through other cloth.
 #pragma once
 
 #include <array>

@@ -84,7 +84,8 @@ void Loads::sum(std::span<const Force> forces, std::span<const RigidBody> bodies
       pull(*spring, bodies, points, *this);
       continue;
     }
-    if (std::holds_alternative<Bending>(f)) continue;  // a potential, as gravity is
+    if (std::holds_alternative<Bending>(f) || std::holds_alternative<Layering>(f))
+      continue;  // a potential, as gravity is
     for (std::size_t i = 0; i < bodies.size(); ++i)
       if (!bodies[i].fixed()) push(f, static_cast<int>(i), bodies[i], points[i], *this);
   }

@@ -109,6 +109,25 @@ void add(const Bending& bending, Bodies bodies) {
   }
 }
 
+/// Calls act(body, force [N]) for every point of cloth that presses on cloth.
+template <class Act>
+void forPressed(const Layers& layers, ConstBodies bodies, const Act& act) {
+  std::vector<Vec3> x;
+  Layers::Look at;
+  for (const int i : layers.points()) x.push_back(bodies[i].x);
+  layers.look(x, {}, at);
+  for (const LayerPair& pair : at.pairs)
+    for (int k = 0; k < 4; ++k)
+      act(layers.points()[pair.points[k]],
+          pair.stiffness * (pair.thickness - pair.distance) * pair.weight[k] * pair.n);
+}
+
+void add(const Layering& layering, Bodies bodies) {
+  forPressed(*layering.layers, bodies, [&](int i, const Vec3& force) {
+    if (!bodies[i].fixed()) bodies[i].force += force;
+  });
+}
+
 double power(const UniformWind& wind, ConstBodies bodies) {
   double sum = 0.0;
   forEachFree(bodies, wind.body, [&](const RigidBody& body) { sum += wind.force.dot(body.v); });
@@ -158,6 +177,14 @@ double power(const Bending& bending, ConstBodies bodies) {
   return sum;
 }
 
+double power(const Layering& layering, ConstBodies bodies) {
+  double sum = 0.0;
+  forPressed(*layering.layers, bodies, [&](int i, const Vec3& force) {
+    if (bodies[i].fixed()) sum -= force.dot(bodies[i].v);
+  });
+  return sum;
+}
+
 /// Energy [J] that a force has stored; only springs, fields and what bends do.
 double stored(const Bending& bending, ConstBodies bodies) {
   double sum = 0.0;
@@ -167,6 +194,10 @@ double stored(const Bending& bending, ConstBodies bodies) {
     sum += terms.energy;
   }
   return sum;
+}
+
+double stored(const Layering& layering, ConstBodies bodies) {
+  return layering.layers->energyAt([&](int i) -> const Vec3& { return bodies[i].x; });
 }
 
 double stored(const Spring& spring, ConstBodies bodies) {

@@ -8,6 +8,7 @@
 
 #include "sim/body/rigid_body.h"
 #include "sim/elastic/elastic_body.h"
+#include "sim/elastic/layers.h"
 
 namespace tumble {
 
@@ -62,7 +63,14 @@ struct Bending {
   std::shared_ptr<const ElasticBody> body;
 };
 
-using Force = std::variant<UniformWind, LinearDrag, PointForce, Spring, CircularField, Bending>;
+/// What keeps cloths from passing through themselves and each other:  f = −∂E/∂x  of all that press
+/// on each other. A world adds it where it has such cloths.
+struct Layering {
+  std::shared_ptr<const Layers> layers;
+};
+
+using Force =
+    std::variant<UniformWind, LinearDrag, PointForce, Spring, CircularField, Bending, Layering>;
 
 /// True if the force changes with velocities: drag, and springs and what bends with damping.
 bool dependsOnVelocity(const Force& force);
@@ -74,7 +82,7 @@ void sumForces(const Vec3& gravity, std::span<const Force> forces, std::span<Rig
 /// Σ (½ M v² + ½ ω·I ω) [J].
 double kineticEnergy(std::span<const RigidBody> bodies);
 
-/// Σ −m g·x + Σ ½ k (l − rest)² + Σ ½ m |Ω × (x − c)|² + Σ E of what bends [J].
+/// Σ −m g·x + Σ ½ k (l − rest)² + Σ ½ m |Ω × (x − c)|² + Σ E of what bends or lies on itself [J].
 double potentialEnergy(const Vec3& gravity, std::span<const Force> forces,
                        std::span<const RigidBody> bodies);
 

@@ -1,5 +1,7 @@
 #include "sim/elastic/cloth.h"
 
+#include <cmath>
+
 namespace tumble {
 namespace {
 
@@ -114,6 +116,19 @@ std::vector<std::array<int, 3>> clothTriangles(const ClothDef& cloth, int first)
       triangles.push_back({down ? a : c, d, b});
     }
   return triangles;
+}
+
+Sheet clothSheet(const ClothDef& cloth, double thickness, int first) {
+  Sheet sheet{.triangles = clothTriangles(cloth, first)};
+  for (const Vec3& place : clothPlaces(cloth)) sheet.flat.emplace_back(place.x(), place.z());
+  sheet.thickness = thickness;
+  if (thickness > 0.0) {
+    constexpr double kStops = 4.0;  // [m/s]
+    const double cell =
+        cloth.density * cloth.length * cloth.width / ((cloth.columns - 1) * (cloth.rows - 1));
+    sheet.stiffness = cell * std::pow(2.0 * kStops / thickness, 2);
+  }
+  return sheet;
 }
 
 }  // namespace tumble

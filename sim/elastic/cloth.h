@@ -39,4 +39,8 @@ std::vector<Element> clothElements(const ClothDef& cloth, int first = 0);
 /// Diagonals point to the middle, so that it is as symmetric as the cloth.
 std::vector<std::array<int, 3>> clothTriangles(const ClothDef& cloth, int first = 0);
 
+/// Its sheet, of so many metres' thickness t, by numbers of points plus `first`. Cloth keeps cloth
+/// off so that a cell of it that comes with 4 m/s stops within t/2:  k = m (2 · 4 m/s / t)².
+Sheet clothSheet(const ClothDef& cloth, double thickness, int first = 0);
+
 }  // namespace tumble

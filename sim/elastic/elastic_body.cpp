@@ -30,6 +30,12 @@ int points(const NeoHookean&) {
 int points(const ShapeMatch&) {
   return 8;
 }
+int points(const ClothPoint&) {
+  return 4;
+}
+int points(const ClothEdges&) {
+  return 4;
+}
 
 double dampingOf(const StretchSpring& spring) {
   return spring.damping;
@@ -54,6 +60,12 @@ double dampingOf(const NeoHookean& solid) {
 }
 double dampingOf(const ShapeMatch& match) {
   return match.viscosity;
+}
+double dampingOf(const ClothPoint&) {
+  return 0.0;
+}
+double dampingOf(const ClothEdges&) {
+  return 0.0;
 }
 
 }  // namespace

@@ -17,12 +17,20 @@ struct Element {
   Energy energy;
 };
 
+/// What is flat of a cloth.
+struct Sheet {
+  std::vector<std::array<int, 3>> triangles;  ///< by numbers of bodies of the world
+  std::vector<Eigen::Vector2d> flat = {};     ///< [m] per body: where it lies when flat
+  double thickness = 0.0;                     ///< [m] 0: it passes through cloth
+  double stiffness = 0.0;  ///< [N/m] with which a point that presses on it is kept off
+};
+
 /// Something that bends: bodies of the world that are points of mass, joined by energies.
 struct ElasticBody {
   std::string name;
-  std::vector<int> bodies;                     ///< of the world, in ascending order
-  std::vector<Element> elements;               ///< by numbers of bodies of the world
-  std::vector<std::array<int, 3>> sheet = {};  ///< triangles of a cloth, by the same
+  std::vector<int> bodies;        ///< of the world, in ascending order
+  std::vector<Element> elements;  ///< by numbers of bodies of the world
+  Sheet sheet = {};               ///< of a cloth
 };
 
 /// How many points an energy joins.

@@ -163,8 +163,38 @@ struct ShapeMatch {
   double viscosity = 0.0;    ///< [Pa s] of F, as of other solids; the four ways have none
 };
 
+/// Cloth that presses on cloth: a point on a triangle (points 1 to 3), d apart,
+///   E = ½ k (t − d)²  for d < t, else 0,
+/// d the least distance of the two. Projected, its Hessian is k ∇d ∇dᵀ, without what the turn of ∇d
+/// gives.
+struct ClothPoint {
+  double stiffness = 0.0;  ///< [N/m] k
+  double thickness = 0.0;  ///< [m] t: half of each cloth's
+};
+
+/// The same of two edges of cloth: points 0 and 1, 2 and 3.
+struct ClothEdges {
+  double stiffness = 0.0;  ///< [N/m]
+  double thickness = 0.0;  ///< [m]
+};
+
+/// Where two pieces of cloth are nearest to each other: Σ w_i x_i leads from the second to the
+/// first. The w_i of each add up to 1 and −1.
+struct ClothGap {
+  Vec4 weight = Vec4::Zero();  ///< w; exactly 0 of points that do not matter
+  Vec3 span = Vec3::Zero();    ///< [m]
+  /// How w changes where the two slide along each other: on an edge one way, on a triangle two.
+  Eigen::Matrix<double, 4, 2> slide = Eigen::Matrix<double, 4, 2>::Zero();
+  int ways = 0;
+};
+
+/// Of point 0 and the triangle of the others; of edges 0-1 and 2-3 (Ericson, Real-Time Collision
+/// Detection, 2005, §5.1.5, §5.1.9). Of parallel edges it is one of many.
+ClothGap nearestOnTriangle(const std::array<Vec3, 4>& x);
+ClothGap nearestOfEdges(const std::array<Vec3, 4>& x);
+
 using Energy = std::variant<StretchSpring, ClothStretch, ClothShear, ClothBend, StrandBend,
-                            Corotated, NeoHookean, ShapeMatch>;
+                            Corotated, NeoHookean, ShapeMatch, ClothPoint, ClothEdges>;
 
 /// A row of the table of energies, in the order of the variant.
 struct EnergyKind {
@@ -182,6 +212,8 @@ void differentiate(const StrandBend&, const ElementPlaces& x, ElementAsk, Elemen
 void differentiate(const Corotated&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const NeoHookean&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const ShapeMatch&, const ElementPlaces& x, ElementAsk, ElementTerms&);
+void differentiate(const ClothPoint&, const ElementPlaces& x, ElementAsk, ElementTerms&);
+void differentiate(const ClothEdges&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 void differentiate(const Energy&, const ElementPlaces& x, ElementAsk, ElementTerms&);
 
 }  // namespace tumble

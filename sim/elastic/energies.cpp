@@ -15,6 +15,8 @@ constexpr EnergyKind kKinds[] = {
     {.name = "corotated", .summary = "a solid, linear in its stretches"},
     {.name = "neo-hookean", .summary = "a solid as of rubber"},
     {.name = "shape match", .summary = "a cell that is drawn to its shape at rest, turned along"},
+    {.name = "cloth point", .summary = "a point of cloth pressed on a triangle of cloth"},
+    {.name = "cloth edges", .summary = "edges of cloth pressed on each other"},
 };
 static_assert(std::size(kKinds) == std::variant_size_v<Energy>, "every energy has its row");
 

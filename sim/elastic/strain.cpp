@@ -44,6 +44,12 @@ double strain(const ClothBend&, const ElementPlaces&) {
 double strain(const StrandBend&, const ElementPlaces&) {
   return 0.0;
 }
+double strain(const ClothPoint&, const ElementPlaces&) {
+  return 0.0;
+}
+double strain(const ClothEdges&, const ElementPlaces&) {
+  return 0.0;
+}
 
 }  // namespace
 

@@ -40,7 +40,9 @@ std::vector<Energy> examples() {
           StrandBend{.stiffness = 1.5, .length = 0.9},
           Corotated{.cell = cell, .solid = solidityOf(10.0, 0.3, 0.5)},
           NeoHookean{.cell = cell, .solid = solidityOf(10.0, 0.4, 0.5)},
-          ShapeMatch{.half = kHalf, .mu = 5.0, .viscosity = 0.5}};
+          ShapeMatch{.half = kHalf, .mu = 5.0, .viscosity = 0.5},
+          ClothPoint{.stiffness = 6.0, .thickness = 1.5},
+          ClothEdges{.stiffness = 6.0, .thickness = 1.5}};
 }
 
 ElementPlaces restOf(const Energy& energy) {
@@ -254,6 +256,46 @@ TEST_CASE("stretches know inside out: U and V are rotations, and F comes back") 
       if (std::abs(F.determinant()) > 1e-14) CHECK((s.sigma[2] < 0.0) == (F.determinant() < 0.0));
     }
   }
+}
+
+// Oracle: the definition, by search over both pieces: no two of their points are nearer than the
+// nearest, and no two much further apart than those on a grid of 1/200. Of all kinds: corner, edge
+// and inside.
+TEST_CASE("the nearest points of a point and a triangle, and of two edges, are the nearest") {
+  constexpr int kGrid = 200;
+  int kinds[2][3] = {};
+  for (int seed = 0; seed < 60; ++seed) {
+    int state = 31 + seed;
+    std::array<Vec3, 4> x;
+    for (Vec3& p : x) p = drawnPoint(state);
+    for (const bool edges : {false, true}) {
+      const ClothGap nearest = edges ? nearestOfEdges(x) : nearestOnTriangle(x);
+      ++kinds[edges][nearest.ways];
+      double least = 1e9;
+      for (int i = 0; i <= kGrid; ++i)
+        for (int j = 0; j <= (edges ? kGrid : kGrid - i); ++j) {
+          const double s = i / double{kGrid}, u = j / double{kGrid};
+          const Vec3 span = edges ? Vec3(x[0] + s * (x[1] - x[0]) - x[2] - u * (x[3] - x[2]))
+                                  : Vec3(x[0] - x[1] - s * (x[2] - x[1]) - u * (x[3] - x[1]));
+          least = std::min(least, span.norm());
+        }
+      CAPTURE(seed, edges, nearest.ways);
+      CHECK(nearest.span.norm() <= least + 1e-12);
+      CHECK(nearest.span.norm() >= least - 0.02);
+      Vec3 span = Vec3::Zero();
+      for (int k = 0; k < 4; ++k) span += nearest.weight[k] * x[k];
+      CHECK((span - nearest.span).norm() <= 1e-15);
+      CHECK(std::abs(nearest.weight.sum()) <= 1e-15);
+      // Where they slide, they stay nearest.
+      for (int k = 0; k < nearest.ways; ++k) {
+        Vec3 way = Vec3::Zero();
+        for (int i = 0; i < 4; ++i) way += nearest.slide(i, k) * x[i];
+        CHECK(std::abs(way.dot(nearest.span)) <= 1e-13);
+      }
+    }
+  }
+  for (const auto& of : kinds)
+    for (const int count : of) CHECK(count > 0);
 }
 
 TEST_CASE("triangles and tetrahedra without size, or turned over, are refused") {

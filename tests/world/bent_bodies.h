@@ -28,7 +28,7 @@ inline int addPoints(WorldDef& def, const std::string& name, const std::vector<V
 
 /// Lets the bodies from the first on bend by those elements.
 inline int bend(WorldDef& def, const std::string& name, int first, std::vector<Element> elements,
-                std::vector<std::array<int, 3>> sheet = {}) {
+                Sheet sheet = {}) {
   auto body = std::make_shared<ElasticBody>();
   body->name = name;
   for (int i = first; i < static_cast<int>(def.bodies.size()); ++i) body->bodies.push_back(i);
@@ -43,7 +43,8 @@ inline int addCloth(WorldDef& def, const ClothDef& cloth, const Vec3& middle, do
                     double friction = 0.0) {
   const int first =
       addPoints(def, "cloth", clothPlaces(cloth), clothMasses(cloth), middle, skin, friction);
-  return bend(def, "cloth", first, clothElements(cloth, first), clothTriangles(cloth, first));
+  return bend(def, "cloth", first, clothElements(cloth, first),
+              clothSheet(cloth, 2.0 * skin, first));
 }
 
 /// A cloth of n × n points, with sides of that length [m], level over a fixed ball and nearly on

@@ -1,6 +1,7 @@
 #include "sim/method/stepping/bending.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "sim/problem/problem.h"
@@ -60,6 +61,8 @@ void readPart(const Model& model, std::vector<int>& pointOf, BendingPart& part) 
       part.joined = part.joined || std::binary_search(part.bodies.begin(), part.bodies.end(), i);
   findEdges(pointOf, part);
   findStructure(part);
+  part.woven = part.edges.size();
+  part.wovenMoving = part.movingEdges.size();
   part.own.resize(part.bodies.size());
   part.off.resize(part.edges.size());
   part.constant.resize(part.bodies.size());
@@ -68,30 +71,50 @@ void readPart(const Model& model, std::vector<int>& pointOf, BendingPart& part) 
   part.swept.resize(part.bodies.size());
 }
 
-/// Deals the points of an elastic body out to parts, in the order of their first points.
-void addParts(const Model& model, const ElasticBody& body, Bendings& bendings) {
-  std::vector<int> root(model.count());
-  for (const int i : body.bodies) root[i] = i;
-  for (const Element& element : body.elements)
-    for (int k = 1; k < element.count; ++k) {
-      const int p = islandRoot(root, element.points[0]), q = islandRoot(root, element.points[k]);
-      root[std::max(p, q)] = std::min(p, q);
-    }
-  const std::size_t first = bendings.parts.size();
-  for (const int i : body.bodies) {
-    const int head = islandRoot(root, i);
-    if (head == i) {
-      bendings.partOf[i] = static_cast<int>(bendings.parts.size());
-      bendings.parts.emplace_back().body = &body;
-    }
-    bendings.partOf[i] = bendings.partOf[head];
-    bendings.parts[bendings.partOf[i]].bodies.push_back(i);
+/// Deals the points of elastic bodies out to parts, in the order of their first points: those that
+/// elements join, or cloths.
+class Dealer {
+ public:
+  Dealer(const Model& model, Bendings& bendings)
+      : model_(model), bendings_(bendings), root_(model.count()) {
+    std::iota(root_.begin(), root_.end(), 0);
   }
-  for (const Element& element : body.elements)
-    bendings.parts[bendings.partOf[element.points[0]]].elements.push_back(&element);
-  for (std::size_t k = first; k < bendings.parts.size(); ++k)
-    readPart(model, bendings.pointOf, bendings.parts[k]);
-}
+
+  void join(int a, int b) {
+    const int p = islandRoot(root_, a), q = islandRoot(root_, b);
+    root_[std::max(p, q)] = std::min(p, q);
+  }
+  void join(const ElasticBody& body) {
+    for (const Element& element : body.elements)
+      for (int k = 1; k < element.count; ++k) join(element.points[0], element.points[k]);
+  }
+  void deal(const ElasticBody& body) {
+    for (const int i : body.bodies) {
+      int& part = bendings_.partOf[islandRoot(root_, i)];
+      if (part < 0) {
+        part = static_cast<int>(bendings_.parts.size());
+        bendings_.parts.emplace_back().body = &body;
+      }
+      bendings_.partOf[i] = part;
+      BendingPart& own = bendings_.parts[part];
+      own.several = own.several || own.body != &body;
+      own.bodies.push_back(i);
+    }
+    for (const Element& element : body.elements)
+      bendings_.parts[bendings_.partOf[element.points[0]]].elements.push_back(&element);
+  }
+  void finish() {
+    for (BendingPart& part : bendings_.parts) {
+      std::sort(part.bodies.begin(), part.bodies.end());
+      readPart(model_, bendings_.pointOf, part);
+    }
+  }
+
+ private:
+  const Model& model_;
+  Bendings& bendings_;
+  std::vector<int> root_;
+};
 
 }  // namespace
 
@@ -105,15 +128,59 @@ void BendingPart::timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) con
   }
 }
 
-Bendings bendingsOf(const Model& model) {
+void BendingPart::press(std::vector<LayerPair> others) {
+  pairs = std::move(others);
+  edges.resize(woven);
+  movingEdges.resize(wovenMoving);
+  const auto wovenEnd = edges.begin() + static_cast<std::ptrdiff_t>(woven);
+  std::vector<BlockEdge> more;
+  for (const LayerPair& pair : pairs)
+    for (int j = 1; j < 4; ++j)
+      for (int i = 0; i < j; ++i) {
+        const BlockEdge edge(std::minmax(pair.points[i], pair.points[j]));
+        if (pair.closes && pair.weight[i] != 0.0 && pair.weight[j] != 0.0 &&
+            !std::binary_search(edges.begin(), wovenEnd, edge))
+          more.push_back(edge);
+      }
+  std::sort(more.begin(), more.end());
+  more.erase(std::unique(more.begin(), more.end()), more.end());
+  edges.insert(edges.end(), more.begin(), more.end());
+  off.resize(edges.size());
+  for (std::size_t e = woven; e < edges.size(); ++e)
+    if (mover[edges[e].first] >= 0 && mover[edges[e].second] >= 0)
+      movingEdges.emplace_back(static_cast<int>(e), static_cast<int>(movingEdges.size()));
+  if (movingEdges.size() == wovenMoving) return;
+  std::vector<BlockEdge> graph;
+  for (const auto& [e, number] : movingEdges)
+    graph.emplace_back(mover[edges[e].first], mover[edges[e].second]);
+  if (!pressing || !pressing->isFor(static_cast<int>(moving.size()), graph))
+    pressing = std::make_unique<BlockStructure>(static_cast<int>(moving.size()), graph);
+}
+
+Bendings bendingsOf(const Model& model, const std::vector<std::pair<int, int>>& met) {
   Bendings bendings;
   bendings.partOf.assign(model.count(), -1);
   bendings.pointOf.assign(model.count(), -1);
+  bendings.met = met;
+  Dealer dealer(model, bendings);
   for (const Force& force : model.def.forces)
     if (const Bending* bending = std::get_if<Bending>(&force))
-      addParts(model, *bending->body, bendings);
+      dealer.join(*bending->body);
+    else if (const Layering* layering = std::get_if<Layering>(&force))
+      bendings.layers = layering->layers;
     else
       bendings.others.push_back(force);
+  if (const Layers* layers = bendings.layers.get()) {
+    const std::vector<int>&points = layers->points(), &firsts = layers->firsts();
+    for (std::size_t k = 0, cloth = 0; k < points.size(); ++k) {
+      if (cloth + 1 < firsts.size() && static_cast<int>(k) == firsts[cloth + 1]) ++cloth;
+      dealer.join(points[firsts[cloth]], points[k]);
+    }
+    for (const auto& [a, b] : met) dealer.join(points[firsts[a]], points[firsts[b]]);
+  }
+  for (const Force& force : model.def.forces)
+    if (const Bending* bending = std::get_if<Bending>(&force)) dealer.deal(*bending->body);
+  dealer.finish();
   return bendings;
 }
 
@@ -131,7 +198,38 @@ void addMoved(BendingPart& part, std::span<const int> at, int count, double h,
   for (int k = 0; k < count; ++k) part.constant[at[k]] += c.segment<3>(3 * k);
 }
 
+/// Adds what pairs of cloth push: as springs along n from where they are at the start, so that they
+/// meet what is yet to come, and keep the side that they are on.
+void addPressed(BendingPart& part, double h) {
+  for (const LayerPair& pair : part.pairs) {
+    if (!pair.closes) continue;
+    const double k = pair.stiffness;
+    const Vec3 push = h * k * (pair.thickness - pair.gap) * pair.n;
+    const Mat3 outer = h * h * k * pair.n * pair.n.transpose();
+    Vec3 out = Vec3::Zero();
+    for (int i = 0; part.movesOut() && i < 4; ++i)
+      out += pair.weight[i] * part.wayOut[pair.points[i]];
+    for (int i = 0; i < 4; ++i) {
+      const double w = pair.weight[i];
+      if (w == 0.0) continue;
+      part.constant[pair.points[i]] += w * (push - outer * out);
+      part.own[pair.points[i]] += w * w * outer;
+      for (int j = 0; j < i; ++j)
+        if (pair.weight[j] != 0.0)
+          part.off[part.edgeOf(pair.points[i], pair.points[j])] += w * pair.weight[j] * outer;
+    }
+  }
+}
+
 }  // namespace
+
+int BendingPart::edgeOf(int p, int q) const {
+  const BlockEdge edge(std::minmax(p, q));
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(woven);
+  auto at = std::lower_bound(edges.begin(), middle, edge);
+  if (at == middle || *at != edge) at = std::lower_bound(middle, edges.end(), edge);
+  return static_cast<int>(at - edges.begin());
+}
 
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h) {
@@ -170,6 +268,7 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
     forPairs(element,
              [&](int i, int j) { part.off[*edge++] += at[i] < at[j] ? K(i, j) : K(j, i); });
   }
+  addPressed(part, h);
   return energy;
 }
 
@@ -214,7 +313,8 @@ void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h) {
 }
 
 bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies) {
-  part.factor.begin(*part.structure);
+  const bool presses = part.movingEdges.size() > part.wovenMoving;
+  part.factor.begin(presses ? *part.pressing : *part.structure);
   for (std::size_t m = 0; m < part.moving.size(); ++m) {
     const int p = part.moving[m];
     Mat3& block = part.factor.diagonal(static_cast<int>(m));

@@ -25,6 +25,13 @@ struct BendingPart {
   std::vector<BlockEdge> edges;  ///< points that share an element, in order
   std::vector<int> edgesOf;      ///< of each element its pairs (0,1), (0,2), (1,2), (0,3), …
   std::vector<std::pair<int, int>> movingEdges;  ///< of two that move: edge, and its number in A
+  bool several = false;                          ///< cloths that met, which may part
+
+  /// Pairs of cloth that may press on each other in the step, by numbers of points; those that
+  /// close do, and make edges behind those of the elements; and how many edges, of all and of those
+  /// that move, there are without them.
+  std::vector<LayerPair> pairs;
+  std::size_t woven = 0, wovenMoving = 0;
 
   std::vector<Mat3> own,
       off;  ///< [kg] blocks of K: of points, and of edges with row first < second
@@ -36,6 +43,7 @@ struct BendingPart {
   std::vector<Vec3> star;  ///< [m/s] per point: v without λ
   double stored = 0.0;     ///< [J] at the start of the step
   double reached = 0.0;    ///< [J] where the velocities found lead,
+  double pressed = 0.0;    ///< [J] of these, of cloth that presses on cloth
   std::vector<Vec3> reachedAt;  ///< [m] places of the points there
   double turned = 0.0;          ///< [m/s] by which the last linearisation changed the motion
   bool anew = false;            ///< linear forces are others than when islands were solved last
@@ -49,7 +57,8 @@ struct BendingPart {
   bool sweeps = false;          ///< solved by sweeps where it can be
   std::vector<Vec3> swept;      ///< [m/s] per point: v as the last sweeps left it
 
-  std::unique_ptr<BlockStructure> structure;  ///< of A
+  std::unique_ptr<BlockStructure> structure;  ///< of A,
+  std::unique_ptr<BlockStructure> pressing;   ///< and where pairs have edges of their own
   BlockCholesky<3> factor;
 
   /// v⁻ as the step takes it, but for what a body has of it.
@@ -59,6 +68,10 @@ struct BendingPart {
   bool flies() const { return moving.size() == bodies.size(); }
   /// K v of the points at these velocities, per point.
   void timesK(const std::vector<Vec3>& v, std::vector<Vec3>& out) const;
+  /// The number of the edge of two points.
+  int edgeOf(int p, int q) const;
+  /// Takes other pairs.
+  void press(std::vector<LayerPair> others);
 };
 
 /// All of a model; and per body its place in them.
@@ -68,9 +81,17 @@ struct Bendings {
   std::vector<int> pointOf;   ///< per body: its number in its part
   std::vector<Force> others;  ///< of the model that bend nothing
 
+  /// What keeps its cloths apart, if anything; which of these are one part, for they met; and what
+  /// was seen last: of each point of theirs the place and the way [m] in the step.
+  std::shared_ptr<const Layers> layers;
+  std::vector<std::pair<int, int>> met;
+  std::vector<Vec3> places, ways;
+  Layers::Look look;
+
   BendingPart& partWith(int body) { return parts[partOf[body]]; }
 };
-Bendings bendingsOf(const Model& model);
+/// @param met  cloths, by numbers of `Layers`, whose points are one part
+Bendings bendingsOf(const Model& model, const std::vector<std::pair<int, int>>& met = {});
 
 /// K and c about the motion u, with D of the start. Projected, so that A is positive definite.
 /// @return the energy [J] there

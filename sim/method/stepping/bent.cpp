@@ -9,6 +9,7 @@ namespace tumble {
 /// The forces of what bends at the start of a step, and the motion that they give alone.
 bool Stepping::bend(double h) {
   work_.crushed.clear();
+  findPressed(h);
   if (points_.inStep) findWaysOut(h);
   memory_.unswept.resize(memory_.bendings->parts.size());
   memory_.chords.resize(memory_.bendings->parts.size(), 0);
@@ -21,7 +22,7 @@ bool Stepping::bend(double h) {
     part.sweeps = model_.def.stepping.bent > 0.0 && part.costly && left == 0;
     left = std::max(left - 1, 0);
     lean(part, h);
-    part.stored = linearise(part, memory_.bendings->pointOf, state_.bodies, h);
+    part.stored = part.pressed + linearise(part, memory_.bendings->pointOf, state_.bodies, h);
     for (std::size_t p = 0; p < part.bodies.size(); ++p)
       part.swept[p] = state_.bodies[part.bodies[p]].v;
     begin(part, h);
@@ -237,9 +238,12 @@ bool Stepping::BentBooks::gained() const {
 bool Stepping::gains(double h) {
   std::vector<BendingPart>& parts = memory_.bendings->parts;
   bentBooks_.resize(parts.size());
+  for (BendingPart& part : parts)
+    if (part.fresh)
+      reach(part, memory_.bendings->pointOf, state_.bodies, work_.after, work_.falls, h);
+  reachPressed();
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (!parts[k].fresh) continue;
-    reach(parts[k], memory_.bendings->pointOf, state_.bodies, work_.after, work_.falls, h);
     bentBooks_[k] = booksOf(parts[k], h);
     parts[k].newton = parts[k].newton || bentBooks_[k].astray;
     parts[k].fresh = false;

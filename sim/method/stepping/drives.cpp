@@ -110,6 +110,7 @@ class Share {
     group_.forces.push_back(own);
   }
   void operator()(const Bending&) {}  // moves no group: see bending.cpp
+  void operator()(const Layering&) {}
   template <class Other>
   void operator()(const Other& force) {
     forEachMoving(model_, force.body, [&](int i) {
@@ -202,7 +203,8 @@ Drives drivesOf(const Model& model, std::span<const RigidBody> bodies) {
   for (DrivenGroup& group : drives.groups) prepare(model, bodies, group);
   findChains(model, drives);
   for (const Force& force : model.def.forces) {
-    if (!std::holds_alternative<Bending>(force)) drives.outer.push_back(force);
+    if (!std::holds_alternative<Bending>(force) && !std::holds_alternative<Layering>(force))
+      drives.outer.push_back(force);
     if (const LinearDrag* drag = std::get_if<LinearDrag>(&force)) {
       forEachMoving(model, drag->body, [&](int i) {
         int& number = drives.dragOf[i];

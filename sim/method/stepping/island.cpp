@@ -29,7 +29,7 @@ void Stepping::solveSteadily(double h) {
 }
 
 void Stepping::solveInTurns(double h) {
-  constexpr int kRounds = 10, kAgain = 12, kNewton = 40;
+  constexpr int kRounds = 10, kAgain = 12, kNewton = 40, kPresses = 6;
   const int rounds = isDrafted() ? 1 : kRounds;
   if (tiesRun()) freeChains(h);
   const auto solve = [&] {
@@ -42,9 +42,15 @@ void Stepping::solveInTurns(double h) {
   };
   solve();
   const int most = model_.def.stepping.linearisations;
+  int looks = 0, presses = 0;
   for (int k = 1; bends() && work_.crushed.empty() && !misses_; ++k) {
     const bool again = gains(h) && k < kAgain, all = k < most,
                newton = anyByNewton() && k < kNewton;
+    if (presses < kPresses && pressesFurther(h, again, looks)) {
+      ++presses, --k;
+      solve();
+      continue;
+    }
     if (!(again || all || newton) || !bendFurther(h, all)) break;
     solve();
   }

@@ -497,6 +497,18 @@ class Stepping {
   }
   bool keepsBent(const Island& island, double h);
 
+  // layered.cpp: cloth that presses on cloth.
+  void regroup();
+  void findPressed(double h);
+  int partOfPair(LayerPair& pair) const;
+  void turnPressed(const LayerPair& end, LayerPair& pair) const;
+  double gapAtEnd(const BendingPart& part, const LayerPair& pair) const;
+  bool flipPressed(BendingPart& part) const;
+  bool seePressed();
+  bool pressesFurther(double h, bool gains, int& looks);
+  const Vec3& reachedBy(int body) const;
+  void reachPressed();
+
   // whole.cpp: what flies as a whole.
   /// Whether what stands pushes an island or, if that moved by h falls less than its velocities
   /// say, would be met.

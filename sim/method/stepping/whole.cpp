@@ -234,7 +234,7 @@ void Stepping::lean(BendingPart& part, double h) {
   part.lean.clear();
   part.placed = false;
   const std::size_t number = &part - memory_.bendings->parts.data();
-  if (!part.flies() || part.joined || memory_.chords[number]) return;
+  if (!part.flies() || part.joined || part.several || memory_.chords[number]) return;
   const auto body = [&](std::size_t p) -> const RigidBody& {
     return state_.bodies[part.bodies[p]];
   };
@@ -297,8 +297,8 @@ Vec3 Stepping::momentOn(const BendingPart& part, const Vec3& centre, bool& pushe
 ///   r⁺ = S y,   u = S (y − R r)/h,   v⁺ = v̄ + ω × r⁺ + s u,   ω = I⁻¹ (L − s Σ M r⁺ × u),
 /// with R the turn from its arms r before the step to y, and S what takes R to that of the body.
 /// Neither changes the elastic energy, nor the momentum. 0 ≤ s ≤ 1 takes so much of the motions of
-/// its shape that energy does not rise. What is pushed in flight keeps its places, and gets the
-/// least change of its velocities that has the right L:  ω × r.
+/// its shape that energy does not rise. What is pushed in flight, or several cloths, keeps its
+/// places, and gets the least change of its velocities that has the right L:  ω × r.
 void Stepping::turnWhole(BendingPart& part, double h) {
   const std::size_t number = &part - memory_.bendings->parts.data(), n = part.bodies.size();
   const auto body = [&](std::size_t p) -> const RigidBody& {
@@ -310,7 +310,7 @@ void Stepping::turnWhole(BendingPart& part, double h) {
       [&](std::size_t p) { return body(p).v; });
   const Whole is = wholeOf(
       part, state_.bodies, [&](std::size_t p) { return part.reachedAt[p]; }, after);
-  bool pushed = part.joined;
+  bool pushed = part.joined || part.several;
   Vec3 gained = momentOn(part, was.x, pushed);
   memory_.chords[number] = pushed;
   Mat3 B = Mat3::Zero();
