@@ -112,7 +112,17 @@ ClothGap nearestOfEdges(const Corners& x) {
   const Vec3 first = x[1] - x[0], second = x[3] - x[2], r = x[0] - x[2];
   const double a = first.squaredNorm(), e = second.squaredNorm(), f = second.dot(r);
   const double b = first.dot(second), c = first.dot(r), square = a * e - b * b;
-  double s = square > 0.0 ? std::clamp((b * f - c * e) / square, 0.0, 1.0) : 0.0;
+  // Of parallel ones the middle of where they lie side by side, whichever way round they are told.
+  constexpr double kParallel = 1e-12;
+  if (square <= kParallel * a * e && a > 0.0) {
+    const double p = -c / a, q = (b - c) / a;  // the second's ends along the first
+    const double lo = std::clamp(std::min(p, q), 0.0, 1.0),
+                 hi = std::clamp(std::max(p, q), 0.0, 1.0);
+    const double middle = 0.5 * (lo + hi);
+    const double u = e > 0.0 ? std::clamp((b * middle + f) / e, 0.0, 1.0) : 0.0;
+    return found(x, {1.0 - middle, middle, u - 1.0, -u});
+  }
+  double s = std::clamp((b * f - c * e) / square, 0.0, 1.0);
   double u = e > 0.0 ? (b * s + f) / e : 0.0;
   if (u < 0.0 || u > 1.0) {
     u = u < 0.0 ? 0.0 : 1.0;
