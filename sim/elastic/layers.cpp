@@ -11,6 +11,8 @@ constexpr double kApart = 2.0;
 /// Edges meet a little later than points, of thickness: where cloth lies flat on cloth points alone
 /// carry it, and not each crossing of edges beside them.
 constexpr double kEdges = 0.9;
+/// Of thickness: what is nearer than that has come as near.
+constexpr double kNear = 1e-3;
 
 using Stretch = Eigen::Matrix<double, 3, 2>;
 
@@ -23,13 +25,14 @@ ClothGap nearestOf(bool edges, const std::array<Vec3, 4>& x) {
   return edges ? nearestOfEdges(x) : nearestOnTriangle(x);
 }
 
-/// Whether no two points of a patch are nearer to each other than half of how far they are apart
-/// along it. With R the turn in the mean of F = ∂x/∂(u, v), and the patch convex when flat,
+/// Whether no two points of a patch that are told apart have come near: none are nearer to each
+/// other than half of how far they are apart along it, and a little. With R the turn in the mean of
+/// F = ∂x/∂(u, v), and the patch convex when flat,
 ///   |x(q) − x(p)| ≥ e·Rᵀ(x(q) − x(p)) = ∫ e·RᵀF e ds ≥ |q − p| (least eigenvalue of RᵀF).
 bool liesFlat(const Stretch& mean, double stray) {
   const Eigen::Matrix2d S = mean.transpose() * mean;
   const double half = 0.5 * S.trace(), off = std::hypot(0.5 * (S(0, 0) - S(1, 1)), S(0, 1));
-  return std::sqrt(std::max(0.0, half - off)) - stray >= 1.0 / kApart;
+  return std::sqrt(std::max(0.0, half - off)) - stray >= (1.0 + kNear) / kApart;
 }
 
 }  // namespace
@@ -122,10 +125,14 @@ class Layers::Search {
     between(cloth, node.first, cloth, node.last);
   }
 
+  /// As near as boxes must be to hold what has come near [m]: what is found does not hang on them.
+  double nearOf(const Cloth& a, const Cloth& b) const {
+    return (1.0 + kNear) * 0.5 * (a.thickness + b.thickness);
+  }
+
   void between(const Cloth& a, int i, const Cloth& b, int j) {
     const BoxTree::Node &p = a.tree.nodes()[i], &q = b.tree.nodes()[j];
-    const double t = 0.5 * (a.thickness + b.thickness);
-    if (!meet(patchOf(a, i).box, patchOf(b, j).box, t)) return;
+    if (!meet(patchOf(a, i).box, patchOf(b, j).box, nearOf(a, b))) return;
     if (p.item >= 0 && q.item >= 0) return triangles(a, p.item, b, q.item);
     if (opensFirst(p, q)) {
       between(a, p.first, b, j);
@@ -213,13 +220,11 @@ class Layers::Search {
     if (pair.distance >= t + reach || pair.distance == 0.0 || areNeighbours(a, b, edges, points))
       return;
     // On straight ways they are not nearer than t before the bound of their approach is.
-    constexpr double kNear = 1e-3;  // of t: nearer than that has come as near
     constexpr int kMost = 50;
     ClothGap nearest = start;
     double d = pair.distance, share = 0.0;
-    for (int k = 0; d >= t; ++k) {
-      if (d <= (1.0 + kNear) * t && share > 0.0) break;
-      share += (d > (1.0 + kNear) * t ? d - t : kNear * t) / reach;
+    for (int k = 0; d > (1.0 + kNear) * t; ++k) {
+      share += (d - t) / reach;
       if (share >= 1.0 || k == kMost) return;
       nearest = nearestOf(edges, at(points, share));
       d = nearest.span.norm();
@@ -259,9 +264,8 @@ void Layers::look(std::span<const Vec3> x, std::span<const Vec3> way, Look& look
   for (std::size_t a = 0; a < cloths_.size(); ++a) {
     search.inCloth(cloths_[a], 0);
     for (std::size_t b = a + 1; b < cloths_.size(); ++b) {
-      const double t = 0.5 * (cloths_[a].thickness + cloths_[b].thickness);
       if (!meet(look.patches[cloths_[a].firstPatch].box, look.patches[cloths_[b].firstPatch].box,
-                t))
+                search.nearOf(cloths_[a], cloths_[b])))
         continue;
       look.met.emplace_back(static_cast<int>(a), static_cast<int>(b));
       search.between(cloths_[a], 0, cloths_[b], 0);

@@ -45,8 +45,8 @@ std::set<Key> seen(const Layers& layers, const std::vector<Vec3>& x, const std::
 }
 
 /// Every pair of a point and a triangle, and of two edges, that is nearer than so much, edges nine
-/// tenths of it, by looking
-/// at all of them; those of one cloth that are within two thicknesses of each other along it not.
+/// tenths of it, by looking at all of them; those of one cloth that are within two thicknesses of
+/// each other along it not.
 std::set<Key> all(const std::vector<std::shared_ptr<const ElasticBody>>& cloths,
                   const std::vector<Vec3>& x, double within) {
   std::vector<std::array<int, 3>> triangles;
@@ -164,5 +164,34 @@ TEST_CASE(
       for (int k = 0; k < 4; ++k) ahead += pair.weight[k] * pair.n.dot(way[pair.points[k]]);
       CHECK(ahead < pair.thickness);
     }
+  }
+}
+
+// Oracle: mirror. What parts from where it almost touches is seen on both sides or on none,
+// wherever the tree opens there.
+TEST_CASE("of a cloth folded alike on both sides the same is seen on both") {
+  constexpr int n = 9;
+  for (const double cell : {1.1 * kThick, 1.5 * kThick}) {
+    const ClothDef def{.columns = n, .rows = n, .length = (n - 1) * cell, .width = (n - 1) * cell};
+    const std::vector<std::shared_ptr<const ElasticBody>> cloths = {clothOf(def, 0)};
+    const Layers layers(cloths);
+    std::vector<Vec3> x, way;
+    for (const Vec3& p : clothPlaces(def)) {
+      const double u = std::abs(p.x()), out = 0.5 * (1.0 + 2e-4) * kThick + 0.1 * (u - cell);
+      x.emplace_back(std::copysign(std::min(u, out), p.x()), u, p.z() * (1.0 + 3.0 * u));
+      way.emplace_back(0.02 * p.x(), 0.0, 0.02 * p.z());
+    }
+    const std::set<Key> found = seen(layers, x, way);
+    const auto mirrored = [&](const std::function<int(int, int)>& to) {
+      std::set<Key> keys;
+      for (auto [edges, points] : found) {
+        for (int& p : points) p = to(p % n, p / n);
+        keys.insert(keyOf(edges, points));
+      }
+      return keys;
+    };
+    CHECK_FALSE(found.empty());
+    CHECK((mirrored([](int i, int j) { return n * j + n - 1 - i; }) == found));
+    CHECK((mirrored([](int i, int j) { return n * (n - 1 - j) + i; }) == found));
   }
 }
