@@ -60,7 +60,8 @@ const Quat kAskew = Quat(0.8, -0.1, 0.3, 0.2).normalized();
 
 // Oracle: closed form. A square of cloth lies with its corners in the middles of triangles of
 // another one, which stands: each pushes with its share of the weight, k (t − gap) = m g, whatever
-// the order of the cloths, turned or mirrored. Measured 2e-16 m, allowed 1e-12.
+// the order of the cloths, turned or mirrored. Measured 2e-18 m, allowed 1e-12; of the energy
+// 3e-12.
 TEST_CASE("cloth lies on cloth a thickness off, less what its weight presses") {
   for (const double skin : {0.005, 0.0005})
     for (const bool first : {false, true})
@@ -94,7 +95,8 @@ TEST_CASE("cloth lies on cloth a thickness off, less what its weight presses") {
       }
 }
 
-// Oracle: counted, beside the same without what keeps cloth off. Steps are of 1/60 s.
+// Oracle: counted, beside the same without what keeps cloth off. Steps are of 1/60 s. Measured 0
+// crossings, and 9e-13 of the energy, by books and by audit.
 TEST_CASE("cloth that falls on cloth, or folds on itself, does not pass through it") {
   const auto onFloor = [](const Quat& turned, bool swapped) {
     WorldDef def = emptyWorld(0.5, 1.0 / 60.0);
@@ -146,7 +148,8 @@ TEST_CASE("cloth that falls on cloth, or folds on itself, does not pass through 
 }
 
 // Oracle: conservation. A cloth that is folded nearer than it is thick opens in free flight; and
-// one that flies into another. Measured 3e-15 and 2e-14 for momentum, 2e-14 for energy.
+// one that flies into another. Measured 2e-13 for momentum, by books and by audit, 5e-15
+// and 6e-14 for energy.
 TEST_CASE("what presses cloth on cloth takes no momentum, and its energy is known") {
   for (const bool two : {false, true}) {
     WorldDef def = emptyWorld(0.3, 1.0 / 120.0);
