@@ -116,7 +116,10 @@ void Audit::see(double t, std::span<const RigidBody> bodies, bool many,
   }
   addMotions();
   addLoads();
-  if (turns_ && !many_) addBent();
+  if (turns_ && !many_) {
+    addPressed();
+    addBent();
+  }
   addRubs();
   addStates();
   addTurns();

@@ -76,6 +76,7 @@ class Audit {
   void findSwings();
   void findStops(const LinearDrag& drag);
   void addLoads();
+  void addPressed();
   void addBent();
   double unsureOf(const ElasticBody& body, double off) const;
   void addElement(const Element& element, ElementTerms& start, ElementTerms& end);

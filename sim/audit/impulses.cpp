@@ -112,6 +112,17 @@ void Audit::addLoads() {
   }
 }
 
+/// What cloth that presses on cloth gives its points: forces where they are at the end of a step.
+void Audit::addPressed() {
+  for (const LayerPair& pair : layersLook_.pairs)
+    for (int k = 0; k < 4; ++k) {
+      const int i = layers_->points()[pair.points[k]];
+      const double push = h_ * pair.stiffness * (pair.thickness - pair.distance);
+      impulse_[i] += push * pair.weight[k] * pair.n;
+      inside_[i] += push * pair.weight[k] * pair.n;
+    }
+}
+
 /// What an implicit step gives the points of what bends, where they were at its start: forces at
 /// its end, linear about its start, or about its end, or between the two: what no solid and no
 /// joint holds tells by how much. Where a solid may have pushed any of them, it pushed few: most
@@ -143,11 +154,12 @@ void Audit::addBent() {
     if (size == 0.0 && offEnd < offFirst) share = 1.0;
     double off = size == 0.0 ? std::min(offFirst, offEnd) : 0.0;
     for (const int i : points) {
-      inside_[i] = first[i] + share * more[i];
-      if (moves(i) && !pushed_[i]) off += (gainedBy(i) - inside_[i]).norm();
+      const Vec3 inside = first[i] + share * more[i];
+      inside_[i] += inside;
+      impulse_[i] += inside;
+      if (moves(i) && !pushed_[i]) off += gainedBy(i).norm();
     }
     unsure_ += unsureOf(*bending->body, off);
-    for (const int i : points) impulse_[i] += inside_[i];
   }
 }
 
