@@ -8,6 +8,7 @@
 
 #include "sim/audit/recorded.h"
 #include "sim/method/model.h"
+#include "sim/shape/box_tree.h"
 
 namespace tumble {
 
@@ -25,6 +26,7 @@ class ClothCrossings {
  private:
   std::vector<std::array<int, 3>> triangles_;  ///< by numbers of bodies
   std::vector<std::pair<int, int>> edges_;
+  BoxTree tree_;  ///< of triangles as they were at the start
 };
 
 }  // namespace tumble
