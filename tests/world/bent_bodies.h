@@ -72,6 +72,16 @@ inline WorldDef clothOnBall(int n, double side, double stretch, double radius, d
   return def;
 }
 
+/// The same where nothing keeps cloth from passing through cloth.
+inline WorldDef withoutLayers(WorldDef def) {
+  for (Force& force : def.forces) {
+    auto body = std::make_shared<ElasticBody>(*std::get<Bending>(force).body);
+    body->sheet.thickness = 0.0;
+    force = Bending{body};
+  }
+  return def;
+}
+
 /// A soft box in a world. @return the number of its first point
 inline int addSoft(WorldDef& def, const SoftDef& soft, const Vec3& middle, double skin,
                    double friction = 0.5) {
