@@ -187,7 +187,7 @@ void Audit::joinLayers(const Layers& layers) {
     x.push_back(last_[i].x);
     way.push_back(now_[i].x - last_[i].x);
   }
-  layers.look(x, way, layersLook_);
+  layers.meet(x, way, layersLook_);
   for (const auto& [a, b] : layersLook_.met) {
     const int p = layerBearer_[layers.firsts()[a]], q = layerBearer_[layers.firsts()[b]];
     if (p != kNoBody && q != kNoBody) join(p, q);

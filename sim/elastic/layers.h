@@ -44,19 +44,23 @@ class Layers {
   /// What is remembered of one look.
   struct Look {
     struct Patch {
-      Aabb box;
       Eigen::Matrix<double, 3, 2> stretch[2];  ///< ∂x/∂(u, v), in the mean, at the start and ahead
       double stray[2] = {};                    ///< by how much it differs at most
       double area = 0.0;
     };
+    std::vector<Vec3> ends;  ///< [m] per point
     std::vector<Patch> patches;
+    std::vector<std::array<Aabb, 2>> boxes;  ///< of patches, at the start and ahead
     std::vector<LayerPair> pairs;
+    std::vector<LayerPair> ahead;          ///< those that are as near at the end of the way
     std::vector<std::pair<int, int>> met;  ///< cloths whose boxes overlap
   };
   /// Finds the pairs that are nearer than their thickness at places x [m] or, if they go straight
   /// to x + way, come so near on it. In an order that hangs on the cloths alone.
   /// @param way  [m] per point; empty: none goes anywhere
   void look(std::span<const Vec3> x, std::span<const Vec3> way, Look& look) const;
+  /// Finds only which cloths meet.
+  void meet(std::span<const Vec3> x, std::span<const Vec3> way, Look& look) const;
 
   /// Energy [J] of all pairs at places of bodies.
   template <class PlaceOf>
@@ -76,15 +80,19 @@ class Layers {
     std::array<int, 3> points = {};
     Eigen::Matrix2d unwoven = {};                       ///< [1/m] takes its edges to ∂x/∂(u, v)
     std::array<bool, 3> ownsPoint = {}, ownsEdge = {};  ///< edge k: from corner k to the next
+    Vec3 middle = Vec3::Zero();                         ///< [m] when flat,
+    double radius = 0.0;                                ///< and how far from it corners are at most
   };
   struct Cloth {
     int firstTriangle = 0, firstPatch = 0;
-    BoxTree tree;  ///< of triangles as they lie flat
+    BoxTree tree;               ///< of triangles as they lie flat
+    std::vector<double> areas;  ///< [m²] per node
     double thickness = 0.0, stiffness = 0.0;
   };
   class Search;
 
   void addCloth(const ElasticBody& body);
+  static double nearOf(const Cloth& a, const Cloth& b);
 
   std::vector<int> points_, firsts_;
   std::vector<int> clothOf_;  ///< per point

@@ -131,7 +131,7 @@ TEST_CASE("every pair of cloth that is nearer than its thickness is seen, and no
 }
 
 // Oracle: what a search over all pairs finds at forty instants of straight ways. What only grazes
-// may be missed by it.
+// may be missed by it. What is as near at the end is what is seen there.
 TEST_CASE(
     "what comes as near as cloth is thick on its way is seen before, from the side it is on") {
   const ClothDef def{.columns = 7, .rows = 6, .length = 0.15, .width = 0.12};
@@ -157,6 +157,12 @@ TEST_CASE(
     for (const Key& key : expected) CHECK(found.count(key) == 1);
     Layers::Look look;
     layers.look(x, way, look);
+    std::vector<Vec3> end = x;
+    for (std::size_t p = 0; p < end.size(); ++p) end[p] += way[p];
+    std::set<Key> ahead;
+    for (const LayerPair& pair : look.ahead) ahead.insert(keyOf(pair.edges, pair.points));
+    CHECK(ahead == seen(layers, end, {}));
+    CHECK(ahead.empty() == (fall != 0.06));
     for (const LayerPair& pair : look.pairs) {
       CHECK(pair.gap > 0.0);  // nothing has passed yet
       CHECK(pair.closes);
