@@ -149,12 +149,16 @@ void BendingPart::press(std::vector<LayerPair> others) {
   for (std::size_t e = woven; e < edges.size(); ++e)
     if (mover[edges[e].first] >= 0 && mover[edges[e].second] >= 0)
       movingEdges.emplace_back(static_cast<int>(e), static_cast<int>(movingEdges.size()));
-  if (movingEdges.size() == wovenMoving) return;
+}
+
+const BlockStructure& BendingPart::structureNow() {
+  if (movingEdges.size() == wovenMoving) return *structure;
   std::vector<BlockEdge> graph;
   for (const auto& [e, number] : movingEdges)
     graph.emplace_back(mover[edges[e].first], mover[edges[e].second]);
   if (!pressing || !pressing->isFor(static_cast<int>(moving.size()), graph))
     pressing = std::make_unique<BlockStructure>(static_cast<int>(moving.size()), graph);
+  return *pressing;
 }
 
 Bendings bendingsOf(const Model& model, const std::vector<std::pair<int, int>>& met) {
@@ -268,18 +272,36 @@ double linearise(BendingPart& part, const std::vector<int>& pointOf,
     forPairs(element,
              [&](int i, int j) { part.off[*edge++] += at[i] < at[j] ? K(i, j) : K(j, i); });
   }
+  if (part.body->sheet.thickness > 0.0) {
+    part.wovenOwn = part.own;
+    part.wovenOff.assign(part.off.begin(),
+                         part.off.begin() + static_cast<std::ptrdiff_t>(part.woven));
+    part.wovenConstant = part.constant;
+  }
   addPressed(part, h);
   return energy;
 }
 
-void reach(BendingPart& part, const std::vector<int>& pointOf, std::span<const RigidBody> bodies,
-           std::span<const Vec6> after, std::span<const Vec3> falls, double h) {
+void repress(BendingPart& part, double h) {
+  part.own = part.wovenOwn;
+  part.constant = part.wovenConstant;
+  std::copy(part.wovenOff.begin(), part.wovenOff.end(), part.off.begin());
+  std::fill(part.off.begin() + static_cast<std::ptrdiff_t>(part.woven), part.off.end(),
+            Mat3::Zero());
+  addPressed(part, h);
+}
+
+void reach(BendingPart& part, std::span<const RigidBody> bodies, std::span<const Vec6> after,
+           std::span<const Vec3> falls, double h) {
   part.reachedAt.resize(part.bodies.size());
   for (std::size_t p = 0; p < part.bodies.size(); ++p) {
     const int i = part.bodies[p];
     part.reachedAt[p] = bodies[i].x + h * (after[i].head<3>() - falls[i]);
     if (part.movesOut()) part.reachedAt[p] += h * part.wayOut[p];
   }
+}
+
+void storeReached(BendingPart& part, const std::vector<int>& pointOf) {
   part.reached = 0.0;
   ElementTerms terms;
   ElementPlaces x;
@@ -313,8 +335,7 @@ void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h) {
 }
 
 bool freeMotion(BendingPart& part, std::span<const RigidBody> bodies) {
-  const bool presses = part.movingEdges.size() > part.wovenMoving;
-  part.factor.begin(presses ? *part.pressing : *part.structure);
+  part.factor.begin(part.structureNow());
   for (std::size_t m = 0; m < part.moving.size(); ++m) {
     const int p = part.moving[m];
     Mat3& block = part.factor.diagonal(static_cast<int>(m));

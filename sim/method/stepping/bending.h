@@ -35,15 +35,17 @@ struct BendingPart {
 
   std::vector<Mat3> own,
       off;  ///< [kg] blocks of K: of points, and of edges with row first < second
-  std::vector<Vec3> constant;  ///< [N·s] c
-  std::vector<Vec3> about;     ///< [m/s] u
-  std::vector<Vec3> wayOut;    ///< [m/s] w per point, if any is moved out within the step
-  std::vector<Vec3> lean;  ///< [m/s] per point: what v⁻ gains as a chord, if it flies and turns
-  std::vector<Vec3> side;  ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
-  std::vector<Vec3> star;  ///< [m/s] per point: v without λ
-  double stored = 0.0;     ///< [J] at the start of the step
-  double reached = 0.0;    ///< [J] where the velocities found lead,
-  double pressed = 0.0;    ///< [J] of these, of cloth that presses on cloth
+  std::vector<Vec3> constant;            ///< [N·s] c
+  std::vector<Mat3> wovenOwn, wovenOff;  ///< the same without what pairs push
+  std::vector<Vec3> wovenConstant;
+  std::vector<Vec3> about;   ///< [m/s] u
+  std::vector<Vec3> wayOut;  ///< [m/s] w per point, if any is moved out within the step
+  std::vector<Vec3> lean;    ///< [m/s] per point: what v⁻ gains as a chord, if it flies and turns
+  std::vector<Vec3> side;    ///< [N·s] of those that move: M v⁻ + h F + c, less K of those led
+  std::vector<Vec3> star;    ///< [m/s] per point: v without λ
+  double stored = 0.0;       ///< [J] at the start of the step
+  double reached = 0.0;      ///< [J] where the velocities found lead,
+  double pressed = 0.0;      ///< [J] of these, of cloth that presses on cloth
   std::vector<Vec3> reachedAt;  ///< [m] places of the points there
   double turned = 0.0;          ///< [m/s] by which the last linearisation changed the motion
   bool anew = false;            ///< linear forces are others than when islands were solved last
@@ -72,6 +74,8 @@ struct BendingPart {
   int edgeOf(int p, int q) const;
   /// Takes other pairs.
   void press(std::vector<LayerPair> others);
+  /// That of A with the edges at hand.
+  const BlockStructure& structureNow();
 };
 
 /// All of a model; and per body its place in them.
@@ -98,10 +102,15 @@ Bendings bendingsOf(const Model& model, const std::vector<std::pair<int, int>>& 
 double linearise(BendingPart& part, const std::vector<int>& pointOf,
                  std::span<const RigidBody> bodies, double h);
 
-/// Finds the energy where its points are after h seconds at these velocities of bodies, less those
-/// by which they fall, and moved out.
-void reach(BendingPart& part, const std::vector<int>& pointOf, std::span<const RigidBody> bodies,
-           std::span<const Vec6> after, std::span<const Vec3> falls, double h);
+/// K and c with the pairs that close now, where all else is as when it was linearised last.
+void repress(BendingPart& part, double h);
+
+/// Finds where its points are after h seconds at these velocities of bodies, less those by which
+/// they fall, and moved out.
+void reach(BendingPart& part, std::span<const RigidBody> bodies, std::span<const Vec6> after,
+           std::span<const Vec3> falls, double h);
+/// Finds the energy there.
+void storeReached(BendingPart& part, const std::vector<int>& pointOf);
 
 /// The right side of the step; and for star how points would move that nothing joined.
 void setSide(BendingPart& part, std::span<const RigidBody> bodies, double h);

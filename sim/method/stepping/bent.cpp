@@ -234,13 +234,19 @@ bool Stepping::BentBooks::gained() const {
   return taken < -kGain * size;
 }
 
+/// Where the velocities at hand lead.
+void Stepping::reachBent(double h) {
+  for (BendingPart& part : memory_.bendings->parts)
+    if (part.fresh) reach(part, state_.bodies, work_.after, work_.falls, h);
+}
+
 /// Finds the books of the velocities at hand. @return whether linear forces gain somewhere
 bool Stepping::gains(double h) {
   std::vector<BendingPart>& parts = memory_.bendings->parts;
   bentBooks_.resize(parts.size());
+  reachBent(h);
   for (BendingPart& part : parts)
-    if (part.fresh)
-      reach(part, memory_.bendings->pointOf, state_.bodies, work_.after, work_.falls, h);
+    if (part.fresh) storeReached(part, memory_.bendings->pointOf);
   reachPressed();
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (!parts[k].fresh) continue;

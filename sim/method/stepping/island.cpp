@@ -44,6 +44,11 @@ void Stepping::solveInTurns(double h) {
   const int most = model_.def.stepping.linearisations;
   int looks = 0, presses = 0;
   for (int k = 1; bends() && work_.crushed.empty() && !misses_; ++k) {
+    if (presses < kPresses && flips(h)) {
+      ++presses, --k;
+      solve();
+      continue;
+    }
     const bool again = gains(h) && k < kAgain, all = k < most,
                newton = anyByNewton() && k < kNewton;
     if (presses < kPresses && pressesFurther(h, again, looks)) {

@@ -104,23 +104,14 @@ bool Stepping::flipPressed(BendingPart& part) const {
   return any;
 }
 
-/// Sees the pairs again as points go where the velocities found lead. @return whether others are
-/// met
+/// Takes the pairs as points go where the velocities found lead, which were just seen. @return
+/// whether others are met
 bool Stepping::seePressed() {
   Bendings& bendings = *memory_.bendings;
-  const std::vector<int>& bodies = bendings.layers->points();
-  std::vector<Vec3>&places = bendings.places, &ways = bendings.ways;
-  std::vector<LayerPair> ends = bendings.look.pairs;  // where the velocities lead: seen just now
+  std::vector<LayerPair> ends = bendings.look.ahead;
   std::sort(ends.begin(), ends.end(), comesBefore);
-  places.clear();
-  ways.clear();
-  for (const int i : bodies) {
-    places.push_back(state_.bodies[i].x);
-    ways.push_back(reachedBy(i) - state_.bodies[i].x);
-  }
-  bendings.layers->look(places, ways, bendings.look);
   std::vector<std::vector<LayerPair>> pairs(bendings.parts.size());
-  for (LayerPair& pair : bendings.look.pairs) {
+  for (LayerPair pair : bendings.look.pairs) {
     const auto end = std::lower_bound(ends.begin(), ends.end(), pair, comesBefore);
     if (end != ends.end() && !comesBefore(pair, *end)) turnPressed(*end, pair);
     pairs[partOfPair(pair)].push_back(pair);
@@ -148,29 +139,34 @@ bool Stepping::seePressed() {
   return any;
 }
 
-/// @return whether the step is to be solved anew: pairs met that were not foreseen, or were held
-/// that part, or it gains by where they press on each other.
-bool Stepping::pressesFurther(double h, bool gains, int& looks) {
-  constexpr int kLooks = 2;
-  Bendings& bendings = *memory_.bendings;
-  if (!bendings.layers) return false;
+/// @return whether the step is to be solved anew, for pairs came together, or parted.
+bool Stepping::flips(double h) {
+  if (!memory_.bendings->layers) return false;
+  reachBent(h);
   bool any = false;
-  for (BendingPart& part : bendings.parts) {
+  for (BendingPart& part : memory_.bendings->parts) {
     if (!flipPressed(part)) continue;
     any = true;
     part.press(std::vector<LayerPair>(part.pairs));
-    linearise(part, bendings.pointOf, state_.bodies, h);
+    repress(part, h);
     begin(part, h);
   }
-  if (any) return true;
-  if (looks >= kLooks) return false;
+  return any;
+}
+
+/// @return whether the step is to be solved anew: pairs met that were not foreseen, or it gains by
+/// where they press on each other.
+bool Stepping::pressesFurther(double h, bool gains, int& looks) {
+  constexpr int kLooks = 2;
+  if (!memory_.bendings->layers || looks >= kLooks) return false;
   ++looks;
   if (!seePressed() && !gains) return false;
   const auto closes = [](const LayerPair& pair) { return pair.closes; };
-  for (BendingPart& part : bendings.parts) {
+  bool any = false;
+  for (BendingPart& part : memory_.bendings->parts) {
     if (std::none_of(part.pairs.begin(), part.pairs.end(), closes)) continue;
     any = true;
-    linearise(part, bendings.pointOf, state_.bodies, h);
+    repress(part, h);
     begin(part, h);
   }
   return any;
@@ -188,11 +184,15 @@ void Stepping::reachPressed() {
   const auto isFresh = [](const BendingPart& part) { return part.fresh; };
   if (!bendings.layers || std::none_of(bendings.parts.begin(), bendings.parts.end(), isFresh))
     return;
-  std::vector<Vec3>& places = bendings.places;
+  std::vector<Vec3>&places = bendings.places, &ways = bendings.ways;
   places.clear();
-  for (const int i : bendings.layers->points()) places.push_back(reachedBy(i));
-  bendings.layers->look(places, {}, bendings.look);
-  for (LayerPair pair : bendings.look.pairs) {
+  ways.clear();
+  for (const int i : bendings.layers->points()) {
+    places.push_back(state_.bodies[i].x);
+    ways.push_back(reachedBy(i) - state_.bodies[i].x);
+  }
+  bendings.layers->look(places, ways, bendings.look);
+  for (LayerPair pair : bendings.look.ahead) {
     BendingPart& part = bendings.parts[partOfPair(pair)];
     if (part.fresh) part.reached += pair.energy();
   }

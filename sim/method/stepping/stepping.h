@@ -481,6 +481,7 @@ class Stepping {
   double leaned(const BendingPart& part, std::size_t p, const Vec3& impulse, const Vec3& v,
                 double h) const;
   BentBooks booksOf(const BendingPart& part, double h) const;
+  void reachBent(double h);
   bool gains(double h);
   bool anyByNewton() const;
   bool twists(const BendingPart& part, std::span<const Vec3> v, std::span<const Vec3> pull,
@@ -505,6 +506,7 @@ class Stepping {
   double gapAtEnd(const BendingPart& part, const LayerPair& pair) const;
   bool flipPressed(BendingPart& part) const;
   bool seePressed();
+  bool flips(double h);
   bool pressesFurther(double h, bool gains, int& looks);
   const Vec3& reachedBy(int body) const;
   void reachPressed();
@@ -592,13 +594,13 @@ class Stepping {
 
   int stillSteps_ = 0;  ///< in a row that end here, in which nothing changes
   bool allKept_ = false;
-  bool known_ = false;                ///< the touches are those of the bodies as they are
-  bool parted_ = false;               ///< clusters go through the step one by one
-  bool divided_ = false;              ///< the bodies whose clock runs have gone a part of the step
-  int cluster_ = 0;                   ///< whose clock runs
-  bool crowd_ = false;                ///< the bodies whose clock runs are one
-  bool rough_ = false;                ///< an island is solved as far as is planned for crowds
-  bool again_ = false;                ///< islands are solved once more, with what their bodies met
+  bool known_ = false;    ///< the touches are those of the bodies as they are
+  bool parted_ = false;   ///< clusters go through the step one by one
+  bool divided_ = false;  ///< the bodies whose clock runs have gone a part of the step
+  int cluster_ = 0;       ///< whose clock runs
+  bool crowd_ = false;    ///< the bodies whose clock runs are one
+  bool rough_ = false;    ///< an island is solved as far as is planned for crowds
+  bool again_ = false;    ///< islands are solved once more, with what their bodies met
   std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
   bool misses_ = false;               ///< rows of joints miss too much in the part under way
