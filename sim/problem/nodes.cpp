@@ -354,7 +354,7 @@ SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
     report.status = SolveStatus::Solved;
     break;
   }
-  nodes.settle(settings.enough);
+  if (settings.settles) nodes.settle(settings.enough);
   constexpr double kFar =
       1.0;  // of the energies: contacts took what stiff points hold for each other
   if (!nodes.closes(kFar, settings.still)) report.status = SolveStatus::NotConverged;

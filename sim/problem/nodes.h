@@ -16,6 +16,7 @@ struct SweepSettings {
   /// momentum left open may have. Stiff ones change little in a sweep and are far off yet.
   double open = std::numeric_limits<double>::infinity();
   double still = 0.0;
+  bool settles = true;  ///< all points together end with the momentum that they are given
 };
 
 /// Velocities of points of mass whose cones push against what does not move:

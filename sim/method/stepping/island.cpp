@@ -40,12 +40,14 @@ void Stepping::solveInTurns(double h) {
          ++round)
       solveIslands(h);
   };
+  guesses_ = bends() && mayGuess();
   solve();
   const int most = model_.def.stepping.linearisations;
   int looks = 0, presses = 0;
   for (int k = 1; bends() && work_.crushed.empty() && !misses_; ++k) {
-    if (presses < kPresses && flips(h)) {
-      ++presses, --k;
+    const bool flipped = presses < kPresses && flips(h);
+    if (flipped || endGuess()) {
+      presses += flipped, --k;
       solve();
       continue;
     }

@@ -154,6 +154,22 @@ bool Stepping::flips(double h) {
   return any;
 }
 
+/// Whether the first answers of sweeps only have to tell which pairs press.
+bool Stepping::mayGuess() const {
+  const std::vector<BendingPart>& parts = memory_.bendings->parts;
+  return std::any_of(parts.begin(), parts.end(),
+                     [](const BendingPart& part) { return part.sweeps && !part.pairs.empty(); });
+}
+
+/// Which pairs press is known well enough. @return whether the step is to be solved anew for that
+bool Stepping::endGuess() {
+  if (!guesses_) return false;
+  guesses_ = false;
+  for (BendingPart& part : memory_.bendings->parts)
+    if (part.sweeps) part.anew = part.fresh = true;
+  return true;
+}
+
 /// @return whether the step is to be solved anew: pairs met that were not foreseen, or it gains by
 /// where they press on each other.
 bool Stepping::pressesFurther(double h, bool gains, int& looks) {

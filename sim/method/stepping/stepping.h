@@ -507,6 +507,8 @@ class Stepping {
   bool flipPressed(BendingPart& part) const;
   bool seePressed();
   bool flips(double h);
+  bool mayGuess() const;
+  bool endGuess();
   bool pressesFurther(double h, bool gains, int& looks);
   const Vec3& reachedBy(int body) const;
   void reachPressed();
@@ -601,6 +603,7 @@ class Stepping {
   bool crowd_ = false;    ///< the bodies whose clock runs are one
   bool rough_ = false;    ///< an island is solved as far as is planned for crowds
   bool again_ = false;    ///< islands are solved once more, with what their bodies met
+  bool guesses_ = false;  ///< sweeps end early: other pairs of cloth are to press anyhow
   std::vector<BentBooks> bentBooks_;  ///< of the velocities found last, per part that bends
   double leftOpen_ = 0.0;             ///< [m] overlap that such a plan leaves
   bool misses_ = false;               ///< rows of joints miss too much in the part under way

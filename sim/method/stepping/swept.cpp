@@ -62,10 +62,12 @@ SolveReport Stepping::sweepBodies(Island& island, double h) {
     solution.v[k].head<3>() = part.swept[point];
     speed = std::max(speed, part.swept[point].lpNorm<Eigen::Infinity>());
   }
-  const double enough = model_.def.stepping.bent * speed;
-  const SolveReport solved =
-      sweepNodes(island.problem, island.side,
-                 {.enough = enough, .most = kMost, .open = kOpen, .still = gravity_ * h}, solution);
+  constexpr double kGuess = 30.0;  // times what is enough
+  const double enough = (guesses_ ? kGuess : 1.0) * model_.def.stepping.bent * speed;
+  const SolveReport solved = sweepNodes(
+      island.problem, island.side,
+      {.enough = enough, .most = kMost, .open = kOpen, .still = gravity_ * h, .settles = !guesses_},
+      solution);
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
     if (model_.fixed(island.bodies[k])) continue;
     BendingPart& part = memory_.bendings->partWith(island.bodies[k]);
