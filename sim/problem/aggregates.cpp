@@ -1,6 +1,7 @@
 #include "sim/problem/aggregates.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 
 namespace tumble {
 
@@ -35,20 +36,28 @@ void Aggregates::gather(const NodeMatrix& A) {
 }
 
 void Aggregates::findEdges(const NodeMatrix& A) {
-  edges_.clear();
-  edgeOf_.assign(A.near.size(), -1);
+  // The few that each is next to, of a higher number.
+  std::vector<boost::container::small_vector<int, 8>> next(count_);
   const auto forPairs = [&](const auto& act) {
     for (int i = 0; i < A.count(); ++i)
       for (int k = A.begin[i]; k < A.begin[i + 1]; ++k)
         if (const int p = of_[i], q = of_[A.near[k].node]; p != q)
-          act(k, BlockEdge(std::minmax(p, q)));
+          act(k, std::min(p, q), std::max(p, q));
   };
-  forPairs([&](int, const BlockEdge& edge) { edges_.push_back(edge); });
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-  forPairs([&](int k, const BlockEdge& edge) {
-    edgeOf_[k] =
-        static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+  forPairs([&](int, int p, int q) {
+    if (std::find(next[p].begin(), next[p].end(), q) == next[p].end()) next[p].push_back(q);
+  });
+  edges_.clear();
+  std::vector<int> first;
+  for (int p = 0; p < count_; ++p) {
+    std::sort(next[p].begin(), next[p].end());
+    first.push_back(static_cast<int>(edges_.size()));
+    for (const int q : next[p]) edges_.emplace_back(p, q);
+  }
+  edgeOf_.assign(A.near.size(), -1);
+  forPairs([&](int k, int p, int q) {
+    const auto at = std::find(next[p].begin(), next[p].end(), q);
+    edgeOf_[k] = first[p] + static_cast<int>(at - next[p].begin());
   });
   if (!structure_ || !structure_->isFor(count_, edges_))
     structure_ = std::make_unique<BlockStructure>(count_, edges_);
