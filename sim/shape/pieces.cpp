@@ -68,10 +68,16 @@ Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance, doubl
                        " are taken apart; simplify it, or take pieces = \"hull\"",
                    -1);
   const std::optional<Flattened> flat = many ? std::nullopt : flattened(solid, grain);
-  if (!flat) return piecesOfFlat(solid, kind, tolerance, kSnap * sizeOf(solid));
-  Pieces pieces =
-      piecesOfFlat(flat->solid, kind, std::max(tolerance, kRoughPieces * grain) - flat->moved,
-                   std::max(kSnap * sizeOf(solid), kRoughSnap * grain));
+  const double size = sizeOf(solid), open = std::max(tolerance, kRoughPieces * grain),
+               wide = std::max(kSnap * size, kRoughSnap * grain);
+  if (!flat) try {
+      return piecesOfFlat(solid, kind, tolerance, kSnap * size);
+    } catch (const NoPieces&) {
+      // Faces that are flat as written may still have corners that miss a cut by some digits.
+      if (many || open == tolerance) throw;
+      return piecesOfFlat(solid, kind, open, wide);
+    }
+  Pieces pieces = piecesOfFlat(flat->solid, kind, open - flat->moved, wide);
   pieces.excess += flat->moved;
   return pieces;
 }
