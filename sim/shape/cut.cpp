@@ -295,16 +295,30 @@ std::vector<Surface> pieces(const Points& points, const Surface& surface) {
           up[static_cast<std::size_t>(up[static_cast<std::size_t>(i)])];
     return i;
   };
-  std::map<std::pair<int, int>, int> known;
+  const auto join = [&](int i, int j) {
+    const int p = root(i), q = root(j);
+    up[static_cast<std::size_t>(std::max(p, q))] = std::min(p, q);
+  };
+  // A triangle at an edge, which it runs through from the lower to the higher number, or back.
+  struct Side {
+    int triangle, way;
+  };
+  std::map<std::pair<int, int>, std::vector<Side>> sides;
   for (std::size_t t = 0; t < surface.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::pair<int, int> edge =
-          std::minmax(surface[t].corner[k], surface[t].corner[(k + 1) % 3]);
-      const auto [other, fresh] = known.emplace(edge, static_cast<int>(t));
-      if (fresh) continue;
-      const int a = root(other->second), b = root(static_cast<int>(t));
-      up[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      const int p = surface[t].corner[k], q = surface[t].corner[(k + 1) % 3];
+      sides[std::minmax(p, q)].push_back({static_cast<int>(t), p < q ? 1 : -1});
     }
+  for (const auto& [edge, at] : sides)
+    if (at.size() == 2) join(at[0].triangle, at[1].triangle);
+  // Two that touch along an edge are apart, if each of them is closed there.
+  for (const auto& [edge, at] : sides) {
+    std::map<int, int> open;
+    for (const Side& side : at) open[root(side.triangle)] += side.way;
+    if (std::all_of(open.begin(), open.end(), [](const auto& of) { return of.second == 0; }))
+      continue;
+    for (const Side& side : at) join(at[0].triangle, side.triangle);
+  }
   std::map<int, Surface> found;
   for (std::size_t t = 0; t < surface.size(); ++t)
     found[root(static_cast<int>(t))].push_back(surface[t]);

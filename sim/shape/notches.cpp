@@ -8,6 +8,8 @@
 namespace tumble::cut {
 namespace {
 
+constexpr double kBent = 1e-9;  // sine: two faces that lean less to each other make no notch
+
 /// Directed edges of a surface, each with the triangle on its left.
 std::map<std::pair<int, int>, int> edgesOf(const Surface& surface) {
   std::map<std::pair<int, int>, int> left;
@@ -28,6 +30,7 @@ Notches::Notches(const Points& points, const Surface& whole, const std::vector<i
     const auto other = left.find({edge.second, edge.first});
     if (other == left.end() || edge.first > edge.second) continue;
     const int g = other->second;
+    joined_.insert(std::minmax(f, g));
     if (flat[static_cast<std::size_t>(f)] == flat[static_cast<std::size_t>(g)]) continue;
     const auto [a, b] = edge;
     const auto apex = [&, a = a, b = b](int t) {
@@ -47,10 +50,23 @@ std::vector<Notch> Notches::of(const Surface& piece) const {
     if (edge.first > edge.second || other == left.end()) continue;
     const int f = piece[static_cast<std::size_t>(t)].face;
     const int g = piece[static_cast<std::size_t>(other->second)].face;
-    if (f >= 0 && g >= 0 && f != g && reflex_.count(std::minmax(f, g)) > 0)
+    if (f >= 0 && g >= 0 && f != g && isNotch(f, g, edge.first, edge.second))
       notches.push_back({edge.first, edge.second, f, g});
   }
   return notches;
+}
+
+bool Notches::isNotch(int f, int g, int a, int b) const {
+  if (reflex_.count(std::minmax(f, g)) > 0) return true;
+  if (joined_.count(std::minmax(f, g)) > 0) return false;
+  // A sliver between them is gone with corners that are on a cut: g runs on the right of the edge.
+  const CutPlane left = planeOf(f), right = planeOf(g);
+  return left.n.cross(right.n).dot(at(b) - at(a)) < -kBent * (at(b) - at(a)).norm();
+}
+
+Notches::Edge Notches::edgeOf(const Notch& notch) const {
+  const auto known = reflex_.find(std::minmax(notch.left, notch.right));
+  return known == reflex_.end() ? Edge(notch.from, notch.to) : known->second;
 }
 
 CutPlane Notches::planeOf(int triangle) const {
@@ -60,7 +76,7 @@ CutPlane Notches::planeOf(int triangle) const {
 
 std::vector<CutPlane> Notches::planesAt(const Notch& notch,
                                         const std::vector<Notch>& others) const {
-  const auto [a, b] = reflex_.at(std::minmax(notch.left, notch.right));
+  const auto [a, b] = edgeOf(notch);
   const CutPlane left = planeOf(notch.left), right = planeOf(notch.right);
   std::vector<CutPlane> planes = {left, right};
   const double length = (at(b) - at(a)).norm();
@@ -69,7 +85,7 @@ std::vector<CutPlane> Notches::planesAt(const Notch& notch,
   if (const Vec3 in = left.n + right.n; in.norm() > kFolded)
     planes.push_back(planeThrough(at(a), at(b), at(a) - length * in.normalized()));
   for (const Notch& other : others) {
-    const auto [c, d] = reflex_.at(std::minmax(other.left, other.right));
+    const auto [c, d] = edgeOf(other);
     if ((a == c) + (a == d) + (b == c) + (b == d) != 1) continue;
     const int third = a == c || b == c ? d : c;
     const CutPlane plane = planeThrough(at(a), at(b), at(third));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -51,7 +52,14 @@ class Notches {
   const Points& points_;
   const Surface& whole_;
   OnPlane on_;
+  /// Whether two triangles of the mesh that an edge from a to b of a piece joins make a notch
+  /// there.
+  bool isNotch(int f, int g, int a, int b) const;
+  /// The edge of a notch: of the mesh, or of the piece where a sliver between the two is gone.
+  Edge edgeOf(const Notch& notch) const;
+
   std::map<std::pair<int, int>, Edge> reflex_;  ///< pairs of triangles: their edge
+  std::set<std::pair<int, int>> joined_;        ///< pairs that have an edge
 };
 
 }  // namespace tumble::cut
