@@ -55,7 +55,8 @@ class NoPieces : public std::runtime_error {
 ///                   mesh, their corners rounded once
 /// @param grain      [m] the last digit of the corners' coordinates: where it has bent the faces,
 ///                   it is the mesh with flat ones (`flattened`) that is taken apart, and pieces
-///                   may stand out by kRoughPieces of it, if that is more; 0: corners are as given
+///                   may stand out by kRoughPieces of it, if that is more; so may those of flat
+///                   faces that do not come apart otherwise; 0: corners are as given
 /// @throws NoPieces  for more than kMostPieces, or too much work to find them
 Pieces piecesOf(const Polyhedron& solid, PieceKind kind, double tolerance, double grain = 0.0);
 
