@@ -1,4 +1,5 @@
-// Energy and momentum of the bodies that may have pushed each other in one part of a step.
+// Energy and momentum of the bodies that may have pushed each other in one part of a step; groups,
+// what they are given and what is open share their books, and so long.
 #include <algorithm>
 #include <cmath>
 

@@ -47,17 +47,16 @@ class Notches {
  private:
   using Edge = std::pair<int, int>;
   const Vec3& at(int p) const { return points_.at[static_cast<std::size_t>(p)]; }
-  CutPlane spread(CutPlane plane, const std::vector<Notch>& notches) const;
-
-  const Points& points_;
-  const Surface& whole_;
-  OnPlane on_;
   /// Whether two triangles of the mesh that an edge from a to b of a piece joins make a notch
   /// there.
   bool isNotch(int f, int g, int a, int b) const;
   /// The edge of a notch: of the mesh, or of the piece where a sliver between the two is gone.
   Edge edgeOf(const Notch& notch) const;
+  CutPlane spread(CutPlane plane, const std::vector<Notch>& notches) const;
 
+  const Points& points_;
+  const Surface& whole_;
+  OnPlane on_;
   std::map<std::pair<int, int>, Edge> reflex_;  ///< pairs of triangles: their edge
   std::set<std::pair<int, int>> joined_;        ///< pairs that have an edge
 };
