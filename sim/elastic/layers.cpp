@@ -29,7 +29,6 @@ void Layers::addCloth(const ElasticBody& body) {
   Cloth cloth{.firstTriangle = static_cast<int>(triangles_.size()),
               .firstPatch = patches_,
               .tree = {},
-              .areas = {},
               .thickness = sheet.thickness,
               .stiffness = sheet.stiffness};
   std::vector<Aabb> boxes;
@@ -63,13 +62,6 @@ void Layers::addCloth(const ElasticBody& body) {
     if (e == 0 || sorted[e].first != sorted[e - 1].first)
       triangles_[cloth.firstTriangle + sorted[e].second / 3].ownsEdge[sorted[e].second % 3] = true;
   cloth.tree = BoxTree(boxes);
-  const BoxTree::Nodes& nodes = cloth.tree.nodes();
-  cloth.areas.resize(nodes.size());
-  for (std::size_t k = nodes.size(); k-- > 0;)
-    cloth.areas[k] =
-        nodes[k].item >= 0
-            ? 0.5 / std::abs(triangles_[cloth.firstTriangle + nodes[k].item].unwoven.determinant())
-            : cloth.areas[nodes[k].first] + cloth.areas[nodes[k].last];
   patches_ += static_cast<int>(cloth.tree.nodes().size());
   cloths_.push_back(std::move(cloth));
 }

@@ -45,12 +45,12 @@ class Layers {
   struct Look {
     struct Patch {
       Eigen::Matrix<double, 3, 2> stretch[2];  ///< ∂x/∂(u, v), in the mean, at the start and ahead
-      double stray[2] = {};                    ///< by how much it differs at most
-      double area = 0.0;
+      double area = 0.0;                       ///< [m²] when flat
     };
     std::vector<Vec3> ends;  ///< [m] per point
     std::vector<Patch> patches;
     std::vector<std::array<Aabb, 2>> boxes;  ///< of patches, at the start and ahead
+    std::vector<int> flatIn;  ///< per patch: one it is part of, about which cloth lies flat, or −1
     std::vector<LayerPair> pairs;
     std::vector<LayerPair> ahead;          ///< those that are as near at the end of the way
     std::vector<std::pair<int, int>> met;  ///< cloths whose boxes overlap
@@ -85,8 +85,7 @@ class Layers {
   };
   struct Cloth {
     int firstTriangle = 0, firstPatch = 0;
-    BoxTree tree;               ///< of triangles as they lie flat
-    std::vector<double> areas;  ///< [m²] per node
+    BoxTree tree;  ///< of triangles as they lie flat
     double thickness = 0.0, stiffness = 0.0;
   };
   class Search;

@@ -14,8 +14,10 @@ constexpr double kApart = 2.0;
 constexpr double kEdges = 0.9;
 /// Of thickness: what is nearer than that has come as near.
 constexpr double kNear = 1e-3;
-/// Of a rectangle, two patches make it up: a row of cells may be cut by their border.
-constexpr double kFills = 0.9;
+/// Thicknesses around a patch within which it is asked together with it whether cloth lies flat.
+constexpr double kAround = 2.0;
+
+constexpr int kNone = -1;
 
 using Stretch = Eigen::Matrix<double, 3, 2>;
 
@@ -27,9 +29,12 @@ Aabb boxOf(const Vec3& a, const Vec3& b) {
   return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
-bool overlap(const Aabb& a, const Aabb& b, double within) {
-  return (a.lo.array() <= b.hi.array() + within).all() &&
-         (b.lo.array() <= a.hi.array() + within).all();
+Aabb grown(const Aabb& box, double by) {
+  return {(box.lo.array() - by).matrix(), (box.hi.array() + by).matrix()};
+}
+
+bool holds(const Aabb& box, const Aabb& other) {
+  return (box.lo.array() <= other.lo.array()).all() && (other.hi.array() <= box.hi.array()).all();
 }
 
 /// Whether what goes straight from one box to another may meet what does so beside it: not if a
@@ -51,14 +56,26 @@ ClothGap nearestOf(bool edges, const std::array<Vec3, 4>& x) {
   return edges ? nearestOfEdges(x) : nearestOnTriangle(x);
 }
 
-/// Whether no two points of a patch that are told apart have come near: none are nearer to each
-/// other than half of how far they are apart along it, and a little. With R the turn in the mean of
-/// F = ∂x/∂(u, v), and the patch convex when flat,
-///   |x(q) − x(p)| ≥ e·Rᵀ(x(q) − x(p)) = ∫ e·RᵀF e ds ≥ |q − p| (least eigenvalue of RᵀF).
-bool liesFlat(const Stretch& mean, double stray) {
-  const Eigen::Matrix2d S = mean.transpose() * mean;
-  const double half = 0.5 * S.trace(), off = std::hypot(0.5 * (S(0, 0) - S(1, 1)), S(0, 1));
-  return std::sqrt(std::max(0.0, half - off)) - stray >= (1.0 + kNear) / kApart;
+/// Of stretches: where no less is left cloth keeps apart what is told apart.
+constexpr double kLeast = (1.0 + kNear) / kApart;
+
+/// R of F = R S, with S symmetric: how cloth is turned. @return false if S is less than that
+bool turnOf(const Stretch& F, Stretch& R) {
+  const Eigen::Matrix2d C = F.transpose() * F;
+  const double det = C.determinant(), trace = C.trace();
+  if (!(2.0 * det > kLeast * kLeast * trace)) return false;
+  // S = (C + √det C 1)/√(tr C + 2 √det C)
+  Eigen::Matrix2d S = C;
+  S.diagonal().array() += std::sqrt(det);
+  R = F * (S.inverse() * std::sqrt(trace + 2.0 * std::sqrt(det)));
+  return true;
+}
+
+/// Whether the least eigenvalue of the symmetric part of RᵀF is no less.
+bool keepsApart(const Stretch& R, const Stretch& F) {
+  const double u = R.col(0).dot(F.col(0)) - kLeast, v = R.col(1).dot(F.col(1)) - kLeast,
+               w = 0.5 * (R.col(0).dot(F.col(1)) + R.col(1).dot(F.col(0)));
+  return u >= 0.0 && v >= 0.0 && u * v >= w * w;
 }
 
 }  // namespace
@@ -80,6 +97,7 @@ class Layers::Search {
       look_.ends.push_back(way_.empty() ? x_[p] : Vec3(x_[p] + way_[p]));
     look_.patches.resize(layers_.patches_);
     look_.boxes.resize(layers_.patches_);
+    look_.flatIn.resize(layers_.patches_);
     for (const Cloth& cloth : layers_.cloths_) {
       const BoxTree::Nodes& nodes = cloth.tree.nodes();
       Look::Patch* patches = &look_.patches[cloth.firstPatch];
@@ -91,15 +109,32 @@ class Layers::Search {
                        boxes[k]);
           continue;
         }
-        join(patches[first], patches[last], patches[k]);
+        patches[k].area = patches[first].area + patches[last].area;
+        const double share = patches[first].area / patches[k].area;
+        for (int e = 0; e < (way_.empty() ? 1 : 2); ++e)
+          patches[k].stretch[e] =
+              share * patches[first].stretch[e] + (1.0 - share) * patches[last].stretch[e];
         for (int e = 0; e < 2; ++e) boxes[k][e] = tumble::boxOf(boxes[first][e], boxes[last][e]);
       }
     }
   }
 
+  /// Finds the patches about which cloth lies flat, from the largest on. What creased cloth about
+  /// the patch around it, a leaf, is asked first.
+  void findFlat(const Cloth& cloth, int k = 0, int creased = 0) {
+    const BoxTree::Node& node = cloth.tree.nodes()[k];
+    int* flatIn = &look_.flatIn[cloth.firstPatch];
+    flatIn[k] = -1;
+    if (node.item >= 0) return;
+    creased = creaseAbout(cloth, k, creased);
+    if (creased == kNone) return std::fill(flatIn + k, flatIn + node.past, k);
+    findFlat(cloth, node.first, creased);
+    findFlat(cloth, node.last, creased);
+  }
+
   void inCloth(const Cloth& cloth, int k) {
     const BoxTree::Node& node = cloth.tree.nodes()[k];
-    if (node.item >= 0 || isFlat(patchOf(cloth, k))) return;
+    if (node.item >= 0 || look_.flatIn[cloth.firstPatch + k] >= 0) return;
     inCloth(cloth, node.first);
     inCloth(cloth, node.last);
     between(cloth, node.first, cloth, node.last);
@@ -109,7 +144,9 @@ class Layers::Search {
     const BoxTree::Node &p = a.tree.nodes()[i], &q = b.tree.nodes()[j];
     if (!overlap(look_.boxes[a.firstPatch + i], look_.boxes[b.firstPatch + j], nearOf(a, b)))
       return;
-    if (&a == &b && (farthest(p.box, q.box) < surelyNear(a) || areFlat(a, i, j))) return;
+    if (&a == &b &&
+        (farthest(p.box, q.box) < surelyNear(a) || isFlatAbout(a, i, j) || isFlatAbout(a, j, i)))
+      return;
     if (p.item >= 0 && q.item >= 0) return triangles(a, p.item, b, q.item);
     if (opensFirst(p, q)) {
       between(a, p.first, b, j);
@@ -121,10 +158,6 @@ class Layers::Search {
   }
 
  private:
-  const Look::Patch& patchOf(const Cloth& cloth, int k) const {
-    return look_.patches[cloth.firstPatch + k];
-  }
-
   static Aabb boxOf(const Triangle& triangle, std::span<const Vec3> x) {
     const auto [a, b, c] = triangle.points;
     return {x[a].cwiseMin(x[b]).cwiseMin(x[c]), x[a].cwiseMax(x[b]).cwiseMax(x[c])};
@@ -137,43 +170,59 @@ class Layers::Search {
     Stretch sides;
     sides << x_[b] - x_[a], x_[c] - x_[a];
     patch.stretch[0] = sides * triangle.unwoven;
-    patch.stray[0] = patch.stray[1] = 0.0;
-    patch.area = 1.0;
+    patch.area = 0.5 / std::abs(triangle.unwoven.determinant());
     if (way_.empty()) return;
     sides.col(0) += way_[b] - way_[a];
     sides.col(1) += way_[c] - way_[a];
     patch.stretch[1] = sides * triangle.unwoven;
   }
 
-  bool isFlat(const Look::Patch& patch) const {
-    return liesFlat(patch.stretch[0], patch.stray[0]) &&
-           (way_.empty() || liesFlat(patch.stretch[1], patch.stray[1]));
+  /// Cloth about a patch, as it lies flat.
+  static Aabb aboutOf(const Cloth& cloth, int k) {
+    return grown(cloth.tree.nodes()[k].box, kAround * cloth.thickness);
   }
 
-  /// Whether two patches of a cloth are one that is convex when flat, and nothing comes near in it.
-  bool areFlat(const Cloth& cloth, int i, int j) const {
-    const Aabb both = tumble::boxOf(cloth.tree.nodes()[i].box, cloth.tree.nodes()[j].box);
-    const Vec3 size = both.hi - both.lo;
-    if (cloth.areas[i] + cloth.areas[j] < kFills * size.x() * size.y()) return false;
-    Look::Patch joint;
-    join(patchOf(cloth, i), patchOf(cloth, j), joint);
-    return isFlat(joint);
-  }
-
-  void join(const Look::Patch& a, const Look::Patch& b, Look::Patch& patch) const {
-    patch.area = a.area + b.area;
-    const double share = a.area / patch.area;
-    for (int k = 0; k < (way_.empty() ? 1 : 2); ++k) {
-      patch.stretch[k] = share * a.stretch[k] + (1.0 - share) * b.stretch[k];
-      patch.stray[k] = std::max(a.stray[k] + (a.stretch[k] - patch.stretch[k]).norm(),
-                                b.stray[k] + (b.stretch[k] - patch.stretch[k]).norm());
+  /// A leaf in a patch or about it because of which something that is told apart may come near
+  /// there, on all the way. With the turn R of F = ∂x/∂(u, v) in the mean, and what lies about the
+  /// patch convex when flat,
+  ///   |x(q) − x(p)| ≥ e·Rᵀ(x(q) − x(p)) = ∫ e·RᵀF e ds ≥ |q − p| (least eigenvalue of RᵀF).
+  [[gnu::flatten]] int creaseAbout(const Cloth& cloth, int k, int guess) const {
+    const BoxTree::Nodes& nodes = cloth.tree.nodes();
+    const Look::Patch* patches = &look_.patches[cloth.firstPatch];
+    const Aabb about = aboutOf(cloth, k);
+    const auto meets = [&](int j) {
+      const Aabb& box = nodes[j].box;
+      return box.lo.x() <= about.hi.x() && box.lo.y() <= about.hi.y() &&
+             about.lo.x() <= box.hi.x() && about.lo.y() <= box.hi.y();
+    };
+    Stretch R;
+    if (!turnOf(way_.empty() ? patches[k].stretch[0]
+                             : Stretch(patches[k].stretch[0] + patches[k].stretch[1]),
+                R))
+      return guess;
+    const auto keeps = [&](int j) {
+      return keepsApart(R, patches[j].stretch[0]) &&
+             (way_.empty() || keepsApart(R, patches[j].stretch[1]));
+    };
+    if (nodes[guess].item >= 0 && meets(guess) && !keeps(guess)) return guess;
+    for (int j = 0; j < static_cast<int>(nodes.size());) {
+      const bool met = meets(j);
+      if (met && nodes[j].item >= 0 && !keeps(j)) return j;
+      j = met ? j + 1 : nodes[j].past;
     }
+    return kNone;
+  }
+
+  /// Whether the second of two patches lies in what is flat about the first.
+  bool isFlatAbout(const Cloth& cloth, int i, int j) const {
+    const int flat = look_.flatIn[cloth.firstPatch + i];
+    return flat >= 0 && holds(aboutOf(cloth, flat), cloth.tree.nodes()[j].box);
   }
 
   [[gnu::flatten]] void triangles(const Cloth& a, int i, const Cloth& b, int j) {
     const Triangle &p = layers_.triangles_[a.firstTriangle + i],
                    &q = layers_.triangles_[b.firstTriangle + j];
-    if (&a == &b && areNear(a, p, q)) return;
+    if ((&a == &b && areNear(a, p, q)) || areParted(p, q, nearOf(a, b))) return;
     for (int k = 0; k < 3; ++k) {
       if (p.ownsPoint[k]) see(a, b, false, {p.points[k], q.points[0], q.points[1], q.points[2]});
       if (q.ownsPoint[k]) see(b, a, false, {q.points[k], p.points[0], p.points[1], p.points[2]});
@@ -207,6 +256,23 @@ class Layers::Search {
     const double round = std::max(p.radius, q.radius);
     const double left = kApart * cloth.thickness * (1.0 - kNear) - round;
     return left > 0.0 && (p.middle - q.middle).squaredNorm() < left * left;
+  }
+
+  /// Whether a plane between two triangles at the start parts them at the end, too.
+  bool areParted(const Triangle& p, const Triangle& q, double within) const {
+    Vec3 across = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      across +=
+          x_[q.points[k]] - x_[p.points[k]] + look_.ends[q.points[k]] - look_.ends[p.points[k]];
+    const double least = within * across.norm();
+    const auto apart = [&](std::span<const Vec3> x) {
+      const auto along = [&](int i) { return across.dot(x[i]); };
+      const auto [a, b, c] = p.points;
+      const auto [d, e, f] = q.points;
+      return std::min({along(d), along(e), along(f)}) - std::max({along(a), along(b), along(c)}) >
+             least;
+    };
+    return apart(x_) && (way_.empty() || apart(look_.ends));
   }
 
   /// Whether any corner of the one is too near along the cloth to one of the other.
@@ -323,7 +389,7 @@ void Layers::meet(std::span<const Vec3> x, std::span<const Vec3> way, Look& look
   look.met.clear();
   for (std::size_t a = 0; a < cloths_.size(); ++a)
     for (std::size_t b = a + 1; b < cloths_.size(); ++b)
-      if (overlap(boxes[a], boxes[b], nearOf(cloths_[a], cloths_[b])))
+      if (boxes[a].overlaps(grown(boxes[b], nearOf(cloths_[a], cloths_[b]))))
         look.met.emplace_back(static_cast<int>(a), static_cast<int>(b));
 }
 
@@ -335,6 +401,7 @@ void Layers::look(std::span<const Vec3> x, std::span<const Vec3> way, Look& look
   search.readPatches();
   std::size_t next = 0;
   for (int a = 0; a < static_cast<int>(cloths_.size()); ++a) {
+    search.findFlat(cloths_[a]);
     search.inCloth(cloths_[a], 0);
     for (; next < look.met.size() && look.met[next].first == a; ++next)
       search.between(cloths_[a], 0, cloths_[look.met[next].second], 0);

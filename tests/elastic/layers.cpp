@@ -173,6 +173,29 @@ TEST_CASE(
   }
 }
 
+// Oracle: a search over all pairs. What lies flat at one end of the way is not flat all along it.
+TEST_CASE("cloth that folds on its way, or opens, is seen where it comes near itself") {
+  const ClothDef def{.columns = 13, .rows = 9, .length = 0.3, .width = 0.2};
+  const std::vector<std::shared_ptr<const ElasticBody>> cloths = {clothOf(def, 0)};
+  const Layers layers(cloths);
+  const std::vector<Vec3> flat = clothPlaces(def);
+  std::vector<Vec3> folded, fold, open;
+  for (const Vec3& p : flat) {
+    folded.emplace_back(std::abs(p.x()), p.x() < 0.0 ? 0.0 : 0.008 + 0.1 * p.z(), p.z());
+    fold.push_back(folded.back() - p);
+    open.push_back(p - folded.back());
+  }
+  const std::set<Key> expected = all(cloths, folded, kThick);
+  REQUIRE_FALSE(expected.empty());
+  Layers::Look look;
+  layers.look(flat, fold, look);
+  std::set<Key> ahead;
+  for (const LayerPair& pair : look.ahead) ahead.insert(keyOf(pair.edges, pair.points));
+  CHECK(ahead == expected);
+  const std::set<Key> found = seen(layers, folded, open);
+  for (const Key& key : expected) CHECK(found.count(key) == 1);
+}
+
 // Oracle: mirror. What parts from where it almost touches is seen on both sides or on none,
 // wherever the tree opens there.
 TEST_CASE("of a cloth folded alike on both sides the same is seen on both") {
