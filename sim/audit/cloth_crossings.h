@@ -3,7 +3,6 @@
 
 #include <array>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sim/audit/recorded.h"
@@ -24,8 +23,12 @@ class ClothCrossings {
   long count(std::span<const Recorded> states) const;
 
  private:
-  std::vector<std::array<int, 3>> triangles_;  ///< by numbers of bodies
-  std::vector<std::pair<int, int>> edges_;
+  class Count;
+  struct Triangle {
+    std::array<int, 3> corners = {};  ///< by numbers of bodies
+    std::array<bool, 3> owns = {};    ///< of edges, which are each the first triangle's that has it
+  };
+  std::vector<Triangle> triangles_;
   BoxTree tree_;  ///< of triangles as they were at the start
 };
 
