@@ -14,6 +14,7 @@ namespace tumble {
 struct Freedom {
   enum class Kind { All, Some, None } kind = Kind::All;
   Mat3 along = Mat3::Identity();
+  bool operator==(const Freedom&) const = default;
 };
 
 /// F B G, for a block between a node that is free along F and one that is along G.

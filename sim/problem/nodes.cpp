@@ -28,10 +28,12 @@ class NodeSweeps {
   double sweep();
   /// Goes on along the way that the sweeps before went.
   void accelerate();
-  /// Moves all points together, and gives contacts what is left of the points that they push.
+  /// What is left of the balance of momentum at every point.
+  void findOpen();
+  /// Moves all points together, and gives contacts what was left of the points that they push.
   /// @param least  [m/s] slower slip has no direction yet
   void settle(double least);
-  /// Whether what is left of the balance of momentum does no more than its share of work.
+  /// Whether what was left of the balance of momentum does no more than its share of work.
   bool closes(double open, double still) const;
   void write(const Problem& problem, Solution& solution) const;
 
@@ -45,7 +47,7 @@ class NodeSweeps {
   void visit(int node);
   void correct();
   void findFree();
-  void findOpen();
+  void findLeft();
   Eigen::Vector2d slipOf(const Touching& touch) const {
     return touch.J.bottomRows<2>() * v_[touch.node] + touch.bias.tail<2>();
   }
@@ -172,11 +174,24 @@ void bind(const Touching& touch, Freedom& free) {
   constexpr int kRenewed = 10;  // sweeps in which other points come to be pushed
   if (sweeps_ == 1) aggregates_.gather(nodes_.A);
   if (sweeps_ % kRenewed == 1) {
+    const std::vector<Freedom> before = free_;
     findFree();
-    aggregates_.factor(nodes_.A, free_);
+    if (sweeps_ == 1 || free_ != before) aggregates_.factor(nodes_.A, free_);
   }
-  findOpen();
+  findLeft();
   aggregates_.correct(open_, v_);
+}
+
+/// What is left where each point was visited in turn: of what those behind it moved since.
+void NodeSweeps::findLeft() {
+  open_.resize(v_.size());
+  for (int i = 0; i < nodes_.A.count(); ++i) {
+    Vec3 left = Vec3::Zero();
+    for (int k = nodes_.A.begin[i]; k < nodes_.A.begin[i + 1]; ++k)
+      if (const auto& [j, block] = nodes_.A.near[k]; j > i)
+        left.noalias() -= block.lazyProduct(Vec3(v_[j] - before_[j]));
+    open_[i] = left;
+  }
 }
 
 void NodeSweeps::findFree() {
@@ -198,7 +213,6 @@ void NodeSweeps::settle(double least) {
   constexpr double kClosed = 1e-12;  // of the momenta of all points
   double momentum = 0.0;
   for (std::size_t i = 0; i < v_.size(); ++i) momentum += mass_[i] * v_[i].norm();
-  findOpen();
   for (int round = 0; round < kRounds; ++round) {
     Vec3 sum = Vec3::Zero(), free = Vec3::Zero();
     for (const Vec3& open : open_) sum += open;
@@ -322,7 +336,7 @@ bool NodeSweeps::closes(double open, double still) const {
   double work = 0.0, energy = 0.0;
   for (int i = 0; i < nodes_.A.count(); ++i) {
     const double speed = std::max(v_[i].norm(), still);
-    work += v_[i].dot(openOf(i));
+    work += v_[i].dot(open_[i]);
     energy += 0.5 * mass_[i] * speed * speed;
   }
   return std::abs(work) <= open * energy;
@@ -350,10 +364,13 @@ SolveReport sweepNodes(const Problem& problem, std::span<const Vec3> side,
     const double change = nodes.sweep();
     ++report.iterations;
     report.residual = change / report.scale;
-    if (!(change <= settings.enough) || !nodes.closes(settings.open, settings.still)) continue;
+    if (!(change <= settings.enough)) continue;
+    nodes.findOpen();
+    if (!nodes.closes(settings.open, settings.still)) continue;
     report.status = SolveStatus::Solved;
     break;
   }
+  if (report.status != SolveStatus::Solved) nodes.findOpen();
   if (settings.settles) nodes.settle(settings.enough);
   constexpr double kFar =
       1.0;  // of the energies: contacts took what stiff points hold for each other
