@@ -240,7 +240,7 @@ SolveReport Stepping::solveFine(Island& island) {
       {.tolerance = tolerance, .maxIterations = stepping.iterations, .pull = island.pull},
       island.solution);
   findCrushed(island, solved);
-  if (solved.status != SolveStatus::Solved) island.answer.above = true;
+  if (solved.status != SolveStatus::Solved) island.memory->above = true;
   return solved;
 }
 

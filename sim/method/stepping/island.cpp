@@ -136,7 +136,7 @@ void Stepping::bookIslands(double h) {
     certificate.energy_lost_friction += memory.books.lostFriction;
     certificate.work_of_forces += memory.books.work;
     state_.externalImpulse += memory.books.external;
-    if (answer.above)
+    if (memory.above)
       report_.note("some steps were left above the tolerance; max_complementarity has the worst");
   }
   if (!work_.bonds.empty() || !joints().empty()) bookJoints(h);
@@ -229,8 +229,10 @@ void Stepping::fallAsOne(Island& island, double h) {
   if (pushed) fallAsOne(island, h);
   IslandMemory& memory = memory_.islands[answer.head];
   island.memory = &memory;
-  const bool sprung = bonded && isSprung(island);
-  island.smooth = (pushed || sprung) && foreseesSmooth(island, h);
+  if (pushed && isAnswered(island, h)) return answerAgain(island, h);
+  const bool sprung = bonded && isSprung(island),
+             notSmooth = again_ && memory.step == step_ && !memory.smooth;
+  island.smooth = (pushed || sprung) && !notSmooth && foreseesSmooth(island, h);
   if (island.smooth) gripAnew(island, h);
   const bool stretches = !bent && rests(island, h);
   memory.kept = stretches || (!bent && (keeps(island, h) || pushesAlike(island, h)));
@@ -238,6 +240,7 @@ void Stepping::fallAsOne(Island& island, double h) {
   const bool solves = !memory.kept && !(bent && keepsBent(island, h));
   if (solves) {
     answer.kept = false;
+    memory.above = false;
     const bool sweeps = bent && canSweep(island), crowd = crowd_ && isCrowd(island);
     if (bent && !sweeps) factorSwept(island);
     if (sweeps) memory.rough = false;
@@ -260,13 +263,26 @@ void Stepping::fallAsOne(Island& island, double h) {
     }
     memory.residual = solved.residual;
     memory.scale = solved.scale > 0.0 ? solved.scale : velocityScale(island.problem);
-    answer.rough = memory.rough;
-    if (memory.rough) answer.leftOpen = mayLeave(memory.scale, h);
+    tellRough(island, h);
     if (bent) forBent(island, [](BendingPart& part) { part.fresh = true; });
     if (pushed) stand(island, crowd, h);
   }
   if (bent) forBent(island, [](BendingPart& part) { part.touched = true; });
+  giveMotion(island);
+  if (bent) flyBent(island, h);
+  if (bent && solves) bookWays(island, h);  // of the solids in it
+  if (bonded && !island.smooth && flyAsOne(island, h)) keepSpin(island, h);
+  memory.smooth = (pushed || island.smooth) && isSmooth(island, h);
+  if (memory.smooth)
+    for (const int i : island.movers) work_.smooth[i] = 1;
+  else if (pushed || island.smooth)
+    bookLanding(island, h);
+}
+
+/// Its answer becomes the motion of the bodies of an island.
+void Stepping::giveMotion(const Island& island) {
   constexpr double kNothing = 1e-15;  // of a velocity: forces that change it by less are rounding
+  const IslandMemory& memory = *island.memory;
   for (std::size_t i = 0; i < island.movers.size(); ++i) {
     memory_.left[island.movers[i]] = memory.residual * memory.scale;
     const Vec6 &v = memory.movers[i].v, &star = memory.movers[i].vStar;
@@ -276,14 +292,11 @@ void Stepping::fallAsOne(Island& island, double h) {
     work_.touched[island.movers[i]] =
         touched || model_.bends(island.movers[i]) || isHalved(island.movers[i]);
   }
-  if (bent) flyBent(island, h);
-  if (bent && solves) bookWays(island, h);  // of the solids in it
-  if (bonded && !island.smooth && flyAsOne(island, h)) keepSpin(island, h);
-  if (!pushed && !island.smooth) return;
-  if (isSmooth(island, h))
-    for (const int i : island.movers) work_.smooth[i] = 1;
-  else
-    bookLanding(island, h);
+}
+
+void Stepping::tellRough(Island& island, double h) const {
+  island.answer.rough = island.memory->rough;
+  if (island.memory->rough) island.answer.leftOpen = mayLeave(island.memory->scale, h);
 }
 
 }  // namespace tumble

@@ -46,6 +46,8 @@ struct IslandMemory {
   long sweptTo = 0;       ///< until that solveSteadily it is swept, in a draft
   bool rough = false;     ///< solved as far as is planned for crowds
   bool kept = false;      ///< the last step asked nothing new
+  bool smooth = false;    ///< it moved smoothly in the step that solved it
+  bool above = false;     ///< the solver left it above the tolerance
   IslandBooks books;
 };
 
@@ -55,7 +57,6 @@ struct IslandAnswer {
   bool kept = true;       ///< it asks nothing new, and no mode of it changes
   bool rough = false;     ///< it was solved as far as is planned for crowds,
   double leftOpen = 0.0;  ///< [m] which leaves so much overlap
-  bool above = false;     ///< the solver left it above the tolerance
   bool misses = false;    ///< rows of joints miss too much: the step is to be divided
   double parts = 0.0;     ///< [1/s] into which such rows ask for it to be
   std::string crushed;    ///< words, where no forces can hold what moves on

@@ -58,6 +58,24 @@ bool Stepping::keeps(const Island& island, double h) const {
   return true;
 }
 
+/// Whether what was seen further in a step asks an island nothing: it was solved in this very step,
+/// and by that problem.
+bool Stepping::isAnswered(const Island& island, double h) const {
+  return again_ && island.memory->step == step_ && island.memory->length == h &&
+         looksTheSame(island, h) &&
+         std::none_of(island.movers.begin(), island.movers.end(),
+                      [&](int i) { return isDriven(i); });
+}
+
+/// Tells of such an island what was told when it was solved.
+void Stepping::answerAgain(Island& island, double h) {
+  island.answer.kept = false;
+  tellRough(island, h);
+  giveMotion(island);
+  if (island.memory->smooth)
+    for (const int i : island.movers) work_.smooth[i] = 1;
+}
+
 /// Whether an island may ask for the forces of the step before: its contacts are those of then. One
 /// contact alone is solved as quickly as asked, and without what rounding would add up; what hardly
 /// moves is solved, to be told to stand.

@@ -141,7 +141,8 @@ class Stepping {
   double untilHit(double soon, double h, double least);
   void findHeld();
   void hold(const Contact& contact);
-  /// Holds the bodies of hits that the contact problem of the next h seconds stops.
+  /// Holds the bodies of what the contact problem of the next h seconds stops: hits and, in a
+  /// crowd, what hardly parts.
   void holdStopped(double h);
   /// Which points of a pair rebound faster than `least` [m/s], and when they are due.
   void foresee(std::size_t pair, double least);
@@ -282,6 +283,8 @@ class Stepping {
   /// Takes the storage of an island for another one.
   void startIsland(Island& island, std::span<const Link> links);
   void solveIsland(Island& island, double h);
+  void giveMotion(const Island& island);
+  void tellRough(Island& island, double h) const;
   void collectBodies(Island& island);
   void swing(Island& island, double h);
   /// Of an island that nothing holds, under gravity alone: it falls on a parabola.
@@ -290,6 +293,9 @@ class Stepping {
   bool hasSameForm(const Island& island) const;
   bool looksTheSame(const Island& island, double h) const;
   bool keeps(const Island& island, double h) const;
+  /// Of what is seen further in a step: whether it asks an island nothing.
+  bool isAnswered(const Island& island, double h) const;
+  void answerAgain(Island& island, double h);
   bool goesOn(const Island& island, double h) const;
   /// Whether a body is not at rest as the step begins; whether one of an island is.
   bool moves(int body) const;
