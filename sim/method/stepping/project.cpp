@@ -1,7 +1,6 @@
 // Position projection: the least displacement, weighed by mass, that lifts what overlaps.
 #include <algorithm>
 
-#include "sim/body/force.h"
 #include "sim/contact/rows.h"
 #include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
@@ -13,13 +12,10 @@ bool Stepping::project() {
   constexpr int kRounds = 10, kSwept = 3;  // by the solver of crowds, if all is lifted
   constexpr int kDrafted = 2;
   double deepest = deepestOverlap();
-  const auto potential = [&] {
-    return potentialEnergy(model_.def.gravity, model_.def.forces, state_.bodies);
-  };
   double gap = largestGap();
   const auto isOpen = [&] { return deepest > mayOverlap() || gap > tolerance_.drift; };
   const bool lifts = isOpen();
-  const double before = lifts ? potential() : 0.0;
+  const double before = lifts ? potentialNow() : 0.0;
   int left = model_.def.stepping.iterations;  // of the solver, for all rounds
   const auto rounds = [&] { return isDrafted() && gap <= tolerance_.drift ? kDrafted : kRounds; };
   for (int round = 0; isOpen() && left > 0 && round < rounds(); ++round) {
@@ -27,7 +23,7 @@ bool Stepping::project() {
     deepest = deepestOverlap();
     gap = largestGap();
   }
-  if (lifts) report_.certificate.energy_added_repair += potential() - before;
+  if (lifts) report_.certificate.energy_added_repair += potentialNow() - before;
   report_.certificate.max_penetration = std::max(report_.certificate.max_penetration, deepest);
   return !isOpen();
 }
