@@ -75,14 +75,15 @@ double topOf(const PosedPart& part, const Vec3& n) {
 // Whether a part covers q, along n, over the plane through `top`: it holds q to what is flush, and
 // rises above the plane near by. One that q is `out` outside of is up to there as far below, and
 // comes up to its height H over the plane on a way no longer than itself: in a valley it does so
-// far away, or at once.
+// far away, or at once. On its face it is not below: what rounding has of `out` must not tell.
 bool covers(const Parts& parts, int part, const Vec3& q, const Vec3& top, const Vec3& n) {
   const PosedPart& other = parts.list[static_cast<std::size_t>(part)];
   const double height = topOf(other, n) - n.dot(top);
   if (!(height > parts.flush)) return false;
   const double out = outsideOf(other.solid, other.pose, q),
-               way = 2.0 * parts.radius[static_cast<std::size_t>(part)];
-  return out <= parts.flush && out * way <= kReach * parts.flush * (height + out);
+               way = 2.0 * parts.radius[static_cast<std::size_t>(part)],
+               off = kOnFace * (parts.size[static_cast<std::size_t>(part)] + q.norm());
+  return out <= parts.flush && (out <= off || out * way <= kReach * parts.flush * (height + out));
 }
 
 // Whether no other part covers q over the plane through `top` square to n.

@@ -64,8 +64,8 @@ Row& Stepping::addRow(Island& island, const Row& row) {
 /// as found, or, where all touch, none is left of them.
 double Stepping::gapRate(const Touch& touch, bool allClosed, double h) const {
   const double gap = allClosed ? 0.0 : std::max(touch.contact.point.separation, -tolerance_.root);
-  // What is left in a touch is closed in a whole step: in a part, rounding would make it a speed.
-  return gap / (closed(touch) ? std::max(h, model_.def.stepping.step) : h);
+  // Overlap is lifted in a whole step: in a part, rounding would make it a speed.
+  return gap / (gap < 0.0 ? std::max(h, model_.def.stepping.step) : h);
 }
 
 bool Stepping::areClosed(std::span<const Touch> touches) const {
