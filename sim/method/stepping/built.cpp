@@ -1,5 +1,6 @@
 // The contact problem of an island: its bodies, and rows for all that joins them.
 #include <algorithm>
+#include <limits>
 
 #include "sim/contact/rows.h"
 #include "sim/method/stepping/stepping.h"
@@ -60,12 +61,21 @@ Row& Stepping::addRow(Island& island, const Row& row) {
   return added;
 }
 
-/// A gap may be closed by the end of the step and no further. Gaps of one face go together: all are
-/// as found, or, where all touch, none is left of them.
-double Stepping::gapRate(const Touch& touch, bool allClosed, double h) const {
-  const double gap = allClosed ? 0.0 : std::max(touch.contact.point.separation, -tolerance_.root);
-  // Overlap is lifted in a whole step: in a part, rounding would make it a speed.
-  return gap / (gap < 0.0 ? std::max(h, model_.def.stepping.step) : h);
+/// A gap may be closed by the end of the step and no further. Where all touch, none is left. Else
+/// the least gap, if that one touches, is closed in a whole step, as rounding would make it a speed
+/// in a part; and the others go with it: one motion closes all gaps of a face, and rounding does
+/// not tell which of its corners is left out.
+double Stepping::gapRate(const Touch& touch, const Room& room, double h) const {
+  if (room.allClosed) return 0.0;
+  const double gap = std::max(touch.contact.point.separation, -tolerance_.root);
+  return (gap - room.least) / h + room.least / std::max(h, model_.def.stepping.step);
+}
+
+Stepping::Room Stepping::roomOf(std::span<const Touch> touches) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Touch& touch : touches) least = std::min(least, touch.contact.point.separation);
+  return {.allClosed = areClosed(touches),
+          .least = least <= tolerance_.touch ? std::max(least, -tolerance_.root) : 0.0};
 }
 
 bool Stepping::areClosed(std::span<const Touch> touches) const {
@@ -106,7 +116,7 @@ void Stepping::level(Island& island) const {
 }
 
 void Stepping::addPair(Island& island, std::vector<Touch>& touches, double h) {
-  const bool allClosed = areClosed(touches);
+  const Room room = roomOf(touches);
   std::vector<Stance>& stances = island.stances;
   stances.clear();
   for (Touch& touch : touches) {
@@ -119,11 +129,11 @@ void Stepping::addPair(Island& island, std::vector<Touch>& touches, double h) {
   level(island);
   if (island.follows())
     for (Stance& stance : stances) stance.closes = closing(touches, h);
-  for (const Stance& stance : stances) addTouch(island, stance, allClosed, h);
+  for (const Stance& stance : stances) addTouch(island, stance, room, h);
 }
 
 /// Adds a point of a pair, of which all points touch or not.
-void Stepping::addTouch(Island& island, const Stance& at, bool allClosed, double h) {
+void Stepping::addTouch(Island& island, const Stance& at, const Room& room, double h) {
   Touch& touch = *at.touch;
   const Contact& contact = touch.contact;
   const RigidBody &bodyA = state_.bodies[contact.a], &bodyB = state_.bodies[contact.b];
@@ -138,7 +148,7 @@ void Stepping::addTouch(Island& island, const Stance& at, bool allClosed, double
 
   const double vrel = rowSpeed(normal, work_.before[contact.a], work_.before[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
-  normal.bias = gapRate(touch, allClosed, h);
+  normal.bias = gapRate(touch, room, h);
   if (island.follows()) normal.bias += wanders(at) + at.closes;
   if (reboundsInStep() && !isAside(touch)) rebound(touch, vrel, h, normal);
   const Vec3 lead = carried(contact, h);

@@ -126,15 +126,14 @@ bool Stepping::balances(const Island& island) {
 /// How far [m/s] the velocity of a point after the step is from one with which its force obeys the
 /// law of contact: a projection brings no two points further apart, so that this bounds the
 /// residual.
-double Stepping::missedBy(const Touch& touch, bool allClosed, double h) const {
+double Stepping::missedBy(const Touch& touch, const Room& room, double h) const {
   constexpr double kEdge = 1e-14;  // of a force: nearer to the edge of its cone is on it
   const Contact& c = touch.contact;
   const Vec3& n = c.point.n;
   Vec3 lead = carried(c, h);
   if (!model_.fixed(c.a) && !model_.fixed(c.b)) lead -= n.dot(lead) * n;
   const Vec3 u = rateAt(c, work_.after) + lead;
-  const double along = n.dot(u), j = n.dot(touch.impulse),
-               parts = along + gapRate(touch, allClosed, h);
+  const double along = n.dot(u), j = n.dot(touch.impulse), parts = along + gapRate(touch, room, h);
   const Vec3 held = touch.impulse - j * n;
   const double holds = held.norm(), most = c.friction * j, rounding = kEdge * j;
   if (j < 0.0 || holds > most + rounding) return std::numeric_limits<double>::infinity();
@@ -156,10 +155,10 @@ bool Stepping::pushesAlike(Island& island, double h) {
   double scale = 0.0, missed = 0.0;
   for (const Link link : island.links) {
     const std::vector<Touch>& touches = memory_.pairs[link].touches;
-    const bool allClosed = areClosed(touches);
+    const Room room = roomOf(touches);
     for (const Touch& touch : touches) {
       scale = std::max(scale, rateAt(touch.contact, work_.star).norm());
-      missed = std::max(missed, missedBy(touch, allClosed, h));
+      missed = std::max(missed, missedBy(touch, room, h));
     }
   }
   if (!(missed <= kAlike * model_.def.stepping.tolerance * scale)) return false;

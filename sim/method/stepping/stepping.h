@@ -299,15 +299,21 @@ class Stepping {
   bool goesOn(const Island& island, double h) const;
   /// Whether a body is not at rest as the step begins; whether one of an island is.
   bool moves(int body) const;
+  /// How a pair of bodies is apart.
+  struct Room {
+    bool allClosed = false;  ///< all its points touch
+    double least = 0.0;      ///< [m] its least gap, where that one touches; else 0
+  };
   bool anyMoves(const Island& island) const;
   bool rests(const Island& island, double h) const;
   bool pushesAlike(Island& island, double h);
   bool balances(const Island& island);
-  double missedBy(const Touch& touch, bool allClosed, double h) const;
+  double missedBy(const Touch& touch, const Room& room, double h) const;
   void stand(Island& island, bool crowd, double h) const;
   void stretch(Island& island, double h);
   bool areClosed(std::span<const Touch> touches) const;
-  double gapRate(const Touch& touch, bool allClosed, double h) const;
+  Room roomOf(std::span<const Touch> touches) const;
+  double gapRate(const Touch& touch, const Room& room, double h) const;
   /// What a step adds to the relative velocity of two bodies that turn together: each goes along
   /// its chord, not along its tangent.
   Vec3 carried(const Contact& contact, double h) const;
@@ -333,7 +339,7 @@ class Stepping {
   Row& addRow(Island& island, const Row& row);
   void addPair(Island& island, std::vector<Touch>& touches, double h);
   void level(Island& island) const;
-  void addTouch(Island& island, const Stance& at, bool allClosed, double h);
+  void addTouch(Island& island, const Stance& at, const Room& room, double h);
 
   // smooth.cpp: what slides or rolls on.
   bool foreseesSmooth(Island& island, double h);
