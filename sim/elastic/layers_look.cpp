@@ -1,5 +1,5 @@
-// Where cloths come as near to themselves and each other as they are thick; long, for one look passes
-// all its stages the same lists.
+// Where cloths come as near to themselves and each other as they are thick; long, for one look
+// passes all its stages the same lists.
 #include <algorithm>
 #include <cmath>
 
