@@ -125,7 +125,7 @@ class Layers::Search {
   void findFlat(const Cloth& cloth, int k = 0, int creased = 0) {
     const BoxTree::Node& node = cloth.tree.nodes()[k];
     int* flatIn = &look_.flatIn[cloth.firstPatch];
-    flatIn[k] = -1;
+    flatIn[k] = kNone;
     if (node.item >= 0) return;
     creased = creaseAbout(cloth, k, creased);
     if (creased == kNone) return std::fill(flatIn + k, flatIn + node.past, k);

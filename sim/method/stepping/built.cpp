@@ -132,7 +132,7 @@ void Stepping::addPair(Island& island, std::vector<Touch>& touches, double h) {
   for (const Stance& stance : stances) addTouch(island, stance, room, h);
 }
 
-/// Adds a point of a pair, of which all points touch or not.
+/// Adds a point of a pair that is so far apart.
 void Stepping::addTouch(Island& island, const Stance& at, const Room& room, double h) {
   Touch& touch = *at.touch;
   const Contact& contact = touch.contact;

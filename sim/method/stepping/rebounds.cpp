@@ -77,14 +77,14 @@ int Stepping::mostBlows() const {
 void Stepping::holdStopped(double h) {
   // In a crowd what parts is held at once where a fall of h alone would bring it back: what pushes
   // there does so, and problem after problem would find it out, each for the next few points.
-  const double slow = 0.5 * gravity_ * h;
+  const double fall = 0.5 * gravity_ * h * h;
   const bool crowd = strikesAsCrowd();
   const auto meets = [&](const Touch& touch) {
     const Contact& c = touch.contact;
     if (!closed(touch) && touch.due < h) return true;
     if (!crowd) return false;
     const double vrel = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
-    return std::max(c.point.separation, 0.0) + h * vrel < h * slow;
+    return std::max(c.point.separation, 0.0) + h * vrel < fall;
   };
   for (const PairMemory& pair : memory_.pairs) {
     if (!pair.bounces) continue;

@@ -299,15 +299,15 @@ class Stepping {
   bool goesOn(const Island& island, double h) const;
   /// Whether a body is not at rest as the step begins; whether one of an island is.
   bool moves(int body) const;
+  bool anyMoves(const Island& island) const;
+  bool rests(const Island& island, double h) const;
+  bool pushesAlike(Island& island, double h);
+  bool balances(const Island& island);
   /// How a pair of bodies is apart.
   struct Room {
     bool allClosed = false;  ///< all its points touch
     double least = 0.0;      ///< [m] its least gap, where that one touches; else 0
   };
-  bool anyMoves(const Island& island) const;
-  bool rests(const Island& island, double h) const;
-  bool pushesAlike(Island& island, double h);
-  bool balances(const Island& island);
   double missedBy(const Touch& touch, const Room& room, double h) const;
   void stand(Island& island, bool crowd, double h) const;
   void stretch(Island& island, double h);
