@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/math/orientation.h"
+#include "sim/shape/folds.h"
 
 namespace tumble::cut {
 
@@ -147,9 +148,7 @@ class Splitter {
       below += side[k] < 0 ? 1 : 0;
     }
     if (above == 0 && below == 0) {
-      const Vec3 &a = at(points_, t.corner[0]), &b = at(points_, t.corner[1]),
-                 &c = at(points_, t.corner[2]);
-      ((b - a).cross(c - a).dot(plane_.n) > 0.0 ? halves.below : halves.above).push_back(t);
+      within_.push_back(t);
     } else if (above == 0) {
       halves.below.push_back(t);
     } else if (below == 0) {
@@ -157,6 +156,13 @@ class Splitter {
     } else {
       split(t, side, halves);
     }
+  }
+
+  /// Sorts the triangles in the plane.
+  void addWithin(Halves& halves) const {
+    const std::vector<int> side = sidesWithin(points_, within_, plane_.n);
+    for (std::size_t t = 0; t < within_.size(); ++t)
+      (side[t] < 0 ? halves.below : halves.above).push_back(within_[t]);
   }
 
  private:
@@ -210,6 +216,7 @@ class Splitter {
   const CutPlane& plane_;
   double tolerance_;
   std::optional<WholePlane> exact_;
+  std::vector<Triangle> within_;  // the plane
   std::map<int, int> side_;
   std::map<std::pair<int, int>, int> crossing_;
 };
@@ -267,6 +274,7 @@ Halves halve(Points& points, const Surface& surface, const CutPlane& plane, doub
   Halves halves;
   Splitter splitter(points, plane, tolerance);
   for (const Triangle& t : surface) splitter.add(t, halves);
+  splitter.addWithin(halves);
   // Edges below that have lost their other side bound the cut.
   std::map<std::pair<int, int>, int> open;
   for (const auto& [corner, face] : halves.below)

@@ -25,14 +25,21 @@ class Filler {
     std::vector<Loop> loops;
     for (auto& [first, list] : after)
       while (!list.empty()) {
+        // Closed only when the way on is that of the beginning: a hole may touch what is around it.
+        const int second = list.back();
         Loop loop;
-        int last = -1, here = first;
-        do {
+        int last = first, here = second;
+        list.pop_back();
+        while (here >= 0) {
           loop.push_back(here);
-          const int next = takeNext(last, here, after[here]);
+          std::vector<int>& ways = after[here];
+          if (here == first) ways.push_back(second);
+          const int next = takeNext(last, here, ways);
+          if (here == first && next == second) break;
+          if (here == first) ways.erase(std::find(ways.begin(), ways.end(), second));
           last = here;
           here = next;
-        } while (here != first && here >= 0);
+        }
         if (loop.size() > 2) loops.push_back(loop);
       }
     return loops;
@@ -86,7 +93,7 @@ class Filler {
   int takeNext(int last, int here, std::vector<int>& ways) const {
     if (ways.empty()) return -1;
     std::size_t best = 0;
-    for (std::size_t k = 1; k < ways.size() && last >= 0; ++k)
+    for (std::size_t k = 1; k < ways.size(); ++k)
       if (angle(last, here, ways[k]) > angle(last, here, ways[best])) best = k;
     const int next = ways[best];
     ways.erase(ways.begin() + static_cast<std::ptrdiff_t>(best));
