@@ -76,6 +76,8 @@ class Decomposer {
         done.push_back(std::move(whole->hull));
       } else if (std::vector<Surface> parts = parted(piece, notches, hull); !parts.empty()) {
         std::move(parts.begin(), parts.end(), std::back_inserter(open));
+      } else if (std::optional<Polyhedron> within = shaved(piece, notches, hull)) {
+        done.push_back(*std::move(within));
       } else if (!leftOut(piece)) {
         if (notches.empty())
           refuseCrossing("no plane parts it where it is not convex", outerOf(piece));
@@ -95,7 +97,7 @@ class Decomposer {
     if (tolerance_ > 0.0) excess_ += joined;
     checkVolume(done);
     // Hulls of what a plane parts stay on their sides of it, however much they stand out elsewhere.
-    Pieces pieces{{}, excess_, 2.0 * points_.snapped + gape_};
+    Pieces pieces{{}, excess_, 2.0 * (points_.snapped + shaved_) + gape_};
     for (Polyhedron& hull : done)
       pieces.hulls.push_back({std::make_shared<const Polyhedron>(std::move(hull))});
     return pieces;
@@ -163,9 +165,9 @@ class Decomposer {
     return true;
   }
 
-  /// How far a hull reaches out of the mesh at most. What is in front of no face of a piece sees
-  /// all its surface from within, and so is in the piece.
-  double reachOf(const Surface& piece, const Polyhedron& hull) {
+  /// The planes of a piece's faces that are the mesh's. What is in front of none of them sees all
+  /// its surface from within, and so is in the piece.
+  std::vector<HalfSpace> planesOf(const Surface& piece) const {
     std::vector<HalfSpace> planes;
     std::set<int> faces;
     for (const Triangle& t : piece)
@@ -173,7 +175,29 @@ class Decomposer {
         const CutPlane plane = notches_->planeOf(t.face);
         planes.push_back({plane.n, plane.d});
       }
-    return reachOver(hull, std::move(planes), &looks_);
+    return planes;
+  }
+
+  /// How far a hull reaches out of the mesh at most.
+  double reachOf(const Surface& piece, const Polyhedron& hull) {
+    return reachOver(hull, planesOf(piece), &looks_);
+  }
+
+  /// What of the hull of a piece without notches is below its faces, if that is all but a layer no
+  /// thicker than the tolerance: where they meet in an edge of a small angle, corners a little over
+  /// one of them are far from what is below both.
+  std::optional<Polyhedron> shaved(const Surface& piece, const std::vector<Notch>& notches,
+                                   const std::optional<Polyhedron>& hull) {
+    if (!notches.empty() || !hull) return {};
+    const std::vector<HalfSpace> planes = planesOf(piece);
+    const double thick = heightOver(planes, hull->points);
+    looks_ += static_cast<long>(planes.size() * hull->points.size()) / kInRow;
+    if (thick > slack()) return {};
+    std::optional<Polyhedron> within = below(*hull, planes, kRounding * size_);
+    const double volume = cut::sixfoldVolume(points_, piece) / 6.0;
+    if (!within || std::abs(volumeOf(*within) - volume) > 2.0 * slack() * areaOf(*hull)) return {};
+    shaved_ = std::max(shaved_, thick);
+    return within;
   }
 
   /// A plane and what it is worth.
@@ -364,6 +388,7 @@ class Decomposer {
   double tolerance_, snap_ = 0.0;         ///< [m] of a piece over the mesh; of corners on a cut
   double size_ = 0.0, excess_ = 0.0;
   double gape_ = 0.0, flat_ = 0.0, off_ = 0.0;  ///< [m], [m³] of pieces left out
+  double shaved_ = 0.0;                         ///< [m] of layers left out
   Triangle crossing_ = {{0, 0, 0}};   ///< of the piece whose hull holds most too much: off_ [m³]
   long work_ = 0, looks_ = 0, most_;  ///< triangles, planes looked at
 };

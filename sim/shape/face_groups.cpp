@@ -63,7 +63,10 @@ class Finder {
 
   std::vector<FaceGroup> found() {
     growAll();
-    std::erase_if(groups_, [](const Growing& group) { return group.corners.size() < 4; });
+    // Corners in line, of slivers, tell no plane.
+    std::erase_if(groups_, [&](const Growing& group) {
+      return group.corners.size() < 4 || Fit(group.moments).width <= open_;
+    });
     joinApart();
     std::vector<FaceGroup> groups;
     for (Growing& group : groups_) {

@@ -12,7 +12,7 @@ namespace tumble {
 namespace {
 
 constexpr double kOpen = 1.0;    // of the grain: off the best plane; rounding alone: √3/2
-constexpr double kMost = 1.0;    // of the grain: the way of a corner
+constexpr double kMost = 3.0;    // of the grain: the way of a corner
 constexpr double kBent = 1e-12;  // of the size: further off its plane, a corner is not on it
 constexpr double kShape = 2e-3;  // of the size: a coarser grain leaves no shape
 constexpr double kFlat = 1e-14;  // of the size: off its plane, and on it
@@ -146,19 +146,28 @@ class Solver {
   std::vector<Plane> planes_;
 };
 
-/// Whether most corners are on a face that is not flat.
-bool isRough(const std::vector<FaceGroup>& groups, std::size_t corners, double bent) {
-  std::set<int> rough;
-  for (const FaceGroup& group : groups)
+/// Whether most corners of faces that share a plane are on one that is not flat.
+bool isRough(const std::vector<FaceGroup>& groups, double bent) {
+  std::set<int> all, rough;
+  for (const FaceGroup& group : groups) {
+    all.insert(group.corners.begin(), group.corners.end());
     if (group.off > bent) rough.insert(group.corners.begin(), group.corners.end());
-  return 2 * rough.size() >= corners;
+  }
+  return !rough.empty() && 2 * rough.size() >= all.size();
 }
 
-/// Whether all faces look the way they did.
-bool lookAlike(const Polyhedron& a, const Polyhedron& b) {
+/// Whether all faces look the way they did, but for those within a plane that others share.
+bool lookAlike(const Polyhedron& a, const Polyhedron& b, const std::vector<FaceGroup>& groups) {
+  const auto isWithin = [&](const std::vector<int>& face) {
+    return std::any_of(groups.begin(), groups.end(), [&](const FaceGroup& group) {
+      return std::all_of(face.begin(), face.end(), [&](int i) {
+        return std::binary_search(group.corners.begin(), group.corners.end(), i);
+      });
+    });
+  };
   return std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(),
                     [&](const std::vector<int>& f, const std::vector<int>& g) {
-                      return areaVector(a, f).dot(areaVector(b, g)) > 0.0;
+                      return areaVector(a, f).dot(areaVector(b, g)) > 0.0 || isWithin(f);
                     });
 }
 
@@ -168,11 +177,11 @@ std::optional<Flattened> flattened(const Polyhedron& solid, double grain) {
   const double size = sizeOf(solid);
   if (!(grain > 0.0) || grain > kShape * size) return {};
   const std::vector<FaceGroup> groups = faceGroups(solid, kOpen * grain);
-  if (!isRough(groups, solid.points.size(), kBent * size)) return {};
+  if (!isRough(groups, kBent * size)) return {};
   Flattened asGiven{solid};
   Polyhedron flat = solid;
   flat.points = Solver(solid, groups).solved(kFlat * size);
-  if (flat.points.empty() || !lookAlike(solid, flat)) return asGiven;
+  if (flat.points.empty() || !lookAlike(solid, flat, groups)) return asGiven;
   double moved = 0.0;
   for (std::size_t i = 0; i < flat.points.size(); ++i)
     moved = std::max(moved, (flat.points[i] - solid.points[i]).norm());

@@ -22,9 +22,10 @@ struct Flattened {
 /// so that Newton's method closes on a solution near by; a solution that is known to exist, as for
 /// what was flat, lets it do so for others too.
 /// @param grain  [m] the last digit of what is written: a coordinate is off by half of it
-/// @return nothing for a mesh that is flat as it is, most of its corners being on faces that are; a
-///         mesh that is rough, but has no flat one with all corners within a grain and all faces
-///         looking the way they did, comes back as it is
+/// @return nothing for a mesh that is flat as it is: most corners of faces that share a plane are
+///         of flat ones; a mesh that is rough, but has no flat one with all corners within three
+///         grains and all faces, but those within a shared plane, looking the way they did, comes
+///         back as it is
 std::optional<Flattened> flattened(const Polyhedron& solid, double grain);
 
 }  // namespace tumble

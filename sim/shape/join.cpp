@@ -165,6 +165,42 @@ double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes, long* 
   return reach;
 }
 
+double heightOver(const std::vector<HalfSpace>& planes, const std::vector<Vec3>& points) {
+  double height = 0.0;
+  for (const HalfSpace& plane : planes)
+    for (const Vec3& p : points) height = std::max(height, plane.n.dot(p) - plane.d);
+  return height;
+}
+
+std::optional<Polyhedron> below(const Polyhedron& convex, const std::vector<HalfSpace>& planes,
+                                double on) {
+  Polyhedron rest = convex;
+  for (const HalfSpace& plane : planes) {
+    if (heightOver({plane}, rest.points) <= on) continue;
+    // The corners below, and where edges pass.
+    std::vector<Vec3> corners;
+    const auto height = [&](int i) {
+      return plane.n.dot(rest.points[static_cast<std::size_t>(i)]) - plane.d;
+    };
+    for (int i = 0; i < static_cast<int>(rest.points.size()); ++i)
+      if (height(i) <= on) corners.push_back(rest.points[static_cast<std::size_t>(i)]);
+    for (const Polyhedron::Edge& edge : rest.edges) {
+      const double from = height(edge.from), to = height(edge.to);
+      if ((from > on && to < -on) || (from < -on && to > on)) {
+        const Vec3 &p = rest.points[static_cast<std::size_t>(edge.from)],
+                   &q = rest.points[static_cast<std::size_t>(edge.to)];
+        corners.push_back(p + from / (from - to) * (q - p));
+      }
+    }
+    try {
+      rest = hullInFrame(corners);
+    } catch (const NotASolid&) {
+      return {};
+    }
+  }
+  return rest;
+}
+
 double joinConvex(std::vector<Polyhedron>& solids, const Joining& joint) {
   std::vector<Joined> list;
   int next = 0;

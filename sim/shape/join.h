@@ -1,6 +1,7 @@
 // Chapter 2, shape: solids measured, and convex ones joined where their union is convex.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/shape/polyhedron.h"
@@ -23,6 +24,14 @@ std::vector<HalfSpace> facesOf(const Polyhedron& convex);
 /// in K.
 /// @param looks  grows by the planes looked at, if given
 double reachOver(const Polyhedron& convex, std::vector<HalfSpace> planes, long* looks = nullptr);
+
+/// How far [m] the highest of some points is over the planes; 0 if all are below.
+double heightOver(const std::vector<HalfSpace>& planes, const std::vector<Vec3>& points);
+
+/// What of a convex solid is below the planes; corners within `on` [m] of one are on it. Nothing if
+/// that is flatter than numbers can tell.
+std::optional<Polyhedron> below(const Polyhedron& convex, const std::vector<HalfSpace>& planes,
+                                double on);
 
 /// How two solids may be joined.
 struct Joining {

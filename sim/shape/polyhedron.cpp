@@ -158,7 +158,7 @@ void cutIntoTriangles(const Polyhedron& solid, const std::vector<int>& face,
   const double side = n[axis] < 0.0 ? -1.0 : 1.0;
   std::vector<int> left = face;
   // An ear is a convex corner whose triangle holds no other corner, nor one on the edge that it
-  // leaves but for what rounding has moved.
+  // leaves but for what rounding has moved, its own as little.
   const auto isEar = [&](std::size_t k, double beside) {
     const int a = left[(k + left.size() - 1) % left.size()], b = left[k],
               c = left[(k + 1) % left.size()];
@@ -166,7 +166,7 @@ void cutIntoTriangles(const Polyhedron& solid, const std::vector<int>& face,
       return side * turnOf(at(solid, i), at(solid, j), at(solid, l), axis);
     };
     const double wide = beside * (at(solid, c) - at(solid, a)).squaredNorm();
-    return turn(a, b, c) > 0.0 && std::none_of(left.begin(), left.end(), [&](int p) {
+    return turn(a, b, c) > wide && std::none_of(left.begin(), left.end(), [&](int p) {
              return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
                     turn(c, a, p) >= -wide;
            });
