@@ -5,6 +5,7 @@
 #include "app/file/data.h"
 #include "app/file/file.h"
 #include "app/scene/obj_lines.h"
+#include "sim/shape/written.h"
 
 namespace tumble {
 
@@ -58,7 +59,7 @@ MeshFile parseMesh(const std::string& text, const std::string& file) {
   if (!obj.points.empty()) mesh.first = obj.points.front();
   try {
     mesh.solid = std::make_shared<const Polyhedron>(
-        makePolyhedron(std::move(obj.points), std::move(obj.faces)));
+        makeWritten(std::move(obj.points), std::move(obj.faces), obj.grain));
   } catch (const NotASolid& reason) {
     throw MeshError(file + mesh.lineOf(reason.face()) + ": " + reason.what());
   }

@@ -83,7 +83,7 @@ void checkOutline(const Polyhedron& solid, std::size_t f, double touch) {
 
 }  // namespace
 
-void checkCrossings(const Polyhedron& solid) {
+void checkCrossings(const Polyhedron& solid, double least) {
   std::vector<Corners> triangles;
   std::vector<int> face;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {
@@ -95,7 +95,8 @@ void checkCrossings(const Polyhedron& solid) {
     boxes.push_back({at(solid, a).cwiseMin(at(solid, b)).cwiseMin(at(solid, c)),
                      at(solid, a).cwiseMax(at(solid, b)).cwiseMax(at(solid, c))});
   const BoxTree tree(boxes);
-  const double touch = kTouch * (tree.nodes()[0].box.hi - tree.nodes()[0].box.lo).norm();
+  const double touch =
+      std::max(least, kTouch * (tree.nodes()[0].box.hi - tree.nodes()[0].box.lo).norm());
   std::pair<int, int> first{-1, -1};
   for (std::size_t f = 0; f < solid.faces.size(); ++f) checkOutline(solid, f, touch);
   const double reach = 0.0;

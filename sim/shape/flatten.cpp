@@ -7,6 +7,7 @@
 
 #include "sim/shape/face_groups.h"
 #include "sim/shape/join.h"
+#include "sim/shape/written.h"
 
 namespace tumble {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kOpen = 1.0;    // of the grain: off the best plane; rounding alone: √3/2
 constexpr double kMost = 3.0;    // of the grain: the way of a corner
 constexpr double kBent = 1e-12;  // of the size: further off its plane, a corner is not on it
-constexpr double kShape = 2e-3;  // of the size: a coarser grain leaves no shape
 constexpr double kFlat = 1e-14;  // of the size: off its plane, and on it
 constexpr double kSoft = 1e-9;   // [1] what an equation may give, against a way of 1
 constexpr int kMostRounds = 30;

@@ -9,6 +9,7 @@
 #include "sim/math/orientation.h"
 #include "sim/shape/crossings.h"
 #include "sim/shape/shells.h"
+#include "sim/shape/written.h"
 
 namespace tumble {
 namespace {
@@ -184,7 +185,11 @@ void cutIntoTriangles(const Polyhedron& solid, const std::vector<int>& face,
   triangles.push_back({left[0], left[1], left[2]});
 }
 
-Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>> faces) {
+Polyhedron makePolyhedron(std::vector<Vec3> points, std::vector<std::vector<int>> faces) {
+  return makeWritten(std::move(points), std::move(faces), 0.0);
+}
+
+Polyhedron makeWritten(std::vector<Vec3> given, std::vector<std::vector<int>> faces, double grain) {
   if (faces.empty()) throw NotASolid("there are no faces", -1);
   for (std::size_t i = 0; i < given.size(); ++i)
     if (!given[i].allFinite())
@@ -197,8 +202,12 @@ Polyhedron makePolyhedron(std::vector<Vec3> given, std::vector<std::vector<int>>
   }
   checkFaces(solid, given);
   checkEdges(solid, given);
-  checkShells(solid);  // first: it names the shell that is inside out
-  checkCrossings(solid);
+  // Two faces that were one are each off by up to half a digit along each axis.
+  double size = 0.0;
+  for (const Vec3& p : solid.points) size = std::max(size, p.norm());
+  const double touch = grain > kShape * size ? 0.0 : 2.0 * grain;
+  checkShells(solid, touch);  // first: it names the shell that is inside out
+  checkCrossings(solid, touch);
 
   std::vector<std::vector<int>> flat;
   for (std::size_t f = 0; f < solid.faces.size(); ++f) {

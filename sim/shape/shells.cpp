@@ -84,7 +84,7 @@ std::vector<Shell> shellsOf(const Polyhedron& solid) {
 
 /// Points just inside a shell: under the middle and near the corners of triangles that reach into
 /// a box.
-std::vector<Vec3> pointsUnder(const Shell& shell, const Aabb& box) {
+std::vector<Vec3> pointsUnder(const Shell& shell, const Aabb& box, double touch) {
   std::vector<std::array<int, 3>> near;
   const auto corner = [&](int i) { return shell.solid->points[static_cast<std::size_t>(i)]; };
   for (const auto& t : shell.triangles) {
@@ -99,7 +99,7 @@ std::vector<Vec3> pointsUnder(const Shell& shell, const Aabb& box) {
     const Vec3 n = shell.side * (b - a).cross(c - a);
     const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     if (!(n.norm() > 0.0)) continue;
-    const Vec3 under = middle - (kUnder / length) * n;
+    const Vec3 under = middle - std::max(kUnder / length, touch / n.norm()) * n;
     points.push_back(under);
     for (const Vec3& p : {a, b, c}) points.push_back(under + 0.98 * (p - middle));
   }
@@ -109,12 +109,12 @@ std::vector<Vec3> pointsUnder(const Shell& shell, const Aabb& box) {
 enum class Place { Outside, Inside, Both };
 
 /// Where shell a lies with respect to shell b.
-Place placeOf(const Shell& a, const Shell& b) {
+Place placeOf(const Shell& a, const Shell& b, double touch) {
   // What reaches beyond b's box, by more than touching, is not inside b.
-  const double slack = kUnder * (b.box.hi - b.box.lo).maxCoeff();
+  const double slack = std::max(touch, kUnder * (b.box.hi - b.box.lo).maxCoeff());
   bool inside = false, outside = (a.box.lo.array() < b.box.lo.array() - slack).any() ||
                                  (a.box.hi.array() > b.box.hi.array() + slack).any();
-  for (const Vec3& p : pointsUnder(a, b.box))
+  for (const Vec3& p : pointsUnder(a, b.box, touch))
     if (a.interior->contains(p)) (b.interior->contains(p) ? inside : outside) = true;
   return !inside ? Place::Outside : outside ? Place::Both : Place::Inside;
 }
@@ -126,8 +126,8 @@ std::string name(const Shell& shell, const Polyhedron& solid) {
 }
 
 /// Finds which of two shells is around the other, if either is.
-void nest(Shell& a, Shell& b, const Polyhedron& solid) {
-  const Place ofA = placeOf(a, b), ofB = placeOf(b, a);
+void nest(Shell& a, Shell& b, const Polyhedron& solid, double touch) {
+  const Place ofA = placeOf(a, b, touch), ofB = placeOf(b, a, touch);
   if (ofA == Place::Outside && ofB == Place::Outside) return;
   if ((ofA == Place::Inside) == (ofB == Place::Inside)) {
     const Shell &one = a.face < b.face ? a : b, &two = a.face < b.face ? b : a;
@@ -167,7 +167,7 @@ int sideOf(const Polyhedron& solid) {
   return !(std::abs(sum) > kThin * size * area) ? 0 : sum > 0.0 ? 1 : -1;
 }
 
-void checkShells(const Polyhedron& solid) {
+void checkShells(const Polyhedron& solid, double touch) {
   std::vector<Shell> shells = shellsOf(solid);
   if (shells.size() < 2) return;
   for (const Shell& shell : shells)
@@ -183,7 +183,7 @@ void checkShells(const Polyhedron& solid) {
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t k = i + 1; k < order.size(); ++k) {
       if (order[k]->box.lo.x() > order[i]->box.hi.x()) break;
-      if (order[k]->box.overlaps(order[i]->box)) nest(*order[i], *order[k], solid);
+      if (order[k]->box.overlaps(order[i]->box)) nest(*order[i], *order[k], solid, touch);
     }
   for (const Shell& shell : shells) checkSide(shell, solid);
 }

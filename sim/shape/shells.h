@@ -17,9 +17,10 @@ int sideOf(const Polyhedron& solid);
 ///   depth even  bounds the solid from outside: its own volume is > 0
 ///   depth odd   a cavity: its own volume is < 0
 /// A shell of several that holds no volume bounds nothing, and is refused.
-/// Tried at up to 64 points just inside each shell, 1e-4 of a face's width under it, so that
-/// surfaces that touch pass. Shells that cross between those points are not found.
+/// Tried at up to 64 points just inside each shell, 1e-4 of a face's width under it or deeper than
+/// `touch` [m], so that surfaces that touch pass. Shells that cross between those points are not
+/// found.
 /// @throws NotASolid with one face of the shells that overlap, turn the wrong way or hold nothing.
-void checkShells(const Polyhedron& solid);
+void checkShells(const Polyhedron& solid, double touch = 0.0);
 
 }  // namespace tumble

@@ -126,6 +126,28 @@ TEST_CASE("an L whose corners have few decimals is two pieces, however it is tur
     }
 }
 
+// Oracle: by construction. Corners of two boxes that stand side by side are off by half of the last
+// digit; boxes that share ten of it are not.
+TEST_CASE("shells that touch still do when their corners have few decimals") {
+  for (const int decimals : {3, 4})
+    for (const double shared : {0.0, 10.0}) {
+      const double grain = std::pow(10.0, -decimals);
+      const solids::Raw both = together(solids::box({0, 0, 0}, {1.0 + shared * grain, 1, 1}),
+                                        solids::box({1.0, -0.5, -0.5}, {2, 1.5, 1.5}));
+      for (int turn = 1; turn <= 6; ++turn) {
+        const Vec3 axis(std::cos(turn), std::sin(2.0 * turn), std::sin(turn));
+        const fs::path path = fs::temp_directory_path() / "tumble-side-by-side.obj";
+        std::ofstream(path) << fileOf(turned(both, 0.5 * turn, axis, decimals));
+        CAPTURE(decimals, turn, shared);
+        if (shared == 0.0)
+          CHECK(meshOf("", path.string()).pieces->hulls.size() == 2);
+        else
+          CHECK(whyNoBody("", path.string()).find("overlaps") != std::string::npos);
+        fs::remove(path);
+      }
+    }
+}
+
 // Oracle: closed form. A mesh that is written by hand has few digits, and means them: a step of the
 // last one stays.
 TEST_CASE("a mesh whose faces are flat as they are written is what its corners say") {
