@@ -131,6 +131,7 @@ void Quickhull::replaceSeen(int point) {
     facet(f).gone = true;
     homeless_.swap(facet(f).outside);
     for (const int i : homeless_) {
+      if (i == point) continue;  // in the plane of all of them, which takes long to tell
       const auto home = std::find_if(facets_.begin() + static_cast<std::ptrdiff_t>(first),
                                      facets_.end(), [&](const Facet& g) { return sees(i, g); });
       if (home != facets_.end()) home->outside.push_back(i);

@@ -251,6 +251,10 @@ std::vector<Vec3> cornersOf(const Points& points, const Surface& surface) {
   return corners;
 }
 
+double mostNoise(double far) {
+  return kNoise * (3.0 * far) * (4.0 * far);
+}
+
 double turn(const Points& points, int a, int b, int c, int axis, bool exact) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3 &p = at(points, a), &q = at(points, b), &r = at(points, c);

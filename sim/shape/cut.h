@@ -63,4 +63,8 @@ Surface fill(const Points& points, const std::vector<std::array<int, 2>>& edges,
 /// is asked for exactly, what rounding of the corners may make of a line is 0.
 double turn(const Points& points, int a, int b, int c, int axis, bool exact);
 
+/// What rounding of corners no further than `far` [m] from the origin, by the sum of their
+/// coordinates' sizes, may make of a line at most.
+double mostNoise(double far);
+
 }  // namespace tumble::cut

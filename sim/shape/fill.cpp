@@ -14,8 +14,15 @@ using Loop = std::vector<int>;
 
 class Filler {
  public:
-  Filler(const Points& points, const Vec3& n, bool exact) : points_(points), exact_(exact) {
+  Filler(const Points& points, const std::vector<std::array<int, 2>>& edges, const Vec3& n,
+         bool exact)
+      : points_(points), exact_(exact) {
+    double far = 0.0;
+    for (const auto& [from, to] : edges)
+      far = std::max(far, points.at[static_cast<std::size_t>(from)].lpNorm<1>());
+    sure_ = exact ? std::numeric_limits<double>::infinity() : mostNoise(far);
     n.cwiseAbs().maxCoeff(&axis_);
+    u_ = (axis_ + 1) % 3, v_ = (axis_ + 2) % 3;
     side_ = n[axis_] < 0.0 ? -1.0 : 1.0;
   }
 
@@ -67,9 +74,11 @@ class Filler {
   }
 
  private:
-  double u(int p) const { return points_.at[static_cast<std::size_t>(p)][(axis_ + 1) % 3]; }
-  double v(int p) const { return points_.at[static_cast<std::size_t>(p)][(axis_ + 2) % 3]; }
+  double u(int p) const { return points_.at[static_cast<std::size_t>(p)][u_]; }
+  double v(int p) const { return points_.at[static_cast<std::size_t>(p)][v_]; }
   double turn(int a, int b, int c) const {
+    const double left = (u(b) - u(a)) * (v(c) - v(a)), right = (v(b) - v(a)) * (u(c) - u(a));
+    if (std::abs(left - right) > sure_) return side_ * (left - right);
     return side_ * cut::turn(points_, a, b, c, axis_, exact_);
   }
   static int at(const Loop& loop, std::size_t k) { return loop[k % loop.size()]; }
@@ -241,8 +250,9 @@ class Filler {
   }
 
   const Points& points_;
-  int axis_ = 0;
+  int axis_ = 0, u_ = 1, v_ = 2;  // the one looked along, and the other two
   double side_ = 1.0;
+  double sure_;  // [m²] what turns by more is no line
   bool exact_;
 };
 
@@ -253,7 +263,7 @@ Surface fill(const Points& points, const std::vector<std::array<int, 2>>& edges,
   constexpr long kEdges = 16;  // squared, that cost as much as a triangle
   points.looks += static_cast<long>(edges.size() * edges.size()) / kEdges;
   Surface filled;
-  const Filler filler(points, n, exact);
+  const Filler filler(points, edges, n, exact);
   filler.run(filler.loopsOf(edges), filled);
   return filled;
 }
