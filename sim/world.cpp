@@ -7,6 +7,7 @@
 #include "sim/audit/audit.h"
 #include "sim/method/method.h"
 #include "sim/neighbours.h"
+#include "sim/origin.h"
 #include "sim/shape/pieces.h"
 #include "sim/world_parts.h"
 
@@ -25,21 +26,21 @@ void stand(const BodySample& sample, RigidBody& body) {
 }  // namespace
 
 World::World(const WorldDef& def) : parts_(std::make_unique<Parts>()) {
-  parts_->build(def);
+  parts_->place(def);
   checkNeighbours(parts_->model, parts_->now->state.bodies);
   openBooks();
 }
 
 World::World(const WorldDef& def, const Sample& from) : parts_(std::make_unique<Parts>()) {
-  parts_->build(def);
+  parts_->place(def);
   std::vector<RigidBody>& bodies = parts_->now->state.bodies;
   if (from.bodies.size() != bodies.size())
     throw std::invalid_argument("a world goes on from a sample of its own bodies");
-  for (std::size_t i = 0; i < bodies.size(); ++i) stand(from.bodies[i], bodies[i]);
+  const Sample here = parts_->here(from);
+  for (std::size_t i = 0; i < bodies.size(); ++i) stand(here.bodies[i], bodies[i]);
   openBooks();
 }
 
-// What the certificate compares with later.
 void World::lend(Workers workers) {
   parts_->model.workers = std::move(workers);
 }
@@ -52,6 +53,7 @@ const StageTimes& World::times() const {
   return parts_->now->state.times;
 }
 
+// What the certificate compares with later.
 void World::openBooks() {
   const Model& model = parts_->model;
   const WorldDef& def = model.def;
@@ -80,6 +82,7 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::advance(double t) {
   const Model& model = parts_->model;
+  parts_->seenReport.reset();
   auto& [state, report, audit, lastAdvance] = *parts_->now;
   const double end = std::min(t, model.def.duration);
   if (state.times.clock) state.times.skip();
@@ -103,6 +106,7 @@ void World::restore(const SavedWorld& saved) {
   if (!saved.held_ || saved.held_->of != parts_->made)
     throw std::invalid_argument(
         "a world restores what it saved itself, not what another world saved");
+  parts_->seenReport.reset();
   parts_->now = std::make_unique<Changing>(saved.held_->moment);
 }
 
@@ -136,12 +140,12 @@ Sample World::sample(double t) const {
   std::vector<Contact>& contacts = parts_->seenContacts;
   std::vector<JointForce>& joints = parts_->seenJoints;
   parts_->method->look(parts_->model, parts_->now->state, t, bodies, contacts, joints);
-  return sampleOf(parts_->model, t, bodies, contacts, joints);
+  return parts_->told(sampleOf(parts_->model, t, bodies, contacts, joints));
 }
 
 StartCheck World::checkStart(const WorldDef& def) {
   Parts parts;
-  parts.build(def);
+  parts.place(def);
   std::vector<RigidBody> bodies = parts.now->state.bodies;
   std::vector<Contact> contacts = touchingContacts(parts.model, bodies);
   StartCheck check;
@@ -150,14 +154,14 @@ StartCheck World::checkStart(const WorldDef& def) {
     check.faults.push_back(fault);
 
   // Accelerations without contact forces, then with them.
-  sumForces(def.gravity, def.forces, bodies);
+  sumForces(def.gravity, parts.model.def.forces, bodies);
   for (const StateFault& fault : sinking(parts.model, bodies, contacts))
     check.unheld = std::min(check.unheld, fault.amount);
   addContactForces(parts.model, bodies, contacts);
   for (const StateFault& fault : sinking(parts.model, bodies, contacts))
     check.faults.push_back(fault);
   for (const Contact& c : contacts) check.resting += c.force.isZero(0.0) ? 0 : 1;
-  check.sample = sampleOf(parts.model, 0.0, bodies, contacts);
+  check.sample = parts.told(sampleOf(parts.model, 0.0, bodies, contacts));
   return check;
 }
 
@@ -175,8 +179,15 @@ std::string_view World::runs() const {
   return parts_->now->state.before ? "stepping" : parts_->model.runs;
 }
 
+const Vec3& World::origin() const {
+  return parts_->origin;
+}
+
 const Report& World::report() const {
-  return parts_->now->report;
+  const Report& report = parts_->now->report;
+  if (parts_->origin.isZero(0.0)) return report;
+  if (!parts_->seenReport) parts_->seenReport = shifted(report, parts_->origin, parts_->weight());
+  return *parts_->seenReport;
 }
 
 std::vector<std::string> World::features(bool used) const {

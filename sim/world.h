@@ -108,7 +108,10 @@ class World {
   /// @throws std::invalid_argument for what another world saved.
   void restore(const SavedWorld& saved);
 
+  /// What the world was made to run: all its places are as the scene has them less `origin`.
   const Model& model() const;
+  /// The place [m] that the model counts from; zero but for scenes far from zero.
+  const Vec3& origin() const;
   /// The scene's method; of "auto", what it chose: "auto: exact", "auto: exact, then stepping".
   std::string method() const;
   /// The row of the table of methods that is at work: "exact", "stepping" ….

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "sim/collide/overlap.h"
 #include "sim/collide/parts.h"
 #include "sim/contact/impact.h"
 #include "sim/joined.h"
 #include "sim/method/auto.h"
+#include "sim/origin.h"
 #include "sim/world_parts.h"
 
 namespace tumble {
@@ -246,6 +248,25 @@ double sizeOf(const Model& model) {
 }
 
 }  // namespace
+
+void World::Parts::place(const WorldDef& def) {
+  origin = originOf(def);
+  build(origin.isZero(0.0) ? def : shifted(def, -origin));
+}
+
+Vec3 World::Parts::weight() const {
+  double mass = 0.0;
+  for (const RigidBody& body : now->state.bodies) mass += body.fixed() ? 0.0 : body.M;
+  return mass * model.def.gravity;
+}
+
+Sample World::Parts::told(Sample here) const {
+  return origin.isZero(0.0) ? here : shifted(std::move(here), origin, weight());
+}
+
+Sample World::Parts::here(Sample told) const {
+  return origin.isZero(0.0) ? told : shifted(std::move(told), -origin, weight());
+}
 
 void World::Parts::build(const WorldDef& def) {
   State& state = now->state;

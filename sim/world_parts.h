@@ -24,7 +24,14 @@ struct World::Parts {
   /// Everything but the rules for neighbours and the books.
   /// @throws Refusal
   void build(const WorldDef& def);
+  /// The same, in numbers that count from an origin near the scene.
+  void place(const WorldDef& def);
 
+  Vec3 weight() const;             ///< [N] of all that moves
+  Sample told(Sample here) const;  ///< in the numbers of the scene
+  Sample here(Sample told) const;  ///< in those of the model
+
+  Vec3 origin = Vec3::Zero();  ///< [m] what the scene calls the place where the model has zero
   std::shared_ptr<Model> made = std::make_shared<Model>();  ///< what was saved knows it again
   Model& model = *made;
   const Method* method = nullptr;
@@ -32,6 +39,7 @@ struct World::Parts {
   std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
   std::vector<Contact> seenContacts;
   std::vector<JointForce> seenJoints;
+  std::optional<Report> seenReport;  ///< as the scene counts; made when asked for
 };
 
 struct SavedWorld::Held {

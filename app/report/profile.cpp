@@ -11,6 +11,7 @@
 #include "app/record/recording.h"
 #include "app/report/cost.h"
 #include "sim/contact/rows.h"
+#include "sim/origin.h"
 
 namespace tumble {
 
@@ -83,7 +84,8 @@ std::vector<Problem> contactProblems(const Scene& scene, int instants, double h)
     const double t = scene.world.duration * k / instants;
     world.advance(t);
     if (world.report().stopped) break;
-    const Problem problem = stepProblem(world.model(), world.sample(t), h);
+    const Problem problem =
+        stepProblem(world.model(), shifted(world.sample(t), -world.origin(), Vec3::Zero()), h);
     if (!problem.rows.empty() && problem.rows.size() <= kMostRows) problems.push_back(problem);
   }
   return problems;

@@ -47,14 +47,13 @@ double outsideOf(const Hull& hull, const Vec3& p) {
   }
   return most;
 }
-double outsideOf(const HalfSpace& plane, const Vec3& p) {
-  return plane.n.dot(p) - plane.d;
-}
 template <class S>
 double outsideOf(const S&, const Vec3&) {
   return std::numeric_limits<double>::infinity();
 }
+// A plane stands in the world, whatever pose it has.
 double outsideOf(const Shape& solid, const Pose& pose, const Vec3& p) {
+  if (const HalfSpace* plane = std::get_if<HalfSpace>(&solid)) return plane->n.dot(p) - plane->d;
   const Vec3 p_P = toBody(pose, p);
   return std::visit([&](const auto& s) { return outsideOf(s, p_P); }, solid);
 }

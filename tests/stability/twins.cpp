@@ -150,20 +150,18 @@ Histogram lookFromElsewhere(const std::string& method, const std::vector<std::ui
 }
 
 void requireAlike(const Histogram& found) {
-  for (const char* way : {"mirrored", "permuted", "turned"}) {
+  for (const char* way : {"mirrored", "permuted", "shifted", "turned"}) {
     CAPTURE(way);
     CHECK(found.beyond(way) == 0);
   }
-  CHECK(found.beyond("shifted", 3) == 0);
 }
 
 }  // namespace
 
-// Oracle: the same scene. Mirrored and permuted it ends as far off as twins do, or as much as
-// rounding leaves; shifted by 10 m within 1,000 times that: there gaps round a hundred times as
-// much, at each of many hits that get slower and slower (seed 12, 780 times), while twins move
-// once. Turned, boxes of other bodies meet: what is near a hit in one frame may not be so in
-// another, and its step is then divided there alone, an error of first order that some scenes show.
+// Oracle: the same scene. Mirrored, permuted and shifted it ends as far off as twins do, or as much
+// as rounding leaves. Turned, boxes of other bodies meet: what is near a hit in one frame may not
+// be so in another, and its step is then divided there alone, an error of first order that some
+// scenes show.
 TEST_CASE("random scenes end alike from wherever they are seen") {
   requireAlike(lookFromElsewhere("stepping", seedsFrom(1, 12)));
 }
@@ -174,16 +172,19 @@ TEST_CASE("random scenes end alike from wherever they are seen") {
 // its corners in touch, whose gaps were closed in times of their own, so that rounding told which
 // corner was left out (479, 712); the inner corner of two boxes side by side, which rounding took
 // out of its face (28, 277, 800): 10 m aside they ended up to 5 mm elsewhere.
+// Contacts that a plane hid by the place of its body (13, 643), gaps that rounded by the place of
+// the scene at each of many hits that get slower and slower (461): up to 14 mm.
 TEST_CASE("scenes whose end an order, a frame or rounding could choose end alike") {
-  requireAlike(lookFromElsewhere("stepping", {28, 124, 219, 277, 479, 664, 673, 712, 761, 800}));
+  requireAlike(lookFromElsewhere("stepping",
+                                 {13, 28, 124, 219, 277, 461, 479, 643, 664, 673, 712, 761, 800}));
 }
 
-// Measured: 1 permuted, 16 shifted and 10 turned end more than 100 times as far apart.
+// Measured: 1 permuted and 10 turned end more than 100 times as far apart.
 TEST_CASE("a thousand random scenes end alike from wherever they are seen", "[long]") {
   constexpr int kScenes = 1000;
   const Histogram found = lookFromElsewhere("stepping", seedsFrom(1, kScenes));
   CHECK(found.beyond("permuted") <= kScenes / 200);
-  CHECK(found.beyond("mirrored") <= kScenes / 100);
-  CHECK(found.beyond("shifted") <= kScenes / 100);
+  CHECK(found.beyond("mirrored") == 0);
+  CHECK(found.beyond("shifted") == 0);
   CHECK(found.beyond("turned") <= kScenes / 50);
 }
