@@ -39,8 +39,11 @@ std::string crushWords(const Model& model, double t, std::span<const std::pair<i
   return words + " at t = " + shortNumber(t) + " s: no force can hold back a fixed body that moves";
 }
 
+namespace {
+
+/// @param rubs  whether friction counts
 std::string findCrushed(const Model& model, double t, std::span<const RigidBody> bodies,
-                        std::span<const Contact> contacts) {
+                        std::span<const Contact> contacts, bool rubs) {
   const auto driven = [&](const Contact& c) {
     return drives(model, bodies[c.a], c.a) || drives(model, bodies[c.b], c.b);
   };
@@ -49,12 +52,39 @@ std::string findCrushed(const Model& model, double t, std::span<const RigidBody>
   beginVelocityProblem(bodies, problem);
   std::vector<std::pair<int, int>> pairs;
   for (const Contact& c : contacts) {
-    problem.cones.push_back({.kind = ConeKind::Push, .row = static_cast<int>(problem.rows.size())});
-    problem.rows.push_back(pointRow(bodies, c.a, c.b, c.point.p, c.point.n, 0.0));
+    const bool cone = rubs && c.friction > 0.0;
+    problem.cones.push_back({.kind = cone ? ConeKind::Friction : ConeKind::Push,
+                             .row = static_cast<int>(problem.rows.size()),
+                             .mu = cone ? c.friction : 0.0});
+    const auto add = [&](const Vec3& along) {
+      problem.rows.push_back(pointRow(bodies, c.a, c.b, c.point.p, along, 0.0));
+    };
+    add(c.point.n);
+    if (cone) {
+      Vec3 t1, t2;
+      tangents(c.point.n, Vec3::Zero(), t1, t2);
+      add(t1);
+      add(t2);
+    }
     pairs.emplace_back(c.a, c.b);
   }
-  const std::vector<double> push = endlessPush(problem);
+  const std::vector<double> push = endlessPush(problem, rubs);
   return push.empty() ? std::string{} : crushWords(model, t, pairs, push);
+}
+
+}  // namespace
+
+std::string findCrushed(const Model& model, double t, std::span<const RigidBody> bodies,
+                        std::span<const Contact> contacts) {
+  return findCrushed(model, t, bodies, contacts, false);
+}
+
+std::string findLocked(const Model& model, double t, std::span<const RigidBody> bodies,
+                       std::span<const Contact> contacts, double residual) {
+  constexpr double kHopeless = 1e-2;
+  if (!(residual > kHopeless)) return {};
+  const std::string crushed = findCrushed(model, t, bodies, contacts, false);
+  return crushed.empty() ? findCrushed(model, t, bodies, contacts, true) : crushed;
 }
 
 }  // namespace tumble

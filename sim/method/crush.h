@@ -20,8 +20,13 @@ std::string crushWords(const Model& model, double t, std::span<const std::pair<i
                        std::span<const double> push);
 
 /// The same for contacts that touch: empty unless a fixed body that moves is among them and no
-/// velocities obey them.
+/// velocities obey their normals.
 std::string findCrushed(const Model& model, double t, std::span<const RigidBody> bodies,
                         std::span<const Contact> contacts);
+
+/// The same after an impact that left this residual: empty unless no impulses were found, and
+/// friction holds what is between them.
+std::string findLocked(const Model& model, double t, std::span<const RigidBody> bodies,
+                       std::span<const Contact> contacts, double residual);
 
 }  // namespace tumble

@@ -3,31 +3,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/problem/cone.h"
 #include "sim/problem/row.h"
 
 namespace tumble {
 namespace {
 
-/// Sweeps over the first row of every cone, from λ = 0 and v = 0 of what moves.
-class Normals {
+/// Sweeps over the cones, from λ = 0 and v = 0 of what moves; of one that slides only its normal.
+class Pushes {
  public:
-  explicit Normals(const Problem& problem)
-      : problem_(problem), v_(problem.vStar), lambda_(problem.cones.size(), 0.0) {
+  Pushes(const Problem& problem, bool rubs)
+      : problem_(problem),
+        rubs_(rubs),
+        v_(problem.vStar),
+        lambda_(problem.cones.size(), Vec3::Zero()) {
     for (std::size_t i = 0; i < v_.size(); ++i)
       if (problem.invM[i] > 0.0 || !problem.Iinv[i].isZero(0.0)) v_[i].setZero();
-    for (std::size_t c = 0; c < lambda_.size(); ++c) asked_.push_back(rowVelocity(row(c), v_));
+    for (std::size_t c = 0; c < lambda_.size(); ++c) asked_.push_back(velocity(c));
   }
 
   /// @return the largest change, in units of u
   double sweep() {
     double largest = 0.0;
     for (std::size_t c = 0; c < lambda_.size(); ++c) {
-      const double mobility = rowMobility(problem_, row(c)) - row(c).compliance;
-      if (mobility <= 0.0 || row(c).compliance > 0.0) continue;
-      double next = lambda_[c] - rowVelocity(row(c), v_) / mobility;
-      if (problem_.cones[c].kind != ConeKind::Equality) next = std::max(0.0, next);
-      push(row(c), next - lambda_[c]);
-      largest = std::max(largest, std::abs(next - lambda_[c]) * mobility);
+      double mobility = 0.0, compliance = 0.0;
+      for (int k = 0; k < rows(c); ++k) {
+        mobility += rowMobility(problem_, row(c, k)) - row(c, k).compliance;
+        compliance += row(c, k).compliance;
+      }
+      if (mobility <= 0.0 || compliance > 0.0) continue;
+      const Vec3 next = nearest(c, lambda_[c] - velocity(c) / mobility), by = next - lambda_[c];
+      for (int k = 0; k < rows(c); ++k) push(row(c, k), by[k]);
+      largest = std::max(largest, by.cwiseAbs().maxCoeff() * mobility);
       lambda_[c] = next;
     }
     return largest;
@@ -37,15 +44,37 @@ class Normals {
     constexpr double kBehind = 0.01;
     double asks = 0.0, gives = 0.0;
     for (std::size_t c = 0; c < lambda_.size(); ++c) {
-      asks -= asked_[c] * lambda_[c];
-      gives += (rowVelocity(row(c), v_) - asked_[c]) * lambda_[c];
+      asks -= asked_[c].dot(lambda_[c]);
+      gives += (velocity(c) - asked_[c]).dot(lambda_[c]);
     }
     return asks > 0.0 && gives < kBehind * asks;
   }
-  const std::vector<double>& lambda() const { return lambda_; }
+  std::vector<double> normals() const {
+    std::vector<double> result;
+    for (const Vec3& lambda : lambda_) result.push_back(lambda.x());
+    return result;
+  }
 
  private:
-  const Row& row(std::size_t cone) const { return problem_.rows[problem_.cones[cone].row]; }
+  int rows(std::size_t cone) const {
+    const ConeKind kind = problem_.cones[cone].kind;
+    return rubs_ && kind == ConeKind::Friction ? coneRows(kind) : 1;
+  }
+  const Row& row(std::size_t cone, int k) const {
+    return problem_.rows[problem_.cones[cone].row + k];
+  }
+  /// u of the rows of a cone; 0 of those that it does not have.
+  Vec3 velocity(std::size_t cone) const {
+    Vec3 u = Vec3::Zero();
+    for (int k = 0; k < rows(cone); ++k) u[k] = rowVelocity(row(cone, k), v_);
+    return u;
+  }
+  Vec3 nearest(std::size_t cone, const Vec3& lambda) const {
+    const Cone& of = problem_.cones[cone];
+    if (of.kind == ConeKind::Equality) return lambda;
+    if (rubs_ && of.kind == ConeKind::Friction) return projectOnFrictionCone(lambda, of.mu);
+    return Vec3(std::max(0.0, lambda.x()), 0.0, 0.0);
+  }
   void push(const Row& row, double by) {
     v_[row.a].head<3>() += by * problem_.invM[row.a] * row.linear;
     v_[row.b].head<3>() -= by * problem_.invM[row.b] * row.linear;
@@ -54,20 +83,21 @@ class Normals {
   }
 
   const Problem& problem_;
+  bool rubs_;
   std::vector<Vec6> v_;
-  std::vector<double> lambda_, asked_;
+  std::vector<Vec3> lambda_, asked_;
 };
 
 }  // namespace
 
-std::vector<double> endlessPush(const Problem& problem) {
+std::vector<double> endlessPush(const Problem& problem, bool rubs) {
   constexpr int kSweeps = 2000;
   constexpr double kSettled = 1e-4;  // of the first change: forces that end
-  Normals normals(problem);
-  const double first = normals.sweep();
+  Pushes pushes(problem, rubs);
+  const double first = pushes.sweep();
   for (int k = 1; k < kSweeps; ++k)
-    if (normals.sweep() <= kSettled * first) return {};
-  return normals.endless() ? normals.lambda() : std::vector<double>{};
+    if (pushes.sweep() <= kSettled * first) return {};
+  return pushes.endless() ? pushes.normals() : std::vector<double>{};
 }
 
 }  // namespace tumble

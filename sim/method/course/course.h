@@ -77,6 +77,8 @@ class Course {
 
   bool collides() const;
   void respond();
+  /// Ends the run with these words, if there are any.
+  void stopIf(const std::string& words);
   /// Whether a contact that lasted moves no more than one that lasts.
   bool leans(const Contact& contact) const;
   double restitutionNow(const Contact& contact) const;

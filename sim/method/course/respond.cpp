@@ -61,13 +61,15 @@ double Course::restitutionNow(const Contact& c) const {
   return c.restitution;
 }
 
+void Course::stopIf(const std::string& words) {
+  if (words.empty()) return;
+  report_.stopped = true;
+  report_.reason = words;
+}
+
 void Course::respond() {
-  const std::string crushed = findCrushed(model_, state_.t, state_.bodies, touching_);
-  if (!crushed.empty()) {
-    report_.stopped = true;
-    report_.reason = crushed;
-    return;
-  }
+  stopIf(findCrushed(model_, state_.t, state_.bodies, touching_));
+  if (report_.stopped) return;
   hits_ = std::any_of(touching_.begin(), touching_.end(), [&](const Contact& c) {
     return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < -tolerance_.rest &&
            !leans(c);
@@ -91,6 +93,7 @@ void Course::respond() {
   bookImpact(impact, report_);
   recordImpacts(touching_, vrel, impulse);
   recordBonds(bonds);
+  stopIf(findLocked(model_, state_.t, state_.bodies, touching_, impact.residual));
 }
 
 void Course::recordBonds(const Bonds& bonds) {

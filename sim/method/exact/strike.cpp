@@ -17,8 +17,6 @@ namespace {
 /// [m] per size of the world: a bounce that would rise less than this is the last of its row. The
 /// bounces left out would take  2 v/(a (1 − e)), after which the contact counts as at rest.
 constexpr double kLowest = 1e-12;
-/// Residual from which an impact is asked whether any velocities obey it.
-constexpr double kHopeless = 1e-2;
 /// Events that leave time where it is, in a row, before some are seen late.
 constexpr int kStalled = 1000;
 
@@ -216,9 +214,9 @@ void Exact::respond(double t, const Cluster& cluster) {
   bookImpact(impact, report_);
   state_.effort.done += impact.rows / Effort::kRows;
   recordImpacts(t, cluster, vrel, impulse);
-  if (!(impact.residual > kHopeless)) return;
-  const std::string crushed = findCrushed(model_, t, state_.bodies, cluster.contacts);
-  if (!crushed.empty()) stop(crushed);
+  const std::string locked =
+      findLocked(model_, t, state_.bodies, cluster.contacts, impact.residual);
+  if (!locked.empty()) stop(locked);
 }
 
 void Exact::recordImpacts(double t, const Cluster& cluster, std::span<const double> vrel,

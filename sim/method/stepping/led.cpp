@@ -83,7 +83,8 @@ void Stepping::findCrushed(Island& island, const SolveReport& solved) {
   constexpr double kFailed = 1e-3;
   if (solved.status == SolveStatus::Solved || !(solved.residual > kFailed)) return;
   if (!isLed(island)) return;
-  const std::vector<double> push = endlessPush(island.problem);
+  std::vector<double> push = endlessPush(island.problem, false);
+  if (push.empty()) push = endlessPush(island.problem, true);
   if (push.empty()) return;
   std::vector<std::pair<int, int>> pairs;
   for (const Cone& cone : island.problem.cones) {

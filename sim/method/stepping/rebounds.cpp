@@ -299,15 +299,21 @@ bool Stepping::strike(double within) {
   std::vector<Vec3> impulse(contacts.size(), Vec3::Zero());
   Bonds bonds;
   impactBonds(state_.bodies, joints(), tolerance_.touch, bonds);
-  bookImpact(findImpactLaw(strikesAsCrowd() ? "crowd" : std::string_view(model_.def.impact))
-                 ->apply({.bodies = state_.bodies,
-                          .contacts = contacts,
-                          .restitution = restitution,
-                          .impulse = impulse,
-                          .tolerance = tolerance_,
-                          .bonds = &bonds,
-                          .goesOn = true}),
-             report_);
+  const ImpactReport impact =
+      findImpactLaw(strikesAsCrowd() ? "crowd" : std::string_view(model_.def.impact))
+          ->apply({.bodies = state_.bodies,
+                   .contacts = contacts,
+                   .restitution = restitution,
+                   .impulse = impulse,
+                   .tolerance = tolerance_,
+                   .bonds = &bonds,
+                   .goesOn = true});
+  bookImpact(impact, report_);
+  const std::string locked = findLocked(model_, state_.t, state_.bodies, contacts, impact.residual);
+  if (!locked.empty()) {
+    report_.stopped = true;
+    report_.reason = locked;
+  }
   if (!bonds.empty()) state_.externalImpulse += outerBonds(bonds, state_.bodies).force;
   for (const Event& event : impactEvents(model_, state_, state_.t, contacts, vrel, impulse))
     if (!leansOn(event, state_.bodies, tolerance_.keep)) report_.events.push_back(event);
