@@ -82,7 +82,6 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::advance(double t) {
   const Model& model = parts_->model;
-  parts_->seenReport.reset();
   auto& [state, report, audit, lastAdvance] = *parts_->now;
   const double end = std::min(t, model.def.duration);
   if (state.times.clock) state.times.skip();
@@ -93,6 +92,7 @@ void World::advance(double t) {
   const StageScope auditing(state.times, StepStage::Audit);
   audit->follow(state);
   audit->report(state, report);
+  parts_->tellAnew();
 }
 
 SavedWorld World::save() const {
@@ -106,8 +106,8 @@ void World::restore(const SavedWorld& saved) {
   if (!saved.held_ || saved.held_->of != parts_->made)
     throw std::invalid_argument(
         "a world restores what it saved itself, not what another world saved");
-  parts_->seenReport.reset();
   parts_->now = std::make_unique<Changing>(saved.held_->moment);
+  parts_->tellAnew();
 }
 
 namespace {
@@ -184,9 +184,11 @@ const Vec3& World::origin() const {
 }
 
 const Report& World::report() const {
-  const Report& report = parts_->now->report;
-  if (parts_->origin.isZero(0.0)) return report;
-  if (!parts_->seenReport) parts_->seenReport = shifted(report, parts_->origin, parts_->weight());
+  if (parts_->origin.isZero(0.0)) return parts_->now->report;
+  if (!parts_->seenReport) {
+    parts_->seenReport.emplace();
+    parts_->tellAnew();
+  }
   return *parts_->seenReport;
 }
 

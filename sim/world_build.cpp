@@ -268,6 +268,10 @@ Sample World::Parts::here(Sample told) const {
   return origin.isZero(0.0) ? told : shifted(std::move(told), -origin, weight());
 }
 
+void World::Parts::tellAnew() {
+  if (seenReport) *seenReport = shifted(now->report, origin, weight());
+}
+
 void World::Parts::build(const WorldDef& def) {
   State& state = now->state;
   model.def = def;

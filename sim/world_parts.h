@@ -30,6 +30,7 @@ struct World::Parts {
   Vec3 weight() const;             ///< [N] of all that moves
   Sample told(Sample here) const;  ///< in the numbers of the scene
   Sample here(Sample told) const;  ///< in those of the model
+  void tellAnew();                 ///< brings `seenReport` up to date, if it was asked for
 
   Vec3 origin = Vec3::Zero();  ///< [m] what the scene calls the place where the model has zero
   std::shared_ptr<Model> made = std::make_shared<Model>();  ///< what was saved knows it again
@@ -39,7 +40,7 @@ struct World::Parts {
   std::vector<RigidBody> seen;  ///< scratch of `sample`, so that looking does not allocate
   std::vector<Contact> seenContacts;
   std::vector<JointForce> seenJoints;
-  std::optional<Report> seenReport;  ///< as the scene counts; made when asked for
+  std::optional<Report> seenReport;  ///< in the numbers of the scene
 };
 
 struct SavedWorld::Held {

@@ -48,7 +48,8 @@ std::vector<int> islandsOfContacts(const Impact& impact, std::span<const int> co
 /// Adds what one impact did to what others did.
 void add(const ImpactReport& part, ImpactReport& sum);
 
-/// Passes until nothing approaches; after so many, one more without rebound.
+/// Passes until nothing approaches; after so many, one more without rebound. What fixed bodies that
+/// move close in on is struck at once if it takes long, and not at all if no impulses part it.
 ImpactReport strikeUntilApart(const Impact& impact, PassKind kind, int passes);
 
 /// Whether some contact still approaches, or a bond gives way.

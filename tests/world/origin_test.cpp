@@ -108,6 +108,7 @@ void requireSame(const WorldDef& near) {
   World here(near), there(shifted(near, kShift));
   CAPTURE(near.method, there.origin());
   REQUIRE(here.origin() == Vec3::Zero());
+  const Report &report = here.report(), &told = there.report();
   for (int k = 0; k <= 10; ++k) {
     const double t = 0.1 * k * near.duration;
     here.advance(t);
@@ -116,7 +117,6 @@ void requireSame(const WorldDef& near) {
     const double apart = there.sample(t).potential - here.sample(t).potential;
     REQUIRE(apart == Approx(-weightOf(here).dot(kShift)).epsilon(1e-14));  // measured 0
   }
-  const Report &report = here.report(), &told = there.report();
   REQUIRE(told.events.size() == report.events.size());
   for (std::size_t i = 0; i < told.events.size(); ++i) {
     REQUIRE(told.events[i].t == report.events[i].t);
