@@ -91,11 +91,13 @@ class Pushes {
 }  // namespace
 
 std::vector<double> endlessPush(const Problem& problem, bool rubs) {
-  constexpr int kSweeps = 2000;
-  constexpr double kSettled = 1e-4;  // of the first change: forces that end
+  // Where friction is hardly more than enough, forces grow slowly.
+  constexpr int kSweeps = 2000, kVisits = 400'000;  // at least; of cones, with friction
+  constexpr double kSettled = 1e-4;                 // of the first change: forces that end
+  const int visits = rubs ? kVisits / std::max(1, static_cast<int>(problem.cones.size())) : 0;
   Pushes pushes(problem, rubs);
   const double first = pushes.sweep();
-  for (int k = 1; k < kSweeps; ++k)
+  for (int k = 1; k < std::max(kSweeps, visits); ++k)
     if (pushes.sweep() <= kSettled * first) return {};
   return pushes.endless() ? pushes.normals() : std::vector<double>{};
 }

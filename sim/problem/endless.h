@@ -18,8 +18,7 @@ namespace tumble {
 /// Gauss–Seidel sweeps make λ grow for ever, and the left side stays behind the right, here by a
 /// hundred.
 /// @param rubs  false: normals alone
-/// @return λ along the normal per cone, or nothing where the contacts can be obeyed as far as 2,000
-///         sweeps tell
+/// @return λ along the normal per cone; none where the contacts can be obeyed as far as sweeps tell
 std::vector<double> endlessPush(const Problem& problem, bool rubs);
 
 }  // namespace tumble

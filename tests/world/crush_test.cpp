@@ -70,7 +70,7 @@ TEST_CASE("what is pressed against a wall ends the run, and words say who and wh
 TEST_CASE("what can give way is not crushed, unless friction holds it") {
   for (const char* method : {"exact", "stepping", "course"}) {
     for (const double e : {0.0, 0.5})
-      for (const double mu : {0.0, 0.25, 0.37, 0.8}) {
+      for (const double mu : {0.0, 0.3, 0.32, 0.8}) {
         CAPTURE(method, e, mu);
         WorldDef def = jaws(method);
         for (BodyDef& body : def.bodies) {
