@@ -59,8 +59,11 @@ double largestContactForce(const Recording& recording) {
 }
 
 void addContactForces(const Sample& sample, double fmax, double length, Picture& picture) {
+  constexpr double kLevel = 1e-9;  // of a force: what rounding has of its height
   for (const ContactSample& contact : sample.contacts) {
-    const Vec3 force = contact.force.y() < 0.0 ? Vec3(-contact.force) : contact.force;
+    // On the body that is pushed up; of a level push, on the first.
+    const bool down = contact.force.y() < -kLevel * contact.force.norm();
+    const Vec3 force = down ? Vec3(-contact.force) : contact.force;
     const double share = std::min(1.0, force.norm() / fmax);
     if (share < 1e-3) continue;
     const Vec3 tip = contact.p + share * length * force.normalized();
