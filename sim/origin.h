@@ -8,6 +8,8 @@ namespace tumble {
 
 /// A place [m] near what moves, in numbers of few bits; zero where the scene stands no farther from
 /// the origin than a few times its own extent, or where nothing that moves could meet anything.
+/// What is added far away can move it, and rounding with it; while it stays, that changes no bit of
+/// the motion here.
 Vec3 originOf(const WorldDef& def);
 
 /// The same scene with all its places shifted.
