@@ -1,3 +1,5 @@
+// Cuts a solid into convex pieces; one class and long, for all that a piece is asked, in order,
+// shares its corners and the work that may be done.
 #include "sim/shape/decompose.h"
 
 #include <algorithm>
