@@ -125,8 +125,13 @@ bool courseIsDue(const std::string& text, int moving) {
   return moving <= 2 && text.find("cylinder") == std::string::npos;
 }
 
+/// Prints what came of the scenes so far after each thousand of them, and at the end.
 std::map<std::string, Tally> soak(std::uint64_t first, int scenes) {
   std::map<std::string, Tally> tallies;
+  const auto print = [&tallies] {
+    for (const auto& [method, tally] : tallies)
+      tally.print(method, tally.finished + tally.refused + tally.stopped + tally.slow);
+  };
   for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(scenes); ++seed) {
     const std::string text = test::randomScene(seed);
     int moving = 0;
@@ -136,9 +141,9 @@ std::map<std::string, Tally> soak(std::uint64_t first, int scenes) {
       tallies[method].add(ending, seed);
     }
     if (courseIsDue(text, moving)) tallies["course"].add(runBy("course", text, seed), seed);
+    const std::uint64_t done = seed - first + 1;
+    if (done % 1'000 == 0 || done == static_cast<std::uint64_t>(scenes)) print();
   }
-  for (const auto& [method, tally] : tallies)
-    tally.print(method, tally.finished + tally.refused + tally.stopped + tally.slow);
   return tallies;
 }
 
