@@ -15,8 +15,6 @@ constexpr int kHard = 40;
 constexpr std::size_t kDense = 60;
 /// Rows of an island up to which a dense factor takes less than a second.
 constexpr std::size_t kFewRows = 600;
-/// Residual above which no forces obey the laws.
-constexpr double kLost = 1e-6;
 /// Residual that rounding leaves: what draws gaps of joints shut holds their rounding, by the
 /// square of the time in which it does.
 constexpr double kFree = 1e-12, kJoined = 1e-10;
@@ -101,11 +99,11 @@ SolveReport RestForces::solve(std::span<const Contact> contacts, double misfit) 
   if (hard_ && solution_.lambda.size() == problem_.rows.size()) {
     const double tolerance = hasJoints(problem_) ? kJoined : kFree;
     const SolveReport report = polish(problem_, {.tolerance = tolerance}, solution_);
-    if (report.status == SolveStatus::Solved || (left_ > kLost && report.residual <= left_))
-      return report;
+    if (report.status == SolveStatus::Solved || report.residual <= left_) return report;
   }
   const SolveReport report = solveAnew(friction, misfit);
-  hard_ = friction && report.iterations > kHard && problem_.rows.size() <= kDense;
+  const bool easy = report.status == SolveStatus::Solved && report.iterations <= kHard;
+  hard_ = friction && !easy && problem_.rows.size() <= kDense;
   left_ = report.residual;
   return report;
 }
