@@ -12,8 +12,8 @@ struct Gap {
 };
 
 /// Widest gap between two boxes or hulls over the faces of both and the pairs of edges that make a
-/// face of their difference (see `convex::widestAxis`). Its sign is that of exact arithmetic on the
-/// numbers as they are stored:
+/// face of their difference (see `convex::widenByEdges`). Its sign is that of exact arithmetic on
+/// the numbers as they are stored:
 ///   points x + R(q) p_B,  R(q) the rotation of q / |q|, which need not be unit
 /// In doubles first, with a bound of a few units in the last place of size and distance; where that
 /// leaves the sign open, again in pairs of doubles (`DoubleDouble`). The bound is then 1e-26 of

@@ -26,16 +26,23 @@ struct Plane {
 /// where the sine is 1e-8.
 void cross(const Vec3& p, const Vec3& ea, const Vec3& q, const Vec3& eb, Plane& plane);
 
-/// The widest of the planes along the faces of either core and across a pair of edges. The widest
-/// plane between overlapping solids is one of these (Gottschalk, Separating axis theorem, 1996);
-/// and of the pairs of edges only those that make a face of the difference a − b, whose arcs on
-/// the sphere of normals cross (Gregorius, The Separating Axis Test between Convex Polyhedra, GDC
-/// 2013). A face of a must win over one of b, and a pair of edges over both, by more than `bias`
-/// [m]. gap = −∞ if neither has faces and they have no pair of edges.
-Plane widestAxis(const Core& a, const Core& b, double bias);
+/// The widest of the planes along the faces of either core. A face of a must win over one of b by
+/// more than `bias` [m]. gap = −∞ if neither has faces.
+Plane widestOfFaces(const Core& a, const Core& b, double bias);
 
-/// All planes that `widestAxis` has to choose from, the widest first, faces of b before those of a
-/// and before pairs of edges where gaps are the same.
+/// Puts a plane across a pair of edges in the place of `best`, if one is wider than it by more than
+/// `bias` [m], and than `least` [m]: the widest, of those pairs that make a face of the difference
+/// a − b, whose arcs on the sphere of normals cross (Gregorius, The Separating Axis Test between
+/// Convex Polyhedra, GDC 2013). The widest plane between overlapping solids is one of these or of
+/// the faces (Gottschalk, Separating axis theorem, 1996).
+/// @param n  [1] along which the solids are apart, out of b towards a: the nearer it is to the
+/// widest
+///           plane's, the fewer edges are looked at
+void widenByEdges(const Core& a, const Core& b, double bias, const Vec3& n, double least,
+                  Plane& best);
+
+/// All planes that these have to choose from, the widest first, faces of b before those of a and
+/// before pairs of edges where gaps are the same.
 void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes);
 
 /// The plane across the line between the nearest points of two cores that are apart; gap = −∞ if

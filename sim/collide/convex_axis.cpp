@@ -51,13 +51,21 @@ void tryFaces(const Core& a, const Core& b, double bias, Plane& best) {
   best.gap = coreGap(a, b, best.n);
 }
 
+// How wide [m] a plane along two edges must be to win, and wider than `least`.
+struct ToWin {
+  double bias, least;
+  double over(const Plane& best) const {
+    return std::max(best.gap + (best.tie == NormalTie::Edges ? 0.0 : bias), least);
+  }
+};
+
 // The plane along edges i of a and j of b with directions ea and eb; `up` tells its side.
 void tryEdges(const Core& a, int i, const Vec3& ea, const Core& b, int j, const Vec3& eb, double up,
-              double bias, Plane& best) {
+              const ToWin& toWin, Plane& best) {
   const Vec3 product = up * ea.cross(eb);
   const double sine = product.norm();
   if (sine < kParallel) return;
-  const double floor = best.gap + (best.tie == NormalTie::Edges ? 0.0 : bias);
+  const double floor = toWin.over(best);
   const Vec3 &p = a.points[a.edges[i].from], &q = b.points[b.edges[j].from];
   if (sine > kClearSine && !(product.dot(p - q) > floor * sine)) return;
   // Where the sine is small, the product is off also along the edges; across them it is free.
@@ -81,8 +89,9 @@ constexpr double kSlack = 1e-12;
 
 // The edges of a solid across which the gap to another can be above a floor, for the search over
 // pairs. Let m be an axis in the arc of normals of an edge, p on the edge, q any point of the other
-// solid: the gap along m is at most m·(q − p), and where q lies below both faces of the edge, not
-// above the higher of its heights over them. So a q near the contact leaves the edges around it.
+// solid: the gap along m is at most m·(q − p). That is most where m is along the way from the
+// edge's line to q, if it can be, and else at an end of the arc: no more than the higher of the
+// heights of q over the two faces. So a q near the contact leaves the edges around it.
 struct Edges {
   const Core& core;
   Few<int> number;  // of those edges across which a gap above a floor can be
@@ -90,19 +99,23 @@ struct Edges {
   Few<double> heights;
 
   Edges(const Core& solid, const Vec3& other, double floor) : core(solid) {
-    const std::size_t faces = solid.normals.size();
-    Few<char> low(faces);
-    for (std::size_t f = 0; f < faces; ++f) {
-      const Vec3 d = other - solid.points[solid.faces[f][0]];
-      low[f] = solid.normals[f].dot(d) <= std::min(floor, 0.0) - kSlack * d.norm();
-    }
+    const double slack = kSlack * ((other - solid.middle).norm() + 2.0 * solid.size);
+    for (std::size_t f = 0; f < solid.normals.size(); ++f)
+      heights.push_back(solid.normals[f].dot(other - solid.points[solid.faces[f][0]]));
     for (int i = 0; i < static_cast<int>(solid.edges.size()); ++i) {
       const Polyhedron::Edge& edge = solid.edges[i];
-      if (faces > 0 && low[edge.left] && low[edge.right]) continue;
+      if (!isSegment() && std::max(heights[edge.left], heights[edge.right]) <= floor - slack &&
+          (floor <= 0.0 || !isBetween(edge, slack)))
+        continue;
       number.push_back(i);
       along.push_back(solid.along(edge).normalized());
     }
-    heights.resize(faces);
+  }
+  // Whether the way from the edge's line to a point at these heights lies between its normals.
+  bool isBetween(const Polyhedron::Edge& edge, double slack) const {
+    const double left = heights[edge.left], right = heights[edge.right];
+    const double cosine = core.normals[edge.left].dot(core.normals[edge.right]);
+    return left - cosine * right >= -slack && right - cosine * left >= -slack;
   }
   bool isSegment() const { return core.normals.empty(); }
   const Polyhedron::Edge& edge(int k) const { return core.edges[number[k]]; }
@@ -155,15 +168,6 @@ void forCrossingEdges(Edges& a, Edges& b, const Visit& visit) {
   }
 }
 
-void tryAllEdges(const Core& coreA, const Core& coreB, double bias, Plane& best) {
-  int vertex = -1;
-  Edges a(coreA, outermost(coreB, best.n, vertex), best.gap);
-  Edges b(coreB, outermost(coreA, -best.n, vertex), best.gap);
-  forCrossingEdges(a, b, [&](int i, const Vec3& ea, int j, const Vec3& eb, double up) {
-    tryEdges(coreA, i, ea, coreB, j, eb, up, bias, best);
-  });
-}
-
 }  // namespace
 
 void cross(const Vec3& p, const Vec3& ea, const Vec3& q, const Vec3& eb, Plane& plane) {
@@ -173,11 +177,22 @@ void cross(const Vec3& p, const Vec3& ea, const Vec3& q, const Vec3& eb, Plane& 
   plane.pb = q + (d.cross(ea).dot(product) / squared) * eb;
 }
 
-Plane widestAxis(const Core& a, const Core& b, double bias) {
+Plane widestOfFaces(const Core& a, const Core& b, double bias) {
   Plane best;
   tryFaces(a, b, bias, best);
-  tryAllEdges(a, b, bias, best);
   return best;
+}
+
+void widenByEdges(const Core& coreA, const Core& coreB, double bias, const Vec3& n, double least,
+                  Plane& best) {
+  int vertex = -1;
+  const ToWin toWin{bias, least};
+  const double floor = toWin.over(best);
+  Edges a(coreA, outermost(coreB, n, vertex), floor);
+  Edges b(coreB, outermost(coreA, -n, vertex), floor);
+  forCrossingEdges(a, b, [&](int i, const Vec3& ea, int j, const Vec3& eb, double up) {
+    tryEdges(coreA, i, ea, coreB, j, eb, up, toWin, best);
+  });
 }
 
 void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes) {
@@ -197,7 +212,7 @@ void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes) {
   Edges ofA(a, b.middle, none), ofB(b, a.middle, none);
   forCrossingEdges(ofA, ofB, [&](int i, const Vec3& ea, int j, const Vec3& eb, double up) {
     Plane plane;
-    tryEdges(a, i, ea, b, j, eb, up, 0.0, plane);
+    tryEdges(a, i, ea, b, j, eb, up, {0.0, none}, plane);
     if (plane.gap > none) planes.push_back(plane);
   });
   std::sort(planes.begin(), planes.end(), [](const Plane& p, const Plane& q) {

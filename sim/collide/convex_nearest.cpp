@@ -104,14 +104,20 @@ Plane nearestPlane(const Core& a, const Core& b) {
 Plane widestPlane(const Core& a, const Core& b, double bias) {
   if (a.isCylinder() || b.isCylinder() || a.isEllipsoid() || b.isEllipsoid())
     return widestPlaneRound(a, b, bias / std::max(a.size, b.size));
-  Plane axis = widestAxis(a, b, bias);
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  Plane axis = widestOfFaces(a, b, bias);
+  // Of cores that a face parts, the plane of their distance spares most pairs of edges.
+  Plane nearest;
+  const bool parted = axis.gap > 0.0;
+  if (parted) nearest = nearestPlane(a, b);
+  const auto most = [&] { return nearest.gap - kWider * (a.size + b.size + nearest.gap) - bias; };
+  const bool known = nearest.gap > kNone;
+  widenByEdges(a, b, bias, known ? nearest.n : axis.n, known ? most() : kNone, axis);
   // The difference of two segments is flat: a plane along it parts nothing, and overlaps nothing.
   const bool flat = a.normals.empty() && b.normals.empty();
-  if (flat || axis.gap > 0.0 || axis.gap == -std::numeric_limits<double>::infinity()) {
-    const Plane nearest = nearestPlane(a, b);
-    if (nearest.gap > axis.gap + kWider * (a.size + b.size + nearest.gap) + bias) return nearest;
-  }
-  if (axis.gap > -std::numeric_limits<double>::infinity()) return axis;
+  if (!parted && (flat || axis.gap > 0.0 || axis.gap == kNone)) nearest = nearestPlane(a, b);
+  if (nearest.gap > kNone && axis.gap < most()) return nearest;
+  if (axis.gap > kNone) return axis;
 
   // Cores without a face that meet: any direction square to an edge.
   const Core& one = a.edges.empty() ? b : a;
