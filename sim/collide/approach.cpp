@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/collide/collide.h"
+#include "sim/collide/gjk.h"
 #include "sim/math/first_zero.h"
 #include "sim/math/frames.h"
 
@@ -16,6 +17,8 @@ constexpr double kFar = 0.1;
 /// Steps at less than the touching distance before bodies that hover there count as touching, and
 /// steps in which bodies that touch at the start must have parted.
 constexpr int kPatience = 10'000, kParting = 100;
+/// Of the size: a plane that keeps bodies further apart than this is found fast.
+constexpr double kNear = 1e-4;
 /// [s] the first span for which a turning plane is tried.
 constexpr double kShortest = 1e-9;
 /// Passes down the parabolas before the chord, which is never too long, ends the search.
@@ -99,10 +102,33 @@ double Approach::ballStep() const {
                    ballNormal_.dot(acceleration_) - side_[0].slack - side_[1].slack);
 }
 
-void Approach::findPlane(double t) {
-  for (Side& side : side_)
-    if (!side.flyer.top && !(&side == &side_[1] && plane_))
-      side.flyer.flight->at(t, *side.flyer.body);
+void Approach::place(double t) {
+  for (Side& side : side_) {
+    const Flyer& flyer = side.flyer;
+    if (flyer.top || (&side == &side_[1] && plane_) || (flyer.when && *flyer.when == t)) continue;
+    flyer.flight->at(t, *flyer.body);
+    if (flyer.when) *flyer.when = t;
+  }
+}
+
+bool Approach::staysApart(double limit) const {
+  if (plane_) return false;
+  const auto outermostAlong = [&](const Side& side, const Vec3& n) {
+    const Mat3& R = side.flyer.body->R;
+    return Vec3(R * tumble::outermost(side.flyer.convex->outline, R.transpose() * n));
+  };
+  const auto support = [&](const Vec3& n) {
+    return gjk::Outermost{offset_ + outermostAlong(side_[0], -n), outermostAlong(side_[1], n)};
+  };
+  const Vec3 start = offset_.isZero(0.0) ? Vec3(Vec3::UnitY()) : offset_;
+  const double enough = std::max(touch_, speedWithin(limit) * limit);
+  const gjk::Nearest nearest = gjk::nearest(support, start, kNear * size_, enough);
+  if (nearest.lower > enough) return true;
+  if (nearest.inside || !(nearest.lower > touch_)) return false;
+  return stepAlong(nearest.v.normalized(), Vec3::Zero(), limit, false) >= limit;
+}
+
+void Approach::findPlane() {
   const Flyer &a = side_[0].flyer, &b = side_[1].flyer;
   wide_ = separatingPlane(a.convex->shape, toWorld(Pose{offset_, a.body->q}, a.convex->pose),
                           b.convex->shape,
@@ -173,16 +199,25 @@ bool Approach::isExact() const {
   return plane_ && side_[0].bend() == 0.0;
 }
 
+/// Bounds on how fast [m/s] centres gain speed, and points of the two come nearer within `limit`
+/// [s].
+double Approach::fall() const {
+  return acceleration_.norm() + side_[0].slack + side_[1].slack;
+}
+double Approach::speedWithin(double limit) const {
+  const Side &a = side_[0], &b = side_[1];
+  return velocity_.norm() + fall() * limit + a.corner * std::sqrt(a.turning) +
+         b.corner * std::sqrt(b.turning);
+}
+
 /// The curvature c [m/s²] of the parabolas below which no point gets within `limit` [s].
 double Approach::bound(const Vec3& n, double spin, double limit) const {
   const Side &a = side_[0], &b = side_[1];
   const double bend = a.bend() + b.bend();
   if (spin == 0.0) return n.dot(acceleration_) - bend;
-  const double fall = acceleration_.norm() + a.slack + b.slack;
-  const double speed = velocity_.norm() + fall * limit + a.corner * std::sqrt(a.turning) +
-                       b.corner * std::sqrt(b.turning);
+  const double speed = speedWithin(limit);
   const double distance = offset_.norm() + a.corner + b.corner + speed * limit;
-  return -fall - bend - spin * (spin * distance + 2.0 * speed);
+  return -fall() - bend - spin * (spin * distance + 2.0 * speed);
 }
 
 double Approach::stepAlong(const Vec3& n, const Vec3& turn, double limit, bool begins) const {
@@ -236,6 +271,7 @@ double Approach::cornerStep(double limit, bool begins) const {
 std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
   double t = t0, deepest = 0.0, back = t0;
   int hovering = 0;
+  bool fresh = true;
   while (t < t1) {
     // While the balls around them are well apart, only the centres matter.
     lookAt(t);
@@ -246,7 +282,9 @@ std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
       t += balls;
       continue;
     }
-    findPlane(t);
+    place(t);
+    if (std::exchange(fresh, false) && staysApart(t1 - t)) return std::nullopt;
+    findPlane();
     // What hovers at the start may still be about to part.
     if (wide_.separation > (t == t0 ? touch_ : 0.0)) begins = false;
     if (!begins && wide_.separation <= 0.0) return t;
@@ -274,10 +312,11 @@ std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {
 }
 
 double firstTouch(const FlyingBody& a, const FlyingBody& b, double touch, double h) {
-  double first = h;
+  double first = h, whenA = std::nan(""), whenB = whenA;
   for (const Convex& partA : a.parts)
     for (const Convex& partB : b.parts) {
-      Approach approach({&a.flight, &partA, &a.body}, {&b.flight, &partB, &b.body}, touch);
+      Approach approach({&a.flight, &partA, &a.body, &whenA}, {&b.flight, &partB, &b.body, &whenB},
+                        touch);
       if (const auto t = approach.firstTouch(0.0, first, true)) first = *t;
     }
   return first;

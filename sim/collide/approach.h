@@ -28,6 +28,7 @@ struct Flyer {
   const Flight* flight = nullptr;
   const Convex* convex = nullptr;
   RigidBody* body = nullptr;      ///< overwritten: the body at the time last looked at
+  double* when = nullptr;         ///< [s] which is that, where more than one part shares the body
   const HeavyTop* top = nullptr;  ///< in place of the flight
 };
 
@@ -65,9 +66,13 @@ class Approach {
   };
 
   void lookAt(double t);
-  void findPlane(double t);
+  void place(double t);
+  void findPlane();
   /// How long [s] the balls around the bodies keep apart for certain; 0 if they overlap.
   double ballStep() const;
+  /// Whether a plane that does not turn keeps the bodies apart for `limit` [s], as one soon found
+  /// tells.
+  bool staysApart(double limit) const;
   /// How long [s] the bodies keep apart for certain, at most `limit`.
   double cornerStep(double limit, bool begins) const;
   double stepAlong(const Vec3& n, const Vec3& turn, double limit, bool begins) const;
@@ -75,6 +80,8 @@ class Approach {
   /// The outermost point along `sign` (n + s ṅ).
   Reach outermost(const Side& side, const Seen& seen, double s, double sign) const;
   Vec3 planeTurn() const;
+  double fall() const;
+  double speedWithin(double limit) const;
   double bound(const Vec3& n, double spin, double limit) const;
   bool isExact() const;
 
