@@ -1,9 +1,11 @@
 // When bodies first touch: the queue of touches to come.
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "sim/collide/approach.h"
 #include "sim/collide/collide.h"
+#include "sim/collide/parts.h"
 #include "sim/math/frames.h"
 #include "sim/method/exact/exact.h"
 
@@ -15,31 +17,53 @@ bool later(const ExactMemory::Touch& p, const ExactMemory::Touch& q) {
   return std::tie(p.t, p.a, p.b) > std::tie(q.t, q.a, q.b);
 }
 
+/// Pairs of parts that rest on each other, in order.
+using PairsOfParts = std::vector<std::pair<int, int>>;
+
+void findResting(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB, double touch,
+                 PairsOfParts& resting) {
+  if (!std::holds_alternative<Compound>(a) && !std::holds_alternative<Compound>(b)) {
+    if (separation(a, poseA, b, poseB) <= touch) resting.emplace_back(0, 0);
+    return;
+  }
+  const PartView ofA(a, poseA), ofB(b, poseB);
+  forNearParts(ofA, ofB, 2.0 * touch, [&](int i, int j) {
+    if (separation(ofA.solid(i), ofA.poseOf(i), ofB.solid(j), ofB.poseOf(j)) <= touch)
+      resting.emplace_back(i, j);
+  });
+  std::sort(resting.begin(), resting.end());
+}
+
 }  // namespace
 
 void Exact::lookFor(Pair pair, double t) {
   const auto [first, second] = std::minmax(pair.first, pair.second);
   const int b = first, a = second;
   if (bothFixed(a, b)) return;
-  const auto flyer = [&](int i, const Convex& part) {
-    Flyer flyer{&state_.exact.flights[i].back(), &part, &state_.bodies[i]};
+  // Parts that rest on each other stay so until something happens.
+  thread_local PairsOfParts resting;
+  resting.clear();
+  if (lasts(a, b)) {
+    bringTo(t, a);
+    bringTo(t, b);
+    findResting(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
+                state_.bodies[b].pose(), tolerance_.touch, resting);
+  }
+  double when[2] = {std::nan(""), std::nan("")};
+  const auto flyer = [&](int i, const Convex& part, double& at) {
+    Flyer flyer{&state_.exact.flights[i].back(), &part, &state_.bodies[i], &at};
     for (std::size_t k = 0; k < state_.exact.tops.size(); ++k)
       if (model_.pivots[k].body == i) flyer.top = &state_.exact.tops[k];
     return flyer;
   };
-  const bool held = lasts(a, b);
   double t1 = state_.exact.window.t1;
   bool found = false;
-  for (const Convex& partA : state_.exact.parts[a]) {
-    for (const Convex& partB : state_.exact.parts[b]) {
-      if (held) {  // parts that rest on each other stay so until something happens
-        bringTo(t, a);
-        bringTo(t, b);
-        if (separation(partA.shape, toWorld(state_.bodies[a].pose(), partA.pose), partB.shape,
-                       toWorld(state_.bodies[b].pose(), partB.pose)) <= tolerance_.touch)
-          continue;
-      }
-      Approach approach(flyer(a, partA), flyer(b, partB), tolerance_.touch);
+  const std::vector<Convex>&ofA = state_.exact.parts[a], &ofB = state_.exact.parts[b];
+  for (int i = 0; i < static_cast<int>(ofA.size()); ++i) {
+    for (int j = 0; j < static_cast<int>(ofB.size()); ++j) {
+      if (std::binary_search(resting.begin(), resting.end(), std::pair(i, j))) continue;
+      Approach approach(flyer(a, ofA[static_cast<std::size_t>(i)], when[0]),
+                        flyer(b, ofB[static_cast<std::size_t>(j)], when[1]), tolerance_.touch);
       if (const auto touch = approach.firstTouch(t, t1, true)) {
         t1 = *touch;
         found = true;
