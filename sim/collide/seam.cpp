@@ -20,47 +20,48 @@ constexpr double kOnFace = 1e-13;
 // Normals of a ball that lean by less against each other are not told apart by what its part shows.
 constexpr double kAlike = 1e-6;
 
-// How far [m] a solid must grow at least to hold the point p, own frame; < 0 inside.
-double outsideOf(const Sphere& s, const Vec3& p) {
+// How far [m] a solid must grow at least to hold the point p, own frame; < 0 inside. Of a hull no
+// more is asked once it is over `enough`.
+double outsideOf(const Sphere& s, const Vec3& p, double) {
   return p.norm() - s.r;
 }
-double outsideOf(const Box& box, const Vec3& p) {
+double outsideOf(const Box& box, const Vec3& p, double) {
   return (p.cwiseAbs() - box.half).maxCoeff();
 }
-double outsideOf(const Cylinder& c, const Vec3& p) {
+double outsideOf(const Cylinder& c, const Vec3& p, double) {
   return std::max(std::abs(p.y()) - 0.5 * c.h, std::sqrt(p.x() * p.x() + p.z() * p.z()) - c.r);
 }
-double outsideOf(const Capsule& c, const Vec3& p) {
+double outsideOf(const Capsule& c, const Vec3& p, double) {
   const double beyond = std::max(std::abs(p.y()) - 0.5 * c.h, 0.0);
   return Vec3(p.x(), beyond, p.z()).norm() - c.r;
 }
-double outsideOf(const Ellipsoid& e, const Vec3& p) {
+double outsideOf(const Ellipsoid& e, const Vec3& p, double) {
   return (p.cwiseQuotient(e.half).norm() - 1.0) * e.half.minCoeff();
 }
-double outsideOf(const Hull& hull, const Vec3& p) {
+double outsideOf(const Hull& hull, const Vec3& p, double enough) {
   const Polyhedron& solid = *hull.solid;
   const Vec3 q = p + hull.origin;
   double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t f = 0; f < solid.faces.size(); ++f) {
+  for (std::size_t f = 0; f < solid.faces.size() && !(most > enough); ++f) {
     const Vec3& foot = solid.points[static_cast<std::size_t>(solid.faces[f][0])];
     most = std::max(most, solid.normals[f].dot(q - foot));
   }
   return most;
 }
 template <class S>
-double outsideOf(const S&, const Vec3&) {
+double outsideOf(const S&, const Vec3&, double) {
   return std::numeric_limits<double>::infinity();
 }
 // A plane stands in the world, whatever pose it has.
-double outsideOf(const Shape& solid, const Pose& pose, const Vec3& p) {
+double outsideOf(const Shape& solid, const Pose& pose, const Vec3& p, double enough) {
   if (const HalfSpace* plane = std::get_if<HalfSpace>(&solid)) return plane->n.dot(p) - plane->d;
   const Vec3 p_P = toBody(pose, p);
-  return std::visit([&](const auto& s) { return outsideOf(s, p_P); }, solid);
+  return std::visit([&](const auto& s) { return outsideOf(s, p_P, enough); }, solid);
 }
 
 // Whether a solid holds the point p to `slack` [m], own frame.
 bool holds(const Shape& solid, const Pose& pose, const Vec3& p, double slack) {
-  return outsideOf(solid, pose, p) <= slack;
+  return outsideOf(solid, pose, p, slack) <= slack;
 }
 bool holds(const PosedPart& part, const Vec3& p, double slack) {
   return holds(part.solid, part.pose, p, slack);
@@ -77,12 +78,13 @@ double topOf(const PosedPart& part, const Vec3& n) {
 // far away, or at once. On its face it is not below: what rounding has of `out` must not tell.
 bool covers(const Parts& parts, int part, const Vec3& q, const Vec3& top, const Vec3& n) {
   const PosedPart& other = parts.list[static_cast<std::size_t>(part)];
+  const double out = outsideOf(other.solid, other.pose, q, parts.flush);
+  if (!(out <= parts.flush)) return false;
   const double height = topOf(other, n) - n.dot(top);
   if (!(height > parts.flush)) return false;
-  const double out = outsideOf(other.solid, other.pose, q),
-               way = 2.0 * parts.radius[static_cast<std::size_t>(part)],
+  const double way = 2.0 * parts.radius[static_cast<std::size_t>(part)],
                off = kOnFace * (parts.size[static_cast<std::size_t>(part)] + q.norm());
-  return out <= parts.flush && (out <= off || out * way <= kReach * parts.flush * (height + out));
+  return out <= off || out * way <= kReach * parts.flush * (height + out);
 }
 
 // Whether no other part covers q over the plane through `top` square to n.
@@ -267,9 +269,9 @@ void findExposed(const PartView& a, int i, const PartView& b, int j, const Sough
   const convex::Core coreB = convex::coreOf(partB.solid, Mat3::Identity(), Vec3::Zero());
   const double flush = std::max(seamWidth(a), seamWidth(b));
   const auto isWrong = [&](const ContactPoint& c) {
-    return !shows(a, i, b, j, c, sought.within) ||
-           !(sought.apart ? isNear(partA, partB, c, std::max(sought.within, kReach * flush))
-                          : overlaps(a, i, b, j, c));
+    return !(sought.apart ? isNear(partA, partB, c, std::max(sought.within, kReach * flush))
+                          : overlaps(a, i, b, j, c)) ||
+           !shows(a, i, b, j, c, sought.within);
   };
   // Both keep their storage from call to call.
   thread_local std::vector<convex::Plane> planes;
@@ -287,9 +289,10 @@ void findExposed(const PartView& a, int i, const PartView& b, int j, const Sough
       else
         convex::clipFacets(coreA, coreB, plane, flush, sought.margin, found);
       for (ContactPoint& c : found) convex::toWorld(R, partB.pose.x, c);
-      std::erase_if(found, isWrong);
-      if (std::any_of(found.begin(), found.end(),
-                      [&](const ContactPoint& c) { return c.separation <= gap + flush; })) {
+      if (std::any_of(found.begin(), found.end(), [&](const ContactPoint& c) {
+            return c.separation <= gap + flush && !isWrong(c);
+          })) {
+        std::erase_if(found, isWrong);
         const std::size_t first = out.size();
         out.insert(out.end(), found.begin(), found.end());
         leaveBetween(a, i, b, j, first, out);
