@@ -8,6 +8,10 @@
 namespace tumble::convex {
 namespace {
 
+// A point that is on a facet but for the tolerance is beside it by no more of it, unless the sides
+// that meet there hardly part.
+constexpr double kBeside = 10.0;
+
 // A corner of what is left of a's facet, seen along n on b's.
 struct Corner {
   Vec3 p;                  // [m] on a's facet
@@ -151,8 +155,13 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
       shareOfSegments(facetA, facetB, plane.n, tolerance, points);
     }
   }
+  // No two points of the cores are nearer along n than the plane is wide. What says so is far
+  // beyond the end of a facet that is a sliver, seen along n, though on its sides to the tolerance.
+  const double least = plane.gap - kBeside * tolerance;
   points.erase(std::remove_if(points.begin(), points.end(),
-                              [&](const Placed& p) { return !(p.separation - radii <= margin); }),
+                              [&](const Placed& p) {
+                                return p.separation < least || !(p.separation - radii <= margin);
+                              }),
                points.end());
   // What overlaps may do so beside the facets, which are apart where they face each other.
   const ContactPoint deepest = pointOf(plane, a, b);
