@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/collide/collide.h"
+#include "sim/collide/gjk.h"
 
 namespace tumble {
 namespace {
@@ -71,6 +73,42 @@ double provenGapOf(const Shape& a, const Pose& poseA, const Shape& b, const Pose
   return widened(a, poseA, b, poseB, plane.n, gap);
 }
 
+/// A part in the world, and the radius [m] of a ball around it.
+struct Placed {
+  const Shape& solid;
+  Pose at;
+  double radius;
+};
+
+void place(std::span<const PosedPart> parts, const Pose& body, std::vector<Placed>& placed) {
+  placed.clear();
+  for (const PosedPart& part : parts)
+    placed.push_back({part.solid, posed(body, part.pose), boundingRadius(part.solid)});
+}
+
+/// The point of a hull farthest along d.
+Vec3 farthest(const Hull& hull, const Pose& at, const Vec3& d) {
+  const Vec3 d_B = at.q.conjugate() * d;
+  const Vec3* most = &hull.solid->points[0];
+  for (const Vec3& p : hull.solid->points)
+    if (d_B.dot(p) > d_B.dot(*most)) most = &p;
+  return at.x + at.q * (*most - hull.origin);
+}
+
+/// Whether a direction that is soon found shows two hulls to be more than `least` [m] apart.
+bool isWider(const Placed& p, const Placed& q, double least) {
+  const Hull *a = std::get_if<Hull>(&p.solid), *b = std::get_if<Hull>(&q.solid);
+  const Vec3 start = p.at.x - q.at.x;
+  if (!a || !b || !(least < kInfinity) || start.isZero(0.0)) return false;
+  const auto outermost = [&](const Vec3& n) {
+    return gjk::Outermost{farthest(*a, p.at, -n), farthest(*b, q.at, n)};
+  };
+  constexpr double kSoon = 1e-3;  // of the size: nearer, it is not soon
+  const double size = p.radius + q.radius, enough = std::max(least, 0.0) + kRounding * size;
+  const gjk::Nearest nearest = gjk::nearest(outermost, start, kSoon * size, enough);
+  return nearest.lower > enough;
+}
+
 }  // namespace
 
 double reachOf(const Shape& solid, const Pose& pose, const Vec3& d, const Vec3& from) {
@@ -91,20 +129,24 @@ double gapAlong(const Shape& a, const Pose& poseA, const Shape& b, const Pose& p
 
 double provenGap(std::span<const PosedPart> a, const Pose& poseA, std::span<const PosedPart> b,
                  const Pose& poseB) {
+  // All keep their storage from call to call.
+  thread_local std::vector<Placed> ofA, ofB;
+  thread_local std::vector<std::pair<const Placed*, const Placed*>> near;
+  place(a, poseA, ofA);
+  place(b, poseB, ofB);
+  near.clear();
   double least = kInfinity;
-  for (const PosedPart& p : a) {
-    const Pose atA = posed(poseA, p.pose);
-    for (const PosedPart& q : b) {
-      const Pose atB = posed(poseB, q.pose);
-      const double balls =
-          (atA.x - atB.x).norm() - boundingRadius(p.solid) - boundingRadius(q.solid);
-      if (balls > std::min(least, 0.0) && balls > 0.0) {
+  for (const Placed& p : ofA)
+    for (const Placed& q : ofB) {
+      const double balls = (p.at.x - q.at.x).norm() - p.radius - q.radius;
+      if (balls > 0.0)
         least = std::min(least, balls);
-        continue;
-      }
-      least = std::min(least, provenGapOf(p.solid, atA, q.solid, atB));
+      else
+        near.emplace_back(&p, &q);
     }
-  }
+  for (const auto& [p, q] : near)
+    if (!isWider(*p, *q, least))
+      least = std::min(least, provenGapOf(p->solid, p->at, q->solid, q->at));
   return least;
 }
 
