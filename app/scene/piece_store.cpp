@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The first word of a file; another one for each way of finding pieces.
-constexpr const char* kVersion = "tumble-pieces-17";
+constexpr const char* kVersion = "tumble-pieces-18";
 constexpr double kLong = 0.1;  // s
 constexpr std::size_t kMostCorners = 1'000'000;
 

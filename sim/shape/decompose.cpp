@@ -44,7 +44,10 @@ struct Wrapping {
 class Decomposer {
  public:
   Decomposer(const Polyhedron& solid, double tolerance, const Means& means)
-      : given_(static_cast<int>(solid.points.size())), tolerance_(tolerance), most_(means.work) {
+      : given_(static_cast<int>(solid.points.size())),
+        tolerance_(tolerance),
+        most_(means.work),
+        mostPieces_(means.most) {
     points_.at = solid.points;
     points_.exact.resize(solid.points.size());
     size_ = sizeOf(solid);
@@ -83,12 +86,14 @@ class Decomposer {
       } else if (!leftOut(piece)) {
         if (notches.empty())
           refuseCrossing("no plane parts it where it is not convex", outerOf(piece));
-        refuse("no plane parts the mesh", piece, notches);
+        refuse<NoPieces>("no plane parts the mesh", piece, notches);
       }
-      if (spent()) refuse("the mesh is too intricate to be taken apart exactly", piece, notches);
-      if (done.size() + open.size() > kMostPieces)
-        refuse("the mesh needs more than " + std::to_string(kMostPieces) + " convex pieces", piece,
-               notches);
+      if (spent())
+        refuse<TooIntricate>("the mesh is too intricate to be taken apart exactly", piece, notches);
+      if (done.size() + open.size() > mostPieces_)
+        refuse<TooIntricate>(
+            "the mesh needs more than " + std::to_string(mostPieces_) + " convex pieces", piece,
+            notches);
     }
     std::reverse(done.begin(), done.end());
     constexpr double kGrain = 1e-15;  // of the size: rounding of a corner
@@ -363,6 +368,7 @@ class Decomposer {
     return buffer;
   }
 
+  template <class Reason>
   [[noreturn]] void refuse(const std::string& why, const Surface& piece,
                            const std::vector<Notch>& notches) const {
     std::string where;
@@ -376,8 +382,7 @@ class Decomposer {
       face = faceOf_[static_cast<std::size_t>(notch.left)];
       where = ", as at the notch from " + placeOf(notch.from) + " to " + placeOf(notch.to);
     }
-    throw NoPieces(why + where + "; allow more by pieces_tolerance, or take pieces = \"hull\"",
-                   face);
+    throw Reason(why + where + "; allow more by pieces_tolerance, or take pieces = \"hull\"", face);
   }
 
   cut::Points points_;
@@ -393,6 +398,7 @@ class Decomposer {
   double shaved_ = 0.0;                         ///< [m] of layers left out
   Triangle crossing_ = {{0, 0, 0}};   ///< of the piece whose hull holds most too much: off_ [m³]
   long work_ = 0, looks_ = 0, most_;  ///< triangles, planes looked at
+  std::size_t mostPieces_;
 };
 
 }  // namespace

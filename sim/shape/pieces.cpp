@@ -16,19 +16,38 @@ constexpr double kCoarse = 1e-3;           // of the size: from this tolerance o
 constexpr double kSnap = 2e-6;             // of the size: corners no further from a cut are on it
 constexpr double kRoughSnap = 2.0;         // of the grain: the same, if corners are rounded
 constexpr long kMostWork = 50'000'000;     // triangles looked at
-constexpr long kTrialWork = 2'000'000;     // to see whether cuts at notches alone are fewer
+constexpr long kTrialWork = 16'000'000;    // to see which of two ways makes fewer
 constexpr long kMostCoarse = 200'000'000;  // where cuts may be anywhere
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
+
+/// By cuts at notches alone. What a wide tolerance takes for on a cut may leave a piece that no
+/// plane parts, as where faces meet that lean little; a closer one does not.
+Pieces atNotches(const Polyhedron& solid, double tolerance, const Means& means) {
+  try {
+    return decompose(solid, tolerance, means);
+  } catch (const TooIntricate&) {
+    throw;
+  } catch (const NoPieces&) {
+    if (tolerance == 0.0) throw;
+    for (const double share : {0.5, 0.25}) try {
+        return decompose(solid, share * tolerance, means);
+      } catch (const NoPieces&) {
+      }
+    throw;
+  }
+}
 
 /// By cuts at notches alone, or anywhere if these leave fewer pieces, as of a scan.
 Pieces fewest(const Polyhedron& solid, double tolerance, double snap) {
   std::optional<Pieces> few;
   try {
-    few = decompose(solid, tolerance, {false, kTrialWork, snap});
+    few = atNotches(solid, tolerance, {false, kTrialWork, snap});
   } catch (const NoPieces&) {
   }
   try {
-    Pieces pieces = decompose(solid, tolerance, {true, few ? kMostWork : kMostCoarse, snap});
+    Pieces pieces = decompose(
+        solid, tolerance,
+        {true, few ? kTrialWork : kMostCoarse, snap, few ? few->hulls.size() : kMostPieces});
     if (!few || pieces.hulls.size() < few->hulls.size()) return pieces;
   } catch (const NoPieces&) {
     if (!few) throw;
@@ -48,7 +67,7 @@ Pieces piecesOfFlat(const Polyhedron& solid, PieceKind kind, double tolerance, d
   const bool coarse = tolerance >= kCoarse * size;
   if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance, snap);
   Pieces pieces = coarse ? decompose(solid, tolerance, {true, kMostCoarse, snap})
-                         : decompose(solid, tolerance, {false, kMostWork, snap});
+                         : atNotches(solid, tolerance, {false, kMostWork, snap});
   if (kind == PieceKind::Slivers) pieces.hulls = slivered(pieces.hulls, solid);
   if (pieces.hulls.size() > kMostPieces)
     throw NoPieces("the mesh makes " + std::to_string(pieces.hulls.size()) +
