@@ -10,9 +10,10 @@ using namespace tumble::scenes;
 
 // Oracle: bit-equal rerun. What bounces 30 m away divides its own steps, and what rests 50 m away
 // makes no contact rougher: a brick that tumbles, a ball in a row of bounces and a pair at rest go
-// on as without them, bit by bit.
+// on as without them, bit by bit. Without restitution a tower far away changes nothing either,
+// though it touches at more points than reflections are for.
 TEST_CASE("stepping: a body far away changes no bit of the motion of another") {
-  const double e = 0.5;
+  const double e = GENERATE(0.5, 0.0);
   const auto with = [&](bool others) {
     BodyDef brick = box("brick", {0.3, 0.2, 0.2}, {0.0, 0.7, 0.0}, e, 0.5);
     brick.orientation = Quat(1.0, 0.2, 0.1, 0.3).normalized();
@@ -24,7 +25,7 @@ TEST_CASE("stepping: a body far away changes no bit of the motion of another") {
       def.bodies.push_back(ball("far", 0.1, {30.0, 0.31, 0.0}, e));
       def.bodies.push_back(ball("farther", 0.1, {30.0, 0.71, 0.01}, e));
       def.bodies.push_back(box("farthest", {0.3, 0.2, 0.2}, {0.0, 0.35, 30.0}, e, 0.5));
-      def.bodies.push_back(box("rests", {0.2, 0.2, 0.2}, {50.0, 0.1, 0.0}, e, 0.5));
+      addColumn(def, e > 0.0 ? 1 : 6, 0.2, {50.0, 0.1, 0.0}, e, 0.5);
     }
     return def;
   };
@@ -36,7 +37,7 @@ TEST_CASE("stepping: a body far away changes no bit of the motion of another") {
     other.advance(t);
     const Sample p = one.sample(t), q = other.sample(t);
     for (std::size_t i = 0; i < alone.bodies.size(); ++i) {
-      CAPTURE(t, alone.bodies[i].name);
+      CAPTURE(e, t, alone.bodies[i].name);
       CHECK(p.bodies[i].x == q.bodies[i].x);
       CHECK(p.bodies[i].q.coeffs() == q.bodies[i].q.coeffs());
       CHECK(p.bodies[i].v == q.bodies[i].v);

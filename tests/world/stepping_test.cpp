@@ -83,9 +83,10 @@ TEST_CASE("bounces are impacts; only what rested can separate") {
 
 // Oracle: another method. A block on one edge falls onto the other, and rocks back: each hit is
 // told when it is, with what it got, though the point over which it turns opens in every step. By
-// `exact` 0.319 and 0.223 N s after 0.1581 and 0.3533 s. Measured 2.2e-3 s and 0.051 of that, by
-// the first order of steps; allowed 2.5e-3 s and 0.06. While open points counted as on their way,
-// the first was told 0.08 s late, the second never.
+// `exact` 0.319 and 0.223 N s after 0.1581 and 0.3533 s. Measured 3.6e-3 s and 0.019 of that, by
+// the first order of steps; allowed 4e-3 s and 0.025. While open points counted as on their way,
+// the first was told 0.08 s late, the second never; while a step stopped the hit in two parts, the
+// impulses were 0.051 off.
 TEST_CASE("stepping: a block that rocks is told to hit when it does") {
   const double side = GENERATE(1.0, -1.0), size = GENERATE(1.0, 4.0);  // times grow by √size
   constexpr double kWidth = 0.2, kHeight = 0.4, kTilt = 8.0 * std::numbers::pi / 180.0;
@@ -112,8 +113,8 @@ TEST_CASE("stepping: a block that rocks is told to hit when it does") {
     const double late = (hits[1][k].t - hits[0][k].t) / std::sqrt(size),
                  more = hits[1][k].j / hits[0][k].j - 1.0;
     CAPTURE(side, size, k, late, more);
-    CHECK(std::abs(late) < 2.5e-3);
-    CHECK(std::abs(more) < 0.06);
+    CHECK(std::abs(late) < 4e-3);
+    CHECK(std::abs(more) < 0.025);
   }
 }
 

@@ -50,12 +50,12 @@ void Stepping::activateAll() {
 bool Stepping::findClusters(double h) {
   const StageScope stage(state_.times, StepStage::Pairs);
   constexpr int kNone = -1, kCalm = -2;
+  many_ = false;  // each cluster will say so of itself
   untilHit(0.0, h, tolerance_.keep);
   const auto hits = [&](const PairMemory& pair) {
     const auto due = [&](const Touch& touch) { return touch.rebounds && touch.due < h; };
-    return (pair.tumbles && pair.lasts < h) ||
-           ((pair.bounces || pair.tumbles) &&
-            std::any_of(pair.touches.begin(), pair.touches.end(), due));
+    return (pair.tumbles && pair.lasts < h) || landsHard(pair) ||
+           (pair.strikes && std::any_of(pair.touches.begin(), pair.touches.end(), due));
   };
   if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), hits)) return false;
   joinNear(h);

@@ -34,13 +34,12 @@ bool Stepping::isCrowd(const Island& island) const {
 }
 
 /// One body or two among many faces have many points near and strike few of them.
-bool Stepping::isCrowd() const {
+bool Stepping::touchAtMany() const {
   int weight = 0, movers[] = {kNoBody, kNoBody};
-  bool bounces = false, many = false;
+  bool many = false;
   for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
     const PairMemory& pair = memory_.pairs[k];
     if (pair.touches.empty()) continue;
-    bounces = bounces || pair.bounces;
     weight += weightOf(pair);
     for (const int i : {state_.near[k].first, state_.near[k].second}) {
       if (model_.fixed(i) || many) continue;
@@ -49,7 +48,13 @@ bool Stepping::isCrowd() const {
       mover = i;
     }
   }
-  return many && (bounces || model_.def.stepping.anyCrowd) && weight > kReflectionsReach;
+  return many && weight > kReflectionsReach;
+}
+
+bool Stepping::isCrowd() const {
+  const auto bounces = [](const PairMemory& pair) { return pair.bounces && !pair.touches.empty(); };
+  return many_ && (model_.def.stepping.anyCrowd ||
+                   std::any_of(memory_.pairs.begin(), memory_.pairs.end(), bounces));
 }
 
 bool Stepping::strikesAsCrowd() const {

@@ -61,6 +61,8 @@ struct PairMemory {
   long asked = 0;        ///< the look after which it was asked whether the two meet at a seam
   double deepest = 0.0;  ///< [m] largest overlap
   bool bounces = false;  ///< it has restitution
+  bool lands = false;    ///< it has none, and nothing of it bends
+  bool strikes = false;  ///< its hits are foreseen, and struck when they are
   bool tumbles = false;  ///< it turned too far for parabolas
   double lasts = 0.0;    ///< [s] how long its point on a rim is where it is, if it tumbles
   bool seamed = false;   ///< a third body keeps apart what was found

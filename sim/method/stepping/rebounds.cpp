@@ -1,5 +1,6 @@
-// Impacts with restitution: a step is divided where they happen, and the scene's law of impact is
-// applied there. What a step has no part left for is struck at the start of its last part.
+// Impacts: a step is divided where they happen, and the scene's law of impact is applied there, to
+// what rebounds and to what lands faster than resting bodies do. What a step has no part left for
+// is struck at the start of its last part.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -56,6 +57,7 @@ double Stepping::meet(double h, Hits divide) {
   double first = untilHit(soon, h, least);
   for (int left = divides ? 1 : mostBlows(); left > 0 && strike(divides ? soon : h); --left) {
     if (report_.stopped) return h;
+    struck_ = true;
     findOut(h);
     known_ = false;
     if (halted()) return h;
@@ -87,7 +89,7 @@ void Stepping::holdStopped(double h) {
     return std::max(c.point.separation, 0.0) + h * vrel < fall;
   };
   for (const PairMemory& pair : memory_.pairs) {
-    if (!pair.bounces) continue;
+    if (!pair.strikes) continue;
     for (const Touch& touch : pair.touches)
       if (meets(touch)) hold(touch.contact);
   }
@@ -104,8 +106,9 @@ double Stepping::untilHit(double soon, double h, double least) {
   for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
     PairMemory& pair = memory_.pairs[k];
     const bool tumbled = std::exchange(pair.tumbles, tumbles(k, h));
-    const bool foreseen = pair.bounces || tumbled || pair.tumbles,
-               comes = !foreseen && seemsToMeet(k, h);
+    const bool hits = pair.bounces || landsHard(pair),
+               struck = std::exchange(pair.strikes, hits || pair.tumbles),
+               foreseen = pair.strikes || struck || tumbled, comes = !foreseen && seemsToMeet(k, h);
     if (!foreseen && !comes) continue;
     if (!std::exchange(heldKnown, true)) findHeld();
     if (comes) {
@@ -114,7 +117,7 @@ double Stepping::untilHit(double soon, double h, double least) {
     }
     pair.lasts = pair.tumbles ? partOnRim(k) : h;
     first = std::min(first, pair.lasts);
-    if (pair.bounces) {
+    if (hits) {
       foresee(k, least);
     } else {
       forgetHits(pair);
@@ -205,11 +208,26 @@ void Stepping::foresee(Touch& touch, const RigidBody& a, const RigidBody& b, dou
       row.bend = 2.0 * push;
     }
   }
-  touch.rebounds = way.meets() && c.restitution * way.speed() > leastRebound(touch, least);
+  touch.rebounds = way.meets() && isHit(touch, way.speed(), least);
   touch.due = 0.0;
   if (touch.rebounds || !closed(touch))
     touch.due = way.meets() ? way.due() : std::numeric_limits<double>::infinity();
   if (touch.rebounds && held && row.meets()) touch.due = std::min(touch.due, row.due());
+}
+
+bool Stepping::landsHard(const PairMemory& pair) const {
+  return pair.lands && !many_ &&
+         std::any_of(pair.touches.begin(), pair.touches.end(), [&](const Touch& touch) {
+           const Contact& c = touch.contact;
+           return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) <
+                  landingSpeed();
+         });
+}
+
+bool Stepping::isHit(const Touch& touch, double speed, double least) const {
+  const double restitution = touch.contact.restitution;
+  if (restitution == 0.0) return speed > std::max(-landingSpeed(), leastRebound(touch, least));
+  return restitution * speed > leastRebound(touch, least);
 }
 
 bool Stepping::seemsToMeet(std::size_t pair, double h) {
@@ -243,8 +261,7 @@ bool Stepping::anyHit(double within) const {
            approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) < 0.0;
   };
   return std::any_of(memory_.pairs.begin(), memory_.pairs.end(), [&](const PairMemory& pair) {
-    return (pair.bounces || pair.tumbles) &&
-           std::any_of(pair.touches.begin(), pair.touches.end(), hits);
+    return pair.strikes && std::any_of(pair.touches.begin(), pair.touches.end(), hits);
   });
 }
 
@@ -271,22 +288,40 @@ void Stepping::tellPassedOn(const Touch& touch, double j) {
   if (arrives(touch) && c.restitution * came < landingSpeed()) report_.note(kPassedOn);
 }
 
+bool Stepping::hovers(const Touch& touch) const {
+  const Contact& c = touch.contact;
+  const double vrel = approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point);
+  const double step = model_.def.stepping.step, fall = 0.5 * gravity_ * step * step;
+  return c.restitution == 0.0 && !strikesAsCrowd() && vrel >= landingSpeed() &&
+         c.point.separation + step * vrel < fall;
+}
+
+double Stepping::widestHover() const {
+  double widest = 0.0;
+  for (const PairMemory& pair : memory_.pairs)
+    for (const Touch& touch : pair.touches)
+      if (hovers(touch)) widest = std::max(widest, touch.contact.point.separation);
+  return widest;
+}
+
 bool Stepping::strike(double within) {
   if (!anyHit(within)) return false;
   std::vector<Contact> contacts;
   std::vector<double> restitution, vrel;
+  const double widest = widestHover();
   for (const PairMemory& pair : memory_.pairs) {
     for (const Touch& touch : pair.touches) {
       const Contact& c = touch.contact;
-      const bool hits = touch.rebounds && touch.due <= within;
-      if (!closed(touch) && !hits) continue;
+      const bool hits = touch.rebounds && (touch.due <= within || c.point.separation <= widest);
+      const bool lasts = !hits && hovers(touch);
+      if (!closed(touch) && !hits && !lasts) continue;
       if (hits) bookShift(touch);
       contacts.push_back(c);
       // It says so of the step, whose end leaves more than rounding.
-      contacts.back().lasting = false;
+      contacts.back().lasting = lasts;
       vrel.push_back(approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point));
-      const bool leans =
-          vrel.back() < -tolerance_.rest && -c.restitution * vrel.back() <= tolerance_.keep;
+      const bool leans = lasts || (vrel.back() < -tolerance_.rest &&
+                                   -c.restitution * vrel.back() <= tolerance_.keep);
       restitution.push_back(leans ? 0.0 : c.restitution);
     }
   }
@@ -296,6 +331,8 @@ bool Stepping::strike(double within) {
     report_.reason = crushed;
     return true;
   }
+  ContactTolerance tolerance = tolerance_;
+  tolerance.keep = std::max(tolerance.keep, -landingSpeed());
   std::vector<Vec3> impulse(contacts.size(), Vec3::Zero());
   Bonds bonds;
   impactBonds(state_.bodies, joints(), tolerance_.touch, bonds);
@@ -305,7 +342,7 @@ bool Stepping::strike(double within) {
                    .contacts = contacts,
                    .restitution = restitution,
                    .impulse = impulse,
-                   .tolerance = tolerance_,
+                   .tolerance = tolerance,
                    .bonds = &bonds,
                    .goesOn = true});
   bookImpact(impact, report_);

@@ -152,19 +152,20 @@ void Stepping::gripAnew(Island& island, double h) {
   if (isBonded(island)) springAnew(island, h);
 }
 
-/// What lands within a step is booked in its impact.
+/// What lands within a step is booked in its impact, and so is what a blow leaves of its step.
 void Stepping::bookLanding(Island& island, double h) const {
   const auto lands = [&](const Touch& touch) {
     const ContactPoint& c = touch.contact.point;
     const bool runs = c.rimA > 0.0 || c.rimB > 0.0;
     return (runs || arrives(touch) || touch.pushedOpen) && !touch.impulse.isZero(0.0);
   };
-  if (std::none_of(island.links.begin(), island.links.end(), [&](Link link) {
-        const std::vector<Touch>& touches = memory_.pairs[link].touches;
-        return std::any_of(touches.begin(), touches.end(), lands);
-      }))
-    return;
-  bookWays(island, h);
+  const auto anyLands = [&](Link link) {
+    if (!isPair(link)) return false;
+    const std::vector<Touch>& touches = memory_.pairs[link].touches;
+    return std::any_of(touches.begin(), touches.end(), lands);
+  };
+  if (struck_ || std::any_of(island.links.begin(), island.links.end(), anyLands))
+    bookWays(island, h);
 }
 
 /// What is touched moves with the velocity of the end of the step, which is not what forces gave it

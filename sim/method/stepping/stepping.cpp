@@ -127,6 +127,7 @@ void Stepping::stepTo(double t1, double h) {
   if (report_.stopped) return;
   findCrowded(h);
   work_.met.clear();
+  many_ = touchAtMany();
   crowd_ = isCrowd();
   if (divides() && findClusters(h))
     stepClusters(t1, h);
@@ -150,6 +151,7 @@ int Stepping::go(double t1, double h) {
   const int n = std::max(1, static_cast<int>(work_.solids.size()));
   const int every = std::clamp(kBodies / n, kFew, kMany);
   const int most = std::max(every, static_cast<int>(kPairs / n / n));
+  many_ = touchAtMany();
   crowd_ = isCrowd();
   divided_ = false;
   int parts = 1;
@@ -170,6 +172,7 @@ int Stepping::go(double t1, double h) {
 void Stepping::moveTo(double t1, double h) {
   beginPart(t1);
   solveSteadily(h);
+  struck_ = false;
   if (misses_) {
     if (!parted_) state_.trail.pop_back();
     return;

@@ -3,7 +3,7 @@
 //   M (v⁺ − v) = h F + Jᵀ λ,   u_n ≥ −separation/h,  λ_n ≥ 0, complementary, Coulomb's cone,
 // moves the bodies with v⁺, and lifts what still overlaps without touching a velocity. Where no
 // contact changes its mode, forces are those of the middle of the step, and bodies move with the
-// mean of v and v⁺. What rebounds is struck where it meets, by the scene's law of impact: a step is
+// mean of v and v⁺. Blows are struck where bodies meet, by the scene's law of impact: a step is
 // divided there. Bodies that joints alone hold go by RATTLE (Andersen, 1983): half of what forces
 // give comes after the move, and then velocities are what the joints allow. Joints close their gaps
 // by their forces alone, so that the move keeps angular momentum.
@@ -129,7 +129,7 @@ class Stepping {
   void leaveSeams();
   bool keptApart(int pair, int body) const;
 
-  // rebounds.cpp: impacts with restitution.
+  // rebounds.cpp: impacts.
   /// The hits that may divide a step: all, those that rebound for longer than a step, or none.
   enum class Hits { All, Fast, None };
   /// Strikes what is due, and @return how long [s], at most h, the bodies go until the next hit.
@@ -148,6 +148,17 @@ class Stepping {
   void foresee(std::size_t pair, double least);
   /// The same of one point; a and b are its bodies as underWay has them.
   void foresee(Touch& touch, const RigidBody& a, const RigidBody& b, double least) const;
+  /// Whether a pair without restitution hits harder than what rests. A step's problem would stop it
+  /// in two parts, that of the gap and the rest, and they do not add up to one blow where friction
+  /// or another contact has a part in it, however short the step is.
+  bool landsHard(const PairMemory& pair) const;
+  /// Whether what arrives at so many m/s is struck; `least` [m/s] as for untilHit.
+  bool isHit(const Touch& touch, double speed, double least) const;
+  /// Whether a touch is a contact that lasts but for a hop, lower than bodies fall in a step, by
+  /// the order of steps. A blow on its bodies pushes it too.
+  bool hovers(const Touch& touch) const;
+  /// The widest gap [m] of those: a face that lands on all its corners at once misses some by it.
+  double widestHover() const;
   /// Whether points of a pair without restitution, all of them open, meet within h seconds along
   /// their normals as they are now.
   bool seemsToMeet(std::size_t pair, double h);
@@ -194,8 +205,10 @@ class Stepping {
   }
 
   // crowds.cpp: where more contacts meet than reflections are for.
-  /// Whether the bodies whose clock runs are one: they rebound, and touch at more points than
-  /// reflections are for.
+  /// Whether the bodies whose clock runs, more than two, touch at more points than reflections are
+  /// for.
+  bool touchAtMany() const;
+  /// Whether they are a crowd: they do, and rebound.
   bool isCrowd() const;
   /// The same of an island.
   bool isCrowd(const Island& island) const;
@@ -611,7 +624,9 @@ class Stepping {
   bool known_ = false;    ///< the touches are those of the bodies as they are
   bool parted_ = false;   ///< clusters go through the step one by one
   bool divided_ = false;  ///< the bodies whose clock runs have gone a part of the step
+  bool struck_ = false;   ///< the part of the step under way begins with a blow
   int cluster_ = 0;       ///< whose clock runs
+  bool many_ = false;     ///< the bodies whose clock runs touch at many points
   bool crowd_ = false;    ///< the bodies whose clock runs are one
   bool rough_ = false;    ///< an island is solved as far as is planned for crowds
   bool again_ = false;    ///< islands are solved once more, with what their bodies met

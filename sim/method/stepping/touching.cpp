@@ -286,6 +286,7 @@ void Stepping::matchFeatures(PairMemory& memory, std::pair<int, int> pair) {
     fresh.contact.friction = surface.friction;
   }
   memory.bounces = fresh.contact.restitution > 0.0;
+  memory.lands = !memory.bounces && !model_.bends(pair.first) && !model_.bends(pair.second);
   memory.touches.assign(work_.found.size(), fresh);
   for (std::size_t i = 0; i < work_.found.size(); ++i) {
     for (const Touch& before : old) {
