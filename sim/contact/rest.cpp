@@ -13,6 +13,8 @@ namespace {
 /// Factorizations above which a problem is hard, and rows up to which dense steps are cheaper.
 constexpr int kHard = 40;
 constexpr std::size_t kDense = 60;
+/// By how much more than a moment ago may be left of a hard problem.
+constexpr double kHardlyMore = 10.0;
 /// Rows of an island up to which a dense factor takes less than a second.
 constexpr std::size_t kFewRows = 600;
 /// Residual that rounding leaves: what draws gaps of joints shut holds their rounding, by the
@@ -99,7 +101,8 @@ SolveReport RestForces::solve(std::span<const Contact> contacts, double misfit) 
   if (hard_ && solution_.lambda.size() == problem_.rows.size()) {
     const double tolerance = hasJoints(problem_) ? kJoined : kFree;
     const SolveReport report = polish(problem_, {.tolerance = tolerance}, solution_);
-    if (report.status == SolveStatus::Solved || report.residual <= left_) return report;
+    if (report.status == SolveStatus::Solved || report.residual <= kHardlyMore * left_)
+      return report;
   }
   const SolveReport report = solveAnew(friction, misfit);
   const bool easy = report.status == SolveStatus::Solved && report.iterations <= kHard;

@@ -43,7 +43,7 @@ class RestForces {
   void addRows(std::span<const RigidBody> bodies, const Contact& contact);
   void addFrictionRows(std::span<const RigidBody> bodies, const Contact& contact);
   /// What was hard a moment ago is hard still: it begins with the forces of then, and takes what
-  /// leaves no more than was left then.
+  /// leaves hardly more than was left then.
   /// @param misfit  Bonds::misfit
   SolveReport solve(std::span<const Contact> contacts, double misfit);
   SolveReport solveAnew(bool friction, double misfit);
