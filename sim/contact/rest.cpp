@@ -14,7 +14,7 @@ namespace {
 constexpr int kHard = 40;
 constexpr std::size_t kDense = 60;
 /// By how much more than a moment ago may be left of a hard problem.
-constexpr double kHardlyMore = 10.0;
+constexpr double kHardlyMore = 2.0;
 /// Rows of an island up to which a dense factor takes less than a second.
 constexpr std::size_t kFewRows = 600;
 /// Residual that rounding leaves: what draws gaps of joints shut holds their rounding, by the
