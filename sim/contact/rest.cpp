@@ -15,6 +15,8 @@ constexpr int kHard = 40;
 constexpr std::size_t kDense = 60;
 /// By how much more than a moment ago may be left of a hard problem.
 constexpr double kHardlyMore = 2.0;
+/// Residual above which no forces obey the laws: no more than a moment ago may be left then.
+constexpr double kLost = 1e-3;
 /// Rows of an island up to which a dense factor takes less than a second.
 constexpr std::size_t kFewRows = 600;
 /// Residual that rounding leaves: what draws gaps of joints shut holds their rounding, by the
@@ -101,7 +103,8 @@ SolveReport RestForces::solve(std::span<const Contact> contacts, double misfit) 
   if (hard_ && solution_.lambda.size() == problem_.rows.size()) {
     const double tolerance = hasJoints(problem_) ? kJoined : kFree;
     const SolveReport report = polish(problem_, {.tolerance = tolerance}, solution_);
-    if (report.status == SolveStatus::Solved || report.residual <= kHardlyMore * left_)
+    if (report.status == SolveStatus::Solved ||
+        report.residual <= (left_ > kLost ? 1.0 : kHardlyMore) * left_)
       return report;
   }
   const SolveReport report = solveAnew(friction, misfit);
