@@ -35,9 +35,8 @@ Plane widestOfFaces(const Core& a, const Core& b, double bias);
 /// a − b, whose arcs on the sphere of normals cross (Gregorius, The Separating Axis Test between
 /// Convex Polyhedra, GDC 2013). The widest plane between overlapping solids is one of these or of
 /// the faces (Gottschalk, Separating axis theorem, 1996).
-/// @param n  [1] along which the solids are apart, out of b towards a: the nearer it is to the
-/// widest
-///           plane's, the fewer edges are looked at
+/// @param n  [1] along which the solids are apart, out of b towards a: the nearer it is to that of
+///   the widest plane, the fewer edges are looked at
 void widenByEdges(const Core& a, const Core& b, double bias, const Vec3& n, double least,
                   Plane& best);
 

@@ -1,4 +1,5 @@
-// Chapter 5, collide: capsules, cylinders, hulls and compounds against each other.
+// Chapter 5, collide: capsules, cylinders, hulls and compounds against each other; long, for every
+// pair of kinds has its closed form here.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -225,9 +225,9 @@ bool Stepping::landsHard(const PairMemory& pair) const {
 }
 
 bool Stepping::isHit(const Touch& touch, double speed, double least) const {
-  const double restitution = touch.contact.restitution;
-  if (restitution == 0.0) return speed > std::max(-landingSpeed(), leastRebound(touch, least));
-  return restitution * speed > leastRebound(touch, least);
+  const double restitution = touch.contact.restitution, slowest = leastRebound(touch, least);
+  return restitution > 0.0 ? restitution * speed > slowest
+                           : speed > std::max(-landingSpeed(), slowest);
 }
 
 bool Stepping::seemsToMeet(std::size_t pair, double h) {
