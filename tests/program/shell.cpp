@@ -170,9 +170,13 @@ TEST_CASE("numbers of a run that is killed leave no file behind, new or in place
 TEST_CASE("the first Ctrl-C is answered at once, the second ends a run far from its next sample") {
   const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
-  const std::string twice = "self=$(exec sh -c 'echo $PPID'); (" + untilThereIs("out") +
-                            "; kill -INT $self; n=0; until grep -q again .err || [ $((n += 1)) -gt "
-                            "6000 ]; do sleep 0.005; done; kill -INT $self) & :";
+  // The folder is made in the midst of the first sample; 0.2 s of work later that is long done.
+  const std::string twice =
+      "self=$(exec sh -c 'echo $PPID'); work() { cut -d' ' -f14 /proc/$self/stat; }; (" +
+      untilThereIs("out") + "; w=$(work); n=0; until [ $(($(work) - w)) -ge 20 ] || " +
+      "[ $((n += 1)) -gt 6000 ]; do sleep 0.005; done; kill -INT $self; n=0; " +
+      "until grep -q again .err || [ $((n += 1)) -gt 6000 ]; do sleep 0.005; done; " +
+      "kill -INT $self) & :";
   const Outcome outcome =
       tumbleRun(scratch,
                 "simulate ball.toml -q -o out --set world.gravity=[0,0,0] --set world.duration=900 "
