@@ -52,9 +52,9 @@ addEventListener('load', async () => {
     need('an arrow key goes one on', t.sample === 4);
     document.body.dispatchEvent(new KeyboardEvent('keydown', { key: ' ', bubbles: true }));
     need('space plays', t.playing);
-    for (let tries = 0; t.sample <= 5 && tries < 50; ++tries) await rest(100);
+    for (let tries = 0; t.sample <= 5 && tries < 500; ++tries) await rest(10);
     need('play goes on', t.sample > 5);
-    document.getElementById('play').click();
+    if (t.playing) document.getElementById('play').click();  // a slow machine may have come to the end
     const stopped = t.sample;
     await rest(200);
     need('pause stays', !t.playing && t.sample === stopped);
