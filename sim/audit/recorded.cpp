@@ -95,9 +95,14 @@ BodyPath::BodyPath(const RigidBody& fixed, double h)
 
 double BodyPath::error(double share, double r) const {
   constexpr double kFourth = 2.0;  // of the third term: the fourth at most
-  const Vec3 ofPlace = u0_ + u1_ - 2.0 * way_, ofTurn = w0_ + w1_ - 2.0 * turn_;
+  const double bend = 0.5 * (w1_ - w0_).norm(), fastest = std::max(w0_.norm(), w1_.norm());
+  const double square = fastest * fastest + 4.0 * bend;
+  const auto fourth = [&](const Vec3& way, const Vec3& first, const Vec3& last) {
+    const double second = 0.5 * (last - first).norm(), third = (first + last - 2.0 * way).norm();
+    return std::max(kFourth * third, second * square / 6.0);
+  };
   const double part = share * (1.0 - share);
-  return kFourth * part * part * (ofPlace.norm() + r * ofTurn.norm());
+  return part * part * (fourth(way_, u0_, u1_) + r * fourth(turn_, w0_, w1_));
 }
 
 PathPoint BodyPath::at(double share) const {

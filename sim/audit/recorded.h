@@ -63,10 +63,13 @@ class BodyPath {
 
   PathPoint at(double share) const;
 
-  /// How far [m] a point within r [m] of the origin may be from where `at` has it at share s, if
-  /// the fourth terms of the series of place and turn are no larger than twice the third, which are
-  /// known:
-  ///   2 s² (1 − s)² (|c₃| + r |γ₃|),   c₃ = h (v₀ + v₁) − 2 Δx,   γ₃ = h (φ̇₀ + φ̇₁) − 2 φ₁
+  /// How far [m] a point within r [m] of the origin may be from where `at` has it at share s:
+  ///   s² (1 − s)² (C + r Γ)
+  /// if the fourth terms of the series of place and turn are no larger than C and Γ, which are
+  /// twice the third, or, as these may pass through zero, what the turn makes of the second:
+  ///   C = max(2 |c₃|, |c₂| θ²/6),   c₃ = h (v₀ + v₁) − 2 Δx,   c₂ = ½ h (v₁ − v₀),
+  /// Γ the same of φ. Forces on a body turn with it, so that θ² = h² |φ̇|² + 4 |γ₂|: a motion
+  /// of rate λ has c₄ = c₂ (hλ)²/12, and what swings or tips by φ has γ₂ = ½ (hλ)² φ.
   double error(double share, double r) const;
 
   /// Whether the body turned by more than a radian: then nobody can tell which way.

@@ -49,6 +49,37 @@ TEST_CASE("the audit's way between two states is off by the fourth power of the 
   CHECK(fine < coarse / 12.0);
 }
 
+// Oracle: closed forms. A body turns about an edge by φ = 0.4 cosh 10 t, and its centre goes around
+// it: as it turns back at t = 0, the third terms of the series are gone there. Measured
+// 1.4e-5 m off; it says 1.3 times as much. Of a free fall, which is a parabola, it says rounding.
+TEST_CASE("the audit's way knows how far it is off where a body turns back") {
+  const double h = 0.04, rate = 10.0, most = 0.4, far = 0.2;
+  RigidBody body = makeBody(massOf(box("brick", {0.2, 0.2, 0.2}, Vec3::Zero())));
+  const auto tipped = [&](double t) {
+    const double phi = most * std::cosh(rate * t), spin = most * rate * std::sinh(rate * t);
+    RigidBody now = body;
+    now.x = far * Vec3(-std::sin(phi), std::cos(phi), 0.0);
+    now.q = Quat(Eigen::AngleAxisd(phi, Vec3::UnitZ()));
+    updateDerived(now);
+    setVelocity(now, spin * Vec3::UnitZ().cross(now.x), spin * Vec3::UnitZ());
+    return now;
+  };
+  const BodyPath path(body, recordedOf(tipped(-0.5 * h)), recordedOf(tipped(0.5 * h)), h, false);
+  const PathPoint point = path.at(0.5);
+  const RigidBody middle = tipped(0.0);
+  const double off =
+      (point.x - middle.x).norm() + far * point.q.angularDistance(middle.q);  // at the edge
+  CAPTURE(off, path.error(0.5, far));
+  CHECK(off > 1e-6);
+  CHECK(path.error(0.5, far) > off);
+  CHECK(path.error(0.5, far) < 20.0 * off);
+
+  setVelocity(body, {3.0, 0.0, 0.0}, Vec3::Zero());
+  RigidBody end = body;
+  Flight(body, {0.0, -9.81, 0.0}, 0.0).at(1.0, end);
+  CHECK(BodyPath(body, recordedOf(body), recordedOf(end), 1.0, false).error(0.5, far) < 1e-14);
+}
+
 // Oracle: `collide`, which finds its gap by features; the audit's by how far solids reach. A gap
 // that is proved is never wider than the widest, and for solids that overlap no less by rounding.
 TEST_CASE("the gap that a plane proves is the one that collide finds") {
