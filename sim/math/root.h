@@ -36,42 +36,88 @@ Bracket bisect(Predicate&& isPast, double lo, double hi, double tolerance) {
   return {lo, hi};
 }
 
-/// The ITP method for a continuous function whose values at the ends, `flo` and `fhi`, differ in
-/// sign: the false position, moved a little towards the midpoint so that both ends close in, and
-/// never so far from the midpoint that bisection would win by more than one evaluation.
-///   Oliveira and Takahashi, An Enhancement of the Bisection Method Average Performance Preserving
-///   Minmax Optimality, 2020, with κ₁ = 0.2/(hi − lo), κ₂ = 2, n₀ = 1. Departure: the move is at
-///   least 0.4 tolerance, so that two evaluations beside a root already found close the bracket.
-/// At most ⌈log₂((hi − lo)/tolerance)⌉ + 1 evaluations; 8 or 9 for a smooth simple root.
-/// @return a bracket no wider than the tolerance, or than two neighbouring numbers: f(lo) has the
-///   sign of `flo`, f(hi) does not (it may be zero).
-template <class Function>
-Bracket findRoot(Function&& f, double lo, double hi, double flo, double fhi, double tolerance) {
-  assert(lo <= hi && tolerance > 0.0);
-  const bool positive = flo > 0.0;
-  const double kappa = 0.2 / (hi - lo);
-  // How far from the midpoint one may go: what bisection with one evaluation more would forgive.
-  double reach = tolerance;
-  while (reach < hi - lo) reach *= 2.0;
-
-  while (hi - lo > tolerance) {
-    const double width = hi - lo, middle = lo + 0.5 * width;
-    const double falsePosition = lo + width * (flo / (flo - fhi));
-    const double side = middle > falsePosition ? 1.0 : -1.0;
-    const double nudge = std::max(kappa * width * width, 0.4 * tolerance);
-    double x = nudge <= std::abs(middle - falsePosition) ? falsePosition + side * nudge : middle;
-    const double allowed = reach - 0.5 * width;
-    if (!(std::abs(x - middle) <= allowed)) x = middle - side * allowed;
-    if (!(x > lo && x < hi)) x = middle;
-    if (x <= lo || x >= hi) break;
-
-    const double fx = f(x);
-    const bool first = positive ? fx > 0.0 : fx < 0.0;
-    (first ? lo : hi) = x;
-    (first ? flo : fhi) = fx;
-    reach *= 0.5;
+/// The last three points at which a function was on one side of zero.
+class OneSide {
+ public:
+  OneSide(double at, double value) { add(at, value); }
+  void add(double at, double value) {
+    oldest_ = before_;
+    before_ = last_;
+    last_ = {at, value};
   }
-  return {lo, hi};
+  double end() const { return last_.at; }
+  double value() const { return last_.value; }
+  /// Where the parabola through them is zero, or the line through two, as seen from the last; no
+  /// number where that says nothing.
+  double root() const {
+    const double slope = slopeOf(last_, before_);
+    double step = -last_.value / slope;
+    const double bend = (slope - slopeOf(before_, oldest_)) / (last_.at - oldest_.at);
+    const double rate = slope + bend * (last_.at - before_.at);
+    const double square = rate * rate - 4.0 * bend * last_.value;
+    if (square >= 0.0) step = -2.0 * last_.value / (rate + std::copysign(std::sqrt(square), rate));
+    return last_.at + step;
+  }
+
+ private:
+  struct Point {
+    double at = std::numeric_limits<double>::quiet_NaN(), value = at;
+  };
+  static double slopeOf(const Point& p, const Point& q) {
+    return (p.value - q.value) / (p.at - q.at);
+  }
+  Point last_, before_, oldest_;
+};
+
+/// Looks for the root of a continuous function whose values at the ends, `flo` and `fhi`, differ in
+/// sign, where the last three points of one side would have it, and else in the middle: where
+/// neither side points into the bracket, and where three points in a row have neither halved it nor
+/// brought the value down to a quarter. So a function that is cut off on one side, or jumps, costs
+/// hardly more than a smooth one. A point beside a root that has been found goes past it.
+/// At most 4 ⌈log₂((hi − lo)/tolerance)⌉ evaluations; 4 to 16 for a simple root.
+/// @return a bracket no wider than the tolerance, or than two neighbouring numbers: f(lo) has the
+///   sign of `flo`, f(hi) has not; or a point of a value no larger than `close`, as both ends.
+template <class Function>
+Bracket findRoot(Function&& f, double lo, double hi, double flo, double fhi, double tolerance,
+                 double close = -1.0) {
+  assert(lo <= hi && tolerance > 0.0);
+  constexpr int kSlow = 3;         // points
+  constexpr double kFalls = 0.25;  // of the value before
+  constexpr double kPast = 0.9;    // of the tolerance
+  OneSide below(lo, flo), above(hi, fhi);
+  OneSide *last = &below, *other = &above;
+  const auto width = [&] { return above.end() - below.end(); };
+  double halved = width();
+  for (int slow = 0; width() > tolerance;) {
+    const double least = std::min(kPast * tolerance, 0.5 * width());
+    const auto isWithin = [&](double x) { return x >= below.end() && x <= above.end(); };
+    double x = last->root();
+    if (!isWithin(x)) {
+      x = other->root();
+      if (std::abs(x - last->end()) < least) x = lo - width();  // where it has just been looked for
+    }
+    if (!isWithin(x) || slow >= kSlow) {
+      x = below.end() + 0.5 * width();
+      slow = 0;
+    }
+    x = std::clamp(x, below.end() + least, above.end() - least);
+    if (x == below.end()) x = std::nextafter(x, hi);
+    if (x == above.end()) x = std::nextafter(x, lo);
+    if (x == below.end()) break;
+
+    const double value = f(x);
+    if (std::abs(value) <= close) return {x, x};
+    const bool isBelow = flo > 0.0 ? value > 0.0 : value < 0.0;
+    last = isBelow ? &below : &above;
+    other = isBelow ? &above : &below;
+    slow = std::abs(value) <= kFalls * std::abs(last->value()) ? 0 : slow + 1;
+    last->add(x, value);
+    if (width() <= 0.5 * halved) {
+      halved = width();
+      slow = 0;
+    }
+  }
+  return {below.end(), above.end()};
 }
 
 }  // namespace tumble

@@ -129,8 +129,9 @@ class Course {
     double height, now;
     /// How far above it a value is, as part of how far it is now, up to kFar: of values of any size
     /// and unit the least is a smooth function of time around its zero, and knows nothing of what
-    /// ends much later.
-    double leeway(double value) const;
+    /// ends much later. 0 of a value that is no further from it than `there`,
+    /// which is little of that way.
+    double leeway(double value, double there) const;
   };
   static double slipAlong(std::span<const RigidBody> bodies, const Contact& c);
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far. The

@@ -23,6 +23,9 @@ constexpr int kHasty = 10;
 constexpr double kSink = 1e-3;
 /// Part of the way to its floor up to which nothing has a say in where another thing ends.
 constexpr double kFar = 0.5;
+/// Of the overlap that dates a collision, and of the way to a floor: what is so near has come to
+/// it.
+constexpr double kThere = 0.1;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -109,16 +112,17 @@ void Course::setFloors() {
     if (c.mayStick) floors_.push_back({0.0, slipAlong(state_.bodies, c)});
   allowanceNow_ = kFar;
   for (const Floor& floor : floors_)
-    allowanceNow_ = std::min(allowanceNow_, floor.leeway(floor.height + floor.now));
+    allowanceNow_ = std::min(allowanceNow_, floor.leeway(floor.height + floor.now, 0.0));
 }
 
 double Course::slipAlong(std::span<const RigidBody> bodies, const Contact& c) {
   return slipVelocity(bodies[c.a], bodies[c.b], c.point).dot(c.slipDirection);
 }
 
-double Course::Floor::leeway(double value) const {
+double Course::Floor::leeway(double value, double there) const {
   if (!std::isfinite(height)) return kFar;
   const double left = value - height;
+  if (std::abs(left) <= std::min(there, kThere * now)) return 0.0;
   return std::min(kFar, now > 0.0 ? left / now : left);
 }
 
@@ -140,6 +144,7 @@ double Course::allowance(double h) {
   if (!allFinite(y_)) return 0.0;  // commit() reports it
   system_.unpack(y_, trial_);
   double least = kFar;
+  const double there = kThere * tolerance_.root;
   auto floor = floors_.begin();
   for (std::size_t k = 0; k < state_.near.size(); ++k, ++floor) {
     if (!std::isfinite(floor->height)) continue;
@@ -148,14 +153,16 @@ double Course::allowance(double h) {
     const double enough = std::max(0.0, least * floor->now + floor->height);
     if (planeShowsApart(model_, state_, trial_, k, 2.0 * enough, report_)) continue;
     least = std::min(least, floor->leeway(separation(model_.shapes[a], trial_[a].pose(),
-                                                     model_.shapes[b], trial_[b].pose())));
+                                                     model_.shapes[b], trial_[b].pose()),
+                                          there));
   }
   if (!limits_.empty()) lookAtLimits(trial_);
-  for (const JointRow& row : limits_) least = std::min(least, (floor++)->leeway(row.arm * row.gap));
+  for (const JointRow& row : limits_)
+    least = std::min(least, (floor++)->leeway(row.arm * row.gap, there));
   for (Contact c : state_.lasting) {
     if (!c.mayStick) continue;
     follow(trial_[c.a], trial_[c.b], c);
-    least = std::min(least, (floor++)->leeway(slipAlong(trial_, c)));
+    least = std::min(least, (floor++)->leeway(slipAlong(trial_, c), there));
   }
   if (goesOn && least >= 0.0) {
     allowed_ = h;
@@ -167,7 +174,7 @@ double Course::allowance(double h) {
 double Course::backUp(double span, double tooFar) {
   const double instant = instantNear(state_.t);
   const auto allowed = [&](double h) { return allowance(h); };
-  const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant).lo;
+  const double h = findRoot(allowed, 0.0, span, allowanceNow_, tooFar, instant, 0.0).lo;
   ++state_.course.recentBackUps;
   state_.course.stalled = h > instant ? 0 : state_.course.stalled + 1;
   const int store = steppers_.hurry ? kBackUps / kHasty : kBackUps;

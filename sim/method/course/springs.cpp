@@ -1,6 +1,7 @@
 // Contacts that are springs: which there are, and when they began and ended.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collide/collide.h"
 #include "sim/math/root.h"
@@ -50,7 +51,12 @@ double Course::firstTouch(double h) {
   double first = h;
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto [b, a] = state_.near[k];
-    const auto gap = [&, a = a, b = b](double s) { return gapAfter(s, a, b); };
+    // A gap of nothing is still what it was before.
+    const double before = std::copysign(std::numeric_limits<double>::min(), gaps_[k]);
+    const auto gap = [&, a = a, b = b](double s) {
+      const double value = gapAfter(s, a, b);
+      return value != 0.0 ? value : before;
+    };
     const double end = gap(first);
     if (gaps_[k] == 0.0 || (gaps_[k] > 0.0) == (end > 0.0)) continue;
     first = findRoot(gap, 0.0, first, gaps_[k], end, instant).hi;
