@@ -123,15 +123,14 @@ class Course {
   double closingSpeed(std::size_t pair) const;
   /// When [s] the first of these points that dip below their surface turns back.
   double lowestPoint(std::span<const Contact> points, double span) const;
-  /// What must not fall below `height`, and how far above it is now: a gap [m], or what is left of
-  /// a slip [m/s].
+  /// What must not fall below `height`, how far above it is now, and how near has come to it: a gap
+  /// [m], or what is left of a slip [m/s].
   struct Floor {
-    double height, now;
+    double height, now, there;
     /// How far above it a value is, as part of how far it is now, up to kFar: of values of any size
     /// and unit the least is a smooth function of time around its zero, and knows nothing of what
-    /// ends much later. 0 of a value that is no further from it than `there`,
-    /// which is little of that way.
-    double leeway(double value, double there) const;
+    /// ends much later.
+    double leeway(double value) const;
   };
   static double slipAlong(std::span<const RigidBody> bodies, const Contact& c);
   /// How far the motion may go, by the value of one function of time: ≥ 0 allowed, < 0 too far. The

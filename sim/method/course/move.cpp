@@ -93,9 +93,12 @@ void Course::move() {
 void Course::setFloors() {
   gaps_.clear();
   floors_.clear();
+  const auto add = [&](double height, double way) {
+    floors_.push_back({height, way, kThere * std::min(tolerance_.root, way)});
+  };
   const auto setFloor = [&](double now, double slack) {
     const double floor = locates() ? std::min(-slack, now - kSink * slack) : -kInfinity;
-    floors_.push_back({floor, now - floor});
+    add(floor, now - floor);
   };
   for (const auto& [b, a] : state_.near) {
     gaps_.push_back(separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
@@ -109,20 +112,20 @@ void Course::setFloors() {
     setFloor(now, now <= tolerance_.touch ? tolerance_.drift : tolerance_.root);
   }
   for (const Contact& c : state_.lasting)
-    if (c.mayStick) floors_.push_back({0.0, slipAlong(state_.bodies, c)});
+    if (c.mayStick) add(0.0, slipAlong(state_.bodies, c));
   allowanceNow_ = kFar;
   for (const Floor& floor : floors_)
-    allowanceNow_ = std::min(allowanceNow_, floor.leeway(floor.height + floor.now, 0.0));
+    allowanceNow_ = std::min(allowanceNow_, floor.leeway(floor.height + floor.now));
 }
 
 double Course::slipAlong(std::span<const RigidBody> bodies, const Contact& c) {
   return slipVelocity(bodies[c.a], bodies[c.b], c.point).dot(c.slipDirection);
 }
 
-double Course::Floor::leeway(double value, double there) const {
+double Course::Floor::leeway(double value) const {
   if (!std::isfinite(height)) return kFar;
   const double left = value - height;
-  if (std::abs(left) <= std::min(there, kThere * now)) return 0.0;
+  if (std::abs(left) <= there) return 0.0;
   return std::min(kFar, now > 0.0 ? left / now : left);
 }
 
@@ -144,7 +147,6 @@ double Course::allowance(double h) {
   if (!allFinite(y_)) return 0.0;  // commit() reports it
   system_.unpack(y_, trial_);
   double least = kFar;
-  const double there = kThere * tolerance_.root;
   auto floor = floors_.begin();
   for (std::size_t k = 0; k < state_.near.size(); ++k, ++floor) {
     if (!std::isfinite(floor->height)) continue;
@@ -153,16 +155,14 @@ double Course::allowance(double h) {
     const double enough = std::max(0.0, least * floor->now + floor->height);
     if (planeShowsApart(model_, state_, trial_, k, 2.0 * enough, report_)) continue;
     least = std::min(least, floor->leeway(separation(model_.shapes[a], trial_[a].pose(),
-                                                     model_.shapes[b], trial_[b].pose()),
-                                          there));
+                                                     model_.shapes[b], trial_[b].pose())));
   }
   if (!limits_.empty()) lookAtLimits(trial_);
-  for (const JointRow& row : limits_)
-    least = std::min(least, (floor++)->leeway(row.arm * row.gap, there));
+  for (const JointRow& row : limits_) least = std::min(least, (floor++)->leeway(row.arm * row.gap));
   for (Contact c : state_.lasting) {
     if (!c.mayStick) continue;
     follow(trial_[c.a], trial_[c.b], c);
-    least = std::min(least, (floor++)->leeway(slipAlong(trial_, c), there));
+    least = std::min(least, (floor++)->leeway(slipAlong(trial_, c)));
   }
   if (goesOn && least >= 0.0) {
     allowed_ = h;
