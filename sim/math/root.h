@@ -74,7 +74,9 @@ class OneSide {
 /// neither side points into the bracket, and where three points in a row have neither halved it nor
 /// brought the value down to a quarter. So a function that is cut off on one side, or jumps, costs
 /// hardly more than a smooth one. A point beside a root that has been found goes past it.
-/// At most 4 ⌈log₂((hi − lo)/tolerance)⌉ evaluations; 4 to 16 for a simple root.
+/// 4 to 16 evaluations for a simple root, as many as bisection for a jump, up to twice as many for
+/// a root of higher order; what falls to a quarter again and again, and never changes sign, has no
+/// bound of its own.
 /// @return a bracket no wider than the tolerance, or than two neighbouring numbers: f(lo) has the
 ///   sign of `flo`, f(hi) has not; or a point of a value no larger than `close`, as both ends.
 template <class Function>
