@@ -1,5 +1,6 @@
 #include "app/present/missteps.h"
 
+#include <algorithm>
 #include <set>
 
 #include "app/claim/free_body.h"
@@ -12,7 +13,7 @@ namespace tumble {
 
 namespace {
 
-// A hair larger than the body, so that it covers a ghost in the same place.
+// A hair larger than the body, so that it covers a ghost in the same place and layer.
 constexpr double kCover = 1.002;
 // The arrow passes the body on its left, this many of its reaches from the centre.
 constexpr double kAside = 1.3;
@@ -43,6 +44,16 @@ Label labelAt(const Vec3& anchor, Align align, const std::string& text, const Co
   return label;
 }
 
+// The layer of a ghost that stands at this pose, as where a run went on from it; 0 if none does.
+int layerAt(const Picture& picture, const Vec3& x) {
+  constexpr double kSame = 1e-9;  // m
+  int layer = 0;
+  for (const Instance& one : picture.instances)
+    if (one.finish == Finish::Ghost && (one.position - x).norm() < kSame)
+      layer = std::max(layer, one.layer);
+  return layer;
+}
+
 std::string mendedText(const Misstep& misstep) {
   if (misstep.mendedAt < misstep.t) return "back to t = " + fourDigits(misstep.mendedAt) + " s";
   if (misstep.mendedAt > misstep.t) return "free at t = " + fourDigits(misstep.mendedAt) + " s";
@@ -57,14 +68,16 @@ void addMissteps(const Scene& scene, const Recording& recording, double t, Pictu
   for (const Misstep& misstep : recording.report.missteps) {
     if (misstep.t > t || !shown.insert(misstep.body).second) continue;
     const BodyDef& body = scene.world.bodies[misstep.body];
-    picture.instances.push_back(ghostOf(body, misstep.pose, colour::kForce, ++layer));
+    layer = std::max(layer + 1, layerAt(picture, misstep.pose.x));
+    picture.instances.push_back(ghostOf(body, misstep.pose, colour::kForce, layer));
     picture.labels.push_back(labelAt(beside(body, misstep.pose, 1.0), Align::Left,
                                      "t = " + fourDigits(misstep.t) + " s: " +
                                          fourDigits(-1e3 * misstep.separation) + " mm too deep",
                                      colour::kInk));
     picture.labels.back().offset = {16.0, -10.0};  // above the ruler, which passes the body
     if (misstep.mendedAt > t) continue;
-    picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), ++layer));
+    layer = std::max(layer + 1, layerAt(picture, misstep.mended.x));
+    picture.instances.push_back(ghostOf(body, misstep.mended, hex(0x3F9C8C), layer));
     const Vec3 tip = beside(body, misstep.mended, -kAside);
     const bool later = misstep.mendedAt > misstep.t;
     picture.labels.push_back(labelAt(later ? beside(body, misstep.mended, 1.0) : tip,

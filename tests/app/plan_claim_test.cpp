@@ -130,6 +130,12 @@ TEST_CASE("a picture shows where a plan was led to and where it put the body") {
           instance.colour[1] < 0.3f)
         ++red;
     CHECK(red == 1);
+    // A ghost of the run in the same place does not hide it, by a higher layer or a larger ball.
+    for (const Instance& ghost : picture.instances)
+      for (const Instance& one : picture.instances)
+        if (ghost.finish == Finish::Ghost && one.position == ghost.position &&
+            one.scale.x() > ghost.scale.x())
+          CHECK(one.layer >= ghost.layer);
     // Before the misstep there is nothing to show.
     CHECK(Presenter(scene, recording).still(0.1).arrows.empty());
   }
