@@ -45,6 +45,7 @@ class Presenter {
   void follow();
   Framing framingAt(int k) const;
   std::vector<std::size_t> ghosts() const;
+  bool standsStill(std::size_t body) const;
   void addExpectations(Picture& picture) const;
   void addSpike(Picture& picture) const;
   Polyline expectedLine(const Expectation& one) const;

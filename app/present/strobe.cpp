@@ -53,6 +53,12 @@ std::vector<std::size_t> Presenter::ghosts() const {
   return shown;
 }
 
+// Whether a body is where it is at the end all along: what is fixed, but for what is led.
+bool Presenter::standsStill(std::size_t body) const {
+  const BodySample& end = recording_.samples.back().bodies[body];
+  return !moves(scene_.world.bodies[body]) && end.v.isZero(0.0) && end.omega.isZero(0.0);
+}
+
 // Bodies are coloured by time, or keep their colours; all are paler the longer ago, and behind what
 // came later.
 void Presenter::addGhosts(bool byTime, Picture& picture) const {
@@ -65,7 +71,7 @@ void Presenter::addGhosts(bool byTime, Picture& picture) const {
     const int layer = static_cast<int>(n) + 1;
     for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
       const BodyDef& body = scene_.world.bodies[i];
-      if (!moves(body) || inSurface_[i]) continue;
+      if (standsStill(i) || inSurface_[i]) continue;
       const Colour colour = byTime ? ramp(timeStops(), u) : colourOf(sample, i);
       Instance ghost =
           instanceOf(body, sample.bodies[i].x, sample.bodies[i].q, colour, framing_.centre,

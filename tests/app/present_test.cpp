@@ -57,6 +57,33 @@ TEST_CASE("a strobe shows a ghost every interval, older ones paler, and the last
   CHECK(picture.instances.front().colour == timeStops().front());
 }
 
+// Oracle: its own motion, 0.5 m/s along X.
+TEST_CASE("what is led past leaves ghosts in a strobe, what stands leaves none") {
+  const Scene scene = parseScene(R"(
+[world]
+duration = 1.0
+[[body]]
+name = "post"
+shape = { box = [0.1, 1.0, 0.1] }
+fixed = true
+position = [0.0, 0.0, 2.0]
+[[body]]
+name = "led"
+shape = { sphere = 0.1 }
+fixed = true
+velocity = [0.5, 0.0, 0.0]
+[show]
+strobe = 0.5
+)",
+                                 "led");
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).strobe();
+  REQUIRE(countOf(picture, Finish::Ghost) == 2);
+  for (std::size_t k = 0; k < 2; ++k)
+    CHECK((picture.instances[k].position - Vec3(0.25 * static_cast<double>(k), 0.0, 0.0)).norm() <
+          1e-12);
+}
+
 TEST_CASE("an image shows its sample's poses and time, on the floor where the scene has it") {
   const Scene scene = parseScene(kFalling, "falling");
   const Recording recording = record(scene, 60.0);
