@@ -57,8 +57,9 @@ Slot slotOf(const std::string& name, const BodyDef& def, const BodySample& sampl
             numbersOf(Vec3(body.force / bodyMass(def))) + " m/s²"};
   if (name == "R") {
     const Quat rate = Quat(0.0, sample.omega.x(), sample.omega.y(), sample.omega.z()) * sample.q;
-    return {"R", "q = " + numbersOf(sample.q), "ω* R",
-            numbersOf(Quat(0.5 * rate.w(), 0.5 * rate.x(), 0.5 * rate.y(), 0.5 * rate.z()))};
+    return {
+        "R", "q = " + numbersOf(sample.q), "ω* R",
+        "q̇ = " + numbersOf(Quat(0.5 * rate.w(), 0.5 * rate.x(), 0.5 * rate.y(), 0.5 * rate.z()))};
   }
   if (name == "P")
     return {"P", numbersOf(Vec3(bodyMass(def) * sample.v)) + " N s", "F",
