@@ -99,8 +99,9 @@ std::string Shoot::sheet() {
   for (const int k : tellingSamples(scene_, recording(), 12)) {
     Picture picture = presenter().image(k);
     stripForPanel(picture);
-    panels.push_back(
-        {studio_.draw(picture, format), fmt::format("t = {:.2f} s", recording().samples[k].t), ""});
+    if (!panels.empty()) picture.bar.reset();  // one scale, told once
+    panels.push_back({studio_.draw(picture, format, panelPage(scene_).y()),
+                      fmt::format("t = {:.2f} s", recording().samples[k].t), ""});
   }
   writePng(path, drawSheet(panels, kColumns, scene_.title, scene_.subtitle, studio_.fonts()),
            stampOf(scene_, what));

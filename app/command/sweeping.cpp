@@ -117,9 +117,10 @@ SweepResult runSweep(const Scene& scene, const std::string& folder, std::pair<in
     const Verdict verdict = judge(run.scene, run.recording);
     run.title = lastKey(sweep.parameter) + " = " + sweep.values[k];
     run.subtitle = findingOf(run.recording, verdict);
-    run.picture = [](const Presenter& presenter) {
+    run.picture = [first = runs.size() == 1](const Presenter& presenter) {
       Picture picture = presenter.strobe();
       stripForPanel(picture);
+      if (!first) picture.bar.reset();  // one scale, told once
       return picture;
     };
     csv += csvRow(scene, k, run, verdict);

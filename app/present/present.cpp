@@ -381,7 +381,6 @@ void stripForPanel(Picture& picture) {
   picture.marks.clear();
   picture.labels.clear();
   picture.pageShapes.clear();
-  picture.bar.reset();
   picture.floor.rule = false;
 }
 
