@@ -60,7 +60,7 @@ int exhibit(const Options& options, const std::string& asked, Studio& studio,
   const std::vector<std::string> panels = shoot.panels();
   for (std::size_t i = 0; i < panels.size(); ++i)
     shown.plates.push_back(
-        i == 0 ? Plate{name + "/panels.png", "panels"}
+        i == 0 ? Plate{name + "/panels.png", "panels", true}
                : Plate{name + panels[i].substr(folder.size()), plotNames(scene)[i - 1].second});
   if (options.all) {
     std::vector<int> all(static_cast<std::size_t>(shoot.count()));
@@ -73,7 +73,7 @@ int exhibit(const Options& options, const std::string& asked, Studio& studio,
   int code = std::max(exitOf(shoot.recording()), shown.verdict.failed > 0 ? +kFailed : +kOk);
   if (scene.sweep) {
     code = std::max(code, runSweep(scene, folder, {0, 1}, studio).code);
-    shown.plates.push_back({name + "/sweep.png", "for each " + scene.sweep->parameter});
+    shown.plates.push_back({name + "/sweep.png", "for each " + scene.sweep->parameter, true});
   }
   return code;
 }

@@ -44,6 +44,7 @@ details { overflow-x: auto; } code { background: #ebeff4; padding: 1px 4px; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
 td:first-child, th:first-child { text-align: left; } .failed { color: #b03010; font-weight: 700; }
+@media screen { .wide { grid-column: 1 / -1; } }
 @media print { .plates { grid-template-columns: repeat(4, 1fr); gap: .3rem; } h2 { margin: 1rem 0 0; break-after: avoid; }
   figure { break-inside: avoid; margin: 0; } body { margin: 0; max-width: none; font-size: 10px; } details, video, dialog { display: none; } }
 dialog { width: 96vw; max-width: 96vw; border: 0; padding: 0; background: #f8f8f6; text-align: center; }
@@ -54,14 +55,16 @@ dialog img { max-height: 92vh; width: auto; max-width: 100%; border: 0; cursor: 
 )";
 
 constexpr const char* kTail =
-    R"(<dialog aria-label="a picture, enlarged"><img alt=""><p></p></dialog>
+    R"(<dialog aria-label="a picture, enlarged"><img alt=""><p><a target="_blank"></a></p></dialog>
 <script>
 const plates = [...document.querySelectorAll('figure img')], dialog = document.querySelector('dialog');
 let now = 0;
 function show(index) {
   now = (index + plates.length) % plates.length;
   dialog.querySelector('img').src = plates[now].src;
-  dialog.querySelector('p').textContent = plates[now].alt;
+  const link = dialog.querySelector('a');
+  link.href = plates[now].src;
+  link.textContent = plates[now].alt + ', every pixel of it';
   if (!dialog.open) dialog.showModal();
 }
 plates.forEach((plate, index) => plate.parentElement.onclick = () => show(index));
@@ -101,10 +104,10 @@ std::string section(const Exhibit& exhibit) {
   out += linksOf(exhibit) + "<div class=\"plates\">\n";
   for (const Plate& plate : exhibit.plates)
     out += fmt::format(
-        "<figure><button><img loading=\"lazy\" src=\"{}\" "
+        "<figure{}><button><img loading=\"lazy\" src=\"{}\" "
         "alt=\"{}\"></button><figcaption>{}</figcaption></figure>\n",
-        htmlText(plate.file), htmlText(scene.title + ": " + plate.caption),
-        htmlText(plate.caption));
+        plate.wide ? " class=\"wide\"" : "", htmlText(plate.file),
+        htmlText(scene.title + ": " + plate.caption), htmlText(plate.caption));
   if (!exhibit.film.empty())
     out += fmt::format(
         "<figure><video controls src=\"{}\"></video><figcaption>film</figcaption>"

@@ -11,6 +11,7 @@ namespace tumble {
 /// A picture of the page; files are named relative to it.
 struct Plate {
   std::string file, caption;
+  bool wide = false;  ///< many pictures on one page: as wide as there is room
 };
 
 /// One demo on the page.

@@ -258,12 +258,15 @@ TEST_CASE("the gallery's page is one file that names every picture and escapes e
   Exhibit exhibit;
   exhibit.scene.name = "drop";
   exhibit.scene.title = "a < b & \"c\"";
-  exhibit.plates = {{"drop/strobe.png", "the whole motion"}};
+  exhibit.plates = {{"drop/strobe.png", "the whole motion"}, {"drop/panels.png", "panels", true}};
   exhibit.verdict.rows = {{"good", 1.0, 1.0, 0.0, 1e-6}, {"bad", 2.0, 1.0, 1.0, 1e-6}};
   exhibit.verdict.failed = 1;
   const std::string page = galleryPage({exhibit});
   CHECK(page.find("a &lt; b &amp; &quot;c&quot;") != std::string::npos);
-  CHECK(page.find("src=\"drop/strobe.png\"") != std::string::npos);
+  CHECK(page.find("<figure><button><img loading=\"lazy\" src=\"drop/strobe.png\"") !=
+        std::string::npos);
+  CHECK(page.find("<figure class=\"wide\"><button><img loading=\"lazy\" src=\"drop/panels.png\"") !=
+        std::string::npos);
   CHECK(page.find("<tr class=\"failed\"><td>bad</td>") != std::string::npos);
   CHECK(page.find("<tr><td>good</td>") != std::string::npos);
   CHECK(page.find("http") == std::string::npos);
