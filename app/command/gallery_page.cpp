@@ -39,7 +39,8 @@ img, video { width: 100%; border: 1px solid #c9ced6; background: #fff; cursor: z
 figure button { all: unset; display: block; width: 100%; } a { color: #0a63b0; }
 :focus-visible { outline: 3px solid #0a63b0 !important; }
 nav ul { columns: 18rem; padding-left: 1.2rem; margin: 0; } nav h2 { font-size: 1rem; margin: 1rem 0 0; }
-.plates { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr)); gap: 1rem; }
+.plates { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(420px, 100%), 1fr)); gap: 1rem;
+          grid-auto-flow: dense; }
 details { overflow-x: auto; } code { background: #ebeff4; padding: 1px 4px; }
 table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; }
 td, th { padding: .1rem .8rem; text-align: right; border-bottom: 1px solid #e4e6ea; }
