@@ -281,6 +281,19 @@ void Presenter::finish(Picture& picture) const {
   picture.subtitle.clear();
 }
 
+namespace {
+
+// "1.02 ± 10⁻¹²"; a bound as far out as what is allowed lets it be: "≤ 10⁻⁹".
+std::string expectedText(const ClaimRow& row) {
+  if (row.relation == Relation::AtMost)
+    return signOf(row.relation) + printed(row.exact + row.allowed, 6);
+  if (row.relation == Relation::AtLeast)
+    return signOf(row.relation) + printed(row.exact - row.allowed, 6);
+  return printed(row.exact, 6) + (row.allowed > 0.0 ? " ± " + printed(row.allowed, 6) : "");
+}
+
+}  // namespace
+
 // Below the title, if it is shown, a line for each: what was measured, and what it should be. A
 // formula that is one coordinate gets a dotted line there, across or along the picture.
 void Presenter::addExpectations(Picture& picture) const {
@@ -290,9 +303,7 @@ void Presenter::addExpectations(Picture& picture) const {
     // Beside 0, what is left is an error: its size tells, its digits do not.
     const std::string measured = printed(one.row.measured, one.row.exact == 0.0 ? 2 : 6);
     picture.remarks.push_back(
-        {fmt::format("{}: {}, expected {}{}{}", one.row.label, measured, signOf(one.row.relation),
-                     printed(one.row.exact, 6),
-                     one.row.allowed > 0.0 ? " ± " + printed(one.row.allowed, 6) : ""),
+        {fmt::format("{}: {}, expected {}", one.row.label, measured, expectedText(one.row)),
          one.row.holds() ? colour::kQuiet : colour::kForce});
   }
 }

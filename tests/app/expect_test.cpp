@@ -199,6 +199,15 @@ TEST_CASE("an expectation is written below the title, and drawn where it is one 
   REQUIRE(picture.remarks.size() == 1);
   CHECK(picture.remarks[0].text == "ball.3.y, max: 1.45, expected 1.45");
   CHECK(picture.subtitle == "t = 0.00 s   dotted: what is expected");
+  // What is allowed belongs to a bound.
+  const auto written = [&](const std::string& bound) {
+    const Scene one = parseScene(
+        kThrow + "[[expect]]\nvalue = \"0\"\nwithin = 1e-9\n" + bound + " = 0.0\n", "throw");
+    return Presenter(one, recording).image(0).remarks.at(0).text;
+  };
+  CHECK(written("at_most").ends_with("expected ≤ 10⁻⁹"));
+  CHECK(written("at_least").ends_with("expected ≥ −10⁻⁹"));
+  CHECK(written("equals").ends_with("expected 0 ± 10⁻⁹"));
   // Unless its own words say so.
   const Scene told = parseScene("subtitle = \"Dots: the apex.\"\n" + kThrow + expect, "throw");
   CHECK(Presenter(told, recording).image(0).subtitle == "Dots: the apex.   t = 0.00 s");
