@@ -12,12 +12,18 @@ namespace {
 constexpr double kStill = 1e-16;
 // [1] Only rounding keeps turns below this from getting smaller.
 constexpr double kNearlyStill = 1e-10;
-// [1] The largest turn at once, and of a crossing along a rim.
+// [1] The largest turn at once, and of a crossing along a rim; of n, in units of its lean against
+// the axis of a rim, beyond which it would go round to the other side.
 constexpr double kStride = 0.5;
 constexpr int kMostTurns = 32;
 
 Vec3 across(const Vec3& v, const Vec3& e) {
   return v - v.dot(e) * e;
+}
+
+// Sine of the angle between n and the axis of a rim; 1 where there is none.
+double leanOf(double rim, const RimPoint& point) {
+  return rim > 0.0 ? rim / point.bend : 1.0;
 }
 
 // The turn of n that Newton's method asks for; NaN where n is not the widest near it.
@@ -65,7 +71,8 @@ bool alignNormal(ContactPoint& c, const Vec3& fromA, const Vec3& fromB) {
     const Vec3 turn = turnOf(c, a, b, edge);
     const double last = std::exchange(size, turn.norm());
     if (!std::isfinite(size) || size <= kStill || (size >= last && size < kNearlyStill)) break;
-    c.n = (c.n + std::min(1.0, kStride / size) * turn).normalized();
+    const double lean = std::min(leanOf(c.rimA, a), leanOf(c.rimB, b));
+    c.n = (c.n + std::min(1.0, kStride * lean / size) * turn).normalized();
   }
   const double reach = c.n.dot(c.pa - c.pb);
   c.separation = reach - c.ra - c.rb;

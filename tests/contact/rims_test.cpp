@@ -122,3 +122,40 @@ TEST_CASE("a cylinder's contact follows the gap of the shapes to second order") 
 TEST_CASE("an ellipsoid's contact follows the gap of the shapes to second order") {
   requireFollows(Ellipsoid{{0.4, 0.2, 0.3}}, 7);
 }
+
+// Oracle: closed form. A line through a point P of a rim touches it there, along n square to the
+// line and to the rim, however little it leans against the disc; where it lies flat n is the axis,
+// and the outermost point of the rim along n is any.
+TEST_CASE("a side that comes to lie on a disc is followed along its rim to the last") {
+  constexpr double kRound = 0.55;  // [rad] from outward to the line, on the disc
+  const Cylinder disc{1.5, 0.2}, bar{0.11, 0.08};
+  const Vec3 P(disc.r, 0.5 * disc.h, 0.0), along(0.0, 0.0, 1.0);
+  const RigidBody b = moving(disc, Pose{}, Vec3::Zero(), Vec3::Zero());
+  const auto leaning = [&](double lean, Vec3& n) {
+    const Vec3 e(std::cos(kRound) * std::cos(lean), -std::sin(lean),
+                 std::sin(kRound) * std::cos(lean));
+    n = along.cross(e).normalized();
+    const Pose pose{P + bar.r * n + 0.01 * e, Quat::FromTwoVectors(Vec3::UnitY(), e)};
+    return moving(bar, pose, Vec3::Zero(), Vec3::Zero());
+  };
+  Vec3 n;
+  const RigidBody start = leaning(3e-3, n);
+  Contact found;
+  found.point = separatingPlane(bar, start.pose(), disc, b.pose());
+  REQUIRE(found.point.rimB == disc.r);
+  REQUIRE((found.point.n - n).norm() < 1e-12);
+  found.anchor = anchorOf(start, b, found.point);
+  double place = 0.0, turn = 0.0, gap = 0.0;
+  for (const double lean : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
+    const RigidBody a = leaning(lean, n);
+    Contact c = found;
+    follow(a, b, c);
+    place = std::max(place, (c.point.p - P).norm() * lean);
+    turn = std::max(turn, (c.point.n - n).norm());
+    gap = std::max(gap, std::abs(c.point.separation));
+  }
+  CAPTURE(place, turn, gap);
+  CHECK(place < 1e-14);
+  CHECK(turn < 1e-14);
+  CHECK(gap < 1e-14);
+}
