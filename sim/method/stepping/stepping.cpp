@@ -148,6 +148,8 @@ void Stepping::stepInHalves(double t1) {
 int Stepping::go(double t1, double h) {
   constexpr int kFew = 2, kMany = 16, kBodies = 256;
   constexpr double kPairs = 2e4;
+  constexpr double kShort = 1e-10;  // of a step: there rounding of a joint's gap is a velocity
+  const double shortest = kShort * model_.def.stepping.step;
   const int n = std::max(1, static_cast<int>(work_.solids.size()));
   const int every = std::clamp(kBodies / n, kFew, kMany);
   const int most = std::max(every, static_cast<int>(kPairs / n / n));
@@ -160,7 +162,7 @@ int Stepping::go(double t1, double h) {
     const double part = meet(h, !divides() || strikesAsCrowd() || parts > most ? Hits::None
                                 : all                                          ? Hits::All
                                                                                : Hits::Fast);
-    if (part >= h) break;
+    if (part >= h - shortest) break;
     divided_ = true;
     moveTo(state_.t + part, part);
     h -= part;
