@@ -112,10 +112,15 @@ std::optional<Nearness::Seen> Nearness::poseAt(double t, int i, const Part& part
   return on(p, q, part.h, share);
 }
 
-bool Nearness::glance(std::span<const RigidBody> end) {
+bool Nearness::glance(std::span<const RigidBody> end, std::span<const ClusterPart> pieces) {
+  const auto strays = [&](int i, const Vec3& x) {
+    return radius_[i] > 0.0 && (x - from_[i]).lpNorm<Eigen::Infinity>() > reach_[i];
+  };
   for (const int i : model_.solid)
-    if (radius_[i] > 0.0 && (end[i].x - from_[i]).lpNorm<Eigen::Infinity>() > reach_[i])
-      return false;
+    if (strays(i, end[i].x)) return false;
+  for (const ClusterPart& piece : pieces)
+    for (std::size_t k = 0; k < piece.end.size(); ++k)
+      if (strays(piece.bodies[k], piece.end[k].x)) return false;
   for (Known& pair : pairs_) {
     if (!pair.close) continue;
     const RigidBody &a = end[pair.a], &b = end[pair.b];

@@ -37,8 +37,9 @@ class Nearness {
   const std::vector<Pair>& see(const Part& part);
 
   /// The end of a part that is not looked at otherwise: of pairs that were near, how deep they are.
-  /// @return false if a body went farther than could be expected: then all have to be looked at
-  bool glance(std::span<const RigidBody> end);
+  /// @return false if a body went farther than could be expected, by then or by the end of a part
+  /// of its own: then all have to be looked at
+  bool glance(std::span<const RigidBody> end, std::span<const ClusterPart> pieces);
 
   double deepest() const { return deepest_; }  ///< [m] at the end of any part
   double between() const { return between_; }  ///< [m] in the midst of any part, for certain

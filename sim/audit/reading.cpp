@@ -52,7 +52,7 @@ void Audit::followSteps(const State& state) {
     for (long k = 0; k < part.steps; ++k) {
       const bool all = !stored_ || skins_ || parts_ < kEvery || parts_ % kEvery == 0;
       ++parts_;
-      if (!all && nearness_.glance(end)) continue;
+      if (!all && nearness_.glance(end, part.pieces)) continue;
       const double t0 = startOf(part, k), t1 = startOf(part, k + 1);
       if (struck_ && (k > 0 || (previous && previous->t1 == part.t0))) {
         if (t0 > t_) see(t0, k > 0 ? end : previous->end, true);
