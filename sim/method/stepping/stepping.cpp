@@ -182,6 +182,7 @@ void Stepping::moveTo(double t1, double h) {
   if (report_.stopped) return stop(report_.reason);
   if (!work_.crushed.empty()) return stop(work_.crushed);
   if (bends()) turnBent(h);
+  const double powerBefore = steadyPower();
   applyTwists(h);
   recordEvents(t1);
   moveBodies(h);
@@ -194,6 +195,7 @@ void Stepping::moveTo(double t1, double h) {
       return stop(apart);
   pushAgain(h);
   meetJoints(h);
+  report_.certificate.work_of_forces += 0.5 * h * (powerBefore + steadyPower());
   bookHalves(h);
   endPart(t1);
 }
@@ -315,8 +317,6 @@ void Stepping::joinStill() {
 
 /// Momenta at the end of the step: those of the forces, and what contacts changed.
 [[gnu::flatten]] void Stepping::applyTwists(double h) {
-  Certificate& books = report_.certificate;
-  const double powerBefore = steadyPower();
   for (const int i : work_.active) {
     RigidBody& body = state_.bodies[i];
     if (body.fixed() || work_.flown[i]) continue;
@@ -343,7 +343,6 @@ void Stepping::joinStill() {
     }
     updateVelocities(body);
   }
-  books.work_of_forces += 0.5 * h * (powerBefore + steadyPower());
 }
 
 // The rotor by the midpoint rule, in turns small enough for it: its energy stays, however fast it
