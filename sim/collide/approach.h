@@ -80,6 +80,7 @@ class Approach {
   /// The outermost point along `sign` (n + s ṅ).
   Reach outermost(const Side& side, const Seen& seen, double s, double sign) const;
   Vec3 planeTurn() const;
+  Vec3 capTurn() const;
   double fall() const;
   double speedWithin(double limit) const;
   double bound(const Vec3& n, double spin, double limit) const;
