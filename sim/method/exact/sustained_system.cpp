@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/collide/align.h"
 #include "sim/math/rotation.h"
 
 namespace tumble {
@@ -41,6 +42,18 @@ bool isBall(const Shape& shape, const RigidBody& body) {
   const Vec3 inertia = body.Ibody.diagonal();
   return std::holds_alternative<Sphere>(shape) && !body.fixed() && !body.particle &&
          body.Ibody == inertia.x() * Mat3::Identity();
+}
+
+/// Whether the normal of a contact on a rim has come to the rim's axis: there it would lie on a
+/// cap, and nothing says where on the rim it is.
+bool liesFlat(const Contact& c) {
+  constexpr double kFlat = 1e-9;  // [1] sine of the angle between them
+  const ContactPoint& point = c.point;
+  const auto flat = [](double rim, const RimPoint& at) {
+    return rim > 0.0 && !(kFlat * at.bend < rim);
+  };
+  return point.tie != NormalTie::FaceOfA && point.tie != NormalTie::FaceOfB &&
+         (flat(point.rimA, rimOfA(point)) || flat(point.rimB, rimOfB(point)));
 }
 
 /// exp(½ θ), θ = ω₀ t + ½ α t².
@@ -161,6 +174,8 @@ void SustainedSystem::derivative(double t, std::span<const double> y,
 
 void SustainedSystem::normalise(std::span<double> y) const {
   unpack(y, work_);
+  for (Contact& c : contacts_) follow(work_[c.a], work_[c.b], c);
+  if (std::any_of(contacts_.begin(), contacts_.end(), liesFlat)) return;
   const Books kept = books(y);
   modes_.project(work_, contacts_);
   pack(work_, y);
