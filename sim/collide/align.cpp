@@ -21,11 +21,6 @@ Vec3 across(const Vec3& v, const Vec3& e) {
   return v - v.dot(e) * e;
 }
 
-// Sine of the angle between n and the axis of a rim; 1 where there is none.
-double leanOf(double rim, const RimPoint& point) {
-  return rim > 0.0 ? rim / point.bend : 1.0;
-}
-
 // The turn of n that Newton's method asks for; NaN where n is not the widest near it.
 Vec3 turnOf(const ContactPoint& c, const RimPoint& a, const RimPoint& b, const Vec3* edge) {
   const Vec3 way = c.pa - c.pb;
@@ -49,12 +44,12 @@ Vec3 turnOf(const ContactPoint& c, const RimPoint& a, const RimPoint& b, const V
 }  // namespace
 
 RimPoint rimOfA(const ContactPoint& c) {
-  if (c.rimA == 0.0) return {Vec3::Zero(), Vec3::Zero(), 0.0};
+  if (c.rimA == 0.0) return {Vec3::Zero(), Vec3::Zero()};
   return outermostOnRim(c.ea, c.rimA, -c.n);
 }
 
 RimPoint rimOfB(const ContactPoint& c) {
-  if (c.rimB == 0.0) return {Vec3::Zero(), Vec3::Zero(), 0.0};
+  if (c.rimB == 0.0) return {Vec3::Zero(), Vec3::Zero()};
   return outermostOnRim(c.eb, c.rimB, c.n);
 }
 
@@ -71,8 +66,8 @@ bool alignNormal(ContactPoint& c, const Vec3& fromA, const Vec3& fromB) {
     const Vec3 turn = turnOf(c, a, b, edge);
     const double last = std::exchange(size, turn.norm());
     if (!std::isfinite(size) || size <= kStill || (size >= last && size < kNearlyStill)) break;
-    const double lean = std::min(leanOf(c.rimA, a), leanOf(c.rimB, b));
-    c.n = (c.n + std::min(1.0, kStride * lean / size) * turn).normalized();
+    const double stride = kStride * std::min(a.lean, b.lean);
+    c.n = (c.n + std::min(1.0, stride / size) * turn).normalized();
   }
   const double reach = c.n.dot(c.pa - c.pb);
   c.separation = reach - c.ra - c.rb;

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// The outermost point of the rim of a, or of b, along the normal of a contact; bend 0 and no
-/// tangent if that body has none there.
+/// The outermost point of the rim of a, or of b, along the normal of a contact; bend 0, lean 1
+/// and no tangent if that body has none there.
 RimPoint rimOfA(const ContactPoint& c);
 RimPoint rimOfB(const ContactPoint& c);
 

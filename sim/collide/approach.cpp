@@ -256,32 +256,32 @@ double Approach::stepAlong(const Vec3& n, const Vec3& turn, double limit, bool b
 
 /// Angular velocity [rad/s] of a cap whose rim lies flat in the plane, which may lead it; or 0.
 Vec3 Approach::capTurn() const {
-  constexpr double kFlat = 1e-3;  // [1] sine of the angle between n and the axis
-  const auto liesFlat = [](double rim, const RimPoint& point) {
-    return rim > 0.0 && !(kFlat * point.bend < rim);
-  };
-  if (wide_.tie == NormalTie::EdgeOfB && liesFlat(wide_.rimA, rimOfA(wide_)))
+  constexpr double kFlat = 1e-3;  // [1] of its lean
+  if (wide_.tie == NormalTie::EdgeOfB && !(rimOfA(wide_).lean > kFlat))
     return side_[0].flyer.body->omega;
-  if (wide_.tie == NormalTie::EdgeOfA && liesFlat(wide_.rimB, rimOfB(wide_)))
+  if (wide_.tie == NormalTie::EdgeOfA && !(rimOfB(wide_).lean > kFlat))
     return side_[1].flyer.body->omega;
   return Vec3::Zero();
+}
+
+/// The longest step with a plane that turns; as a steady one if that is longer.
+double Approach::stepTurning(const Vec3& turn, double steady, double limit, bool begins) const {
+  if (turn.isZero(0.0)) return steady;
+  // The bounds of a turning plane grow with the time they must hold for: begin with a short one.
+  double longest = steady;
+  for (double span = std::max(4.0 * steady, kShortest);; span *= 4.0) {
+    const double reach = std::min(span, limit);
+    const double step = stepAlong(wide_.n, turn, reach, begins);
+    longest = std::max(longest, step);
+    if (step < reach || reach == limit) return longest;
+  }
 }
 
 double Approach::cornerStep(double limit, bool begins) const {
   const double steady = stepAlong(wide_.n, Vec3::Zero(), limit, begins);
   if (steady >= limit || plane_) return steady;
-  double longest = steady;
-  for (const Vec3& turn : {planeTurn(), capTurn()}) {
-    if (turn.isZero(0.0)) continue;
-    // The bounds of a turning plane grow with the time they must hold for: begin with a short one.
-    for (double span = std::max(4.0 * steady, kShortest);; span *= 4.0) {
-      const double reach = std::min(span, limit);
-      const double step = stepAlong(wide_.n, turn, reach, begins);
-      longest = std::max(longest, step);
-      if (step < reach || reach == limit) break;
-    }
-  }
-  return longest;
+  return std::max(stepTurning(planeTurn(), steady, limit, begins),
+                  stepTurning(capTurn(), steady, limit, begins));
 }
 
 std::optional<double> Approach::firstTouch(double t0, double t1, bool begins) {

@@ -81,6 +81,7 @@ class Approach {
   Reach outermost(const Side& side, const Seen& seen, double s, double sign) const;
   Vec3 planeTurn() const;
   Vec3 capTurn() const;
+  double stepTurning(const Vec3& turn, double steady, double limit, bool begins) const;
   double fall() const;
   double speedWithin(double limit) const;
   double bound(const Vec3& n, double spin, double limit) const;

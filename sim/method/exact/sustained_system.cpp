@@ -44,16 +44,15 @@ bool isBall(const Shape& shape, const RigidBody& body) {
          body.Ibody == inertia.x() * Mat3::Identity();
 }
 
-/// Whether the normal of a contact on a rim has come to the rim's axis: there it would lie on a
-/// cap, and nothing says where on the rim it is.
-bool liesFlat(const Contact& c) {
-  constexpr double kFlat = 1e-9;  // [1] sine of the angle between them
+/// Whether the normal of a contact on a rim comes to the rim's axis at these poses: there it would
+/// lie on a cap, and nothing says where on the rim it is.
+bool liesFlat(const RigidBody& a, const RigidBody& b, Contact c) {
+  constexpr double kFlat = 1e-9;  // [1] of its lean
   const ContactPoint& point = c.point;
-  const auto flat = [](double rim, const RimPoint& at) {
-    return rim > 0.0 && !(kFlat * at.bend < rim);
-  };
-  return point.tie != NormalTie::FaceOfA && point.tie != NormalTie::FaceOfB &&
-         (flat(point.rimA, rimOfA(point)) || flat(point.rimB, rimOfB(point)));
+  if (point.rimA == 0.0 && point.rimB == 0.0) return false;
+  if (point.tie == NormalTie::FaceOfA || point.tie == NormalTie::FaceOfB) return false;
+  follow(a, b, c);
+  return !(std::min(rimOfA(point).lean, rimOfB(point).lean) > kFlat);
 }
 
 /// exp(½ θ), θ = ω₀ t + ½ α t².
@@ -174,8 +173,9 @@ void SustainedSystem::derivative(double t, std::span<const double> y,
 
 void SustainedSystem::normalise(std::span<double> y) const {
   unpack(y, work_);
-  for (Contact& c : contacts_) follow(work_[c.a], work_[c.b], c);
-  if (std::any_of(contacts_.begin(), contacts_.end(), liesFlat)) return;
+  if (std::any_of(contacts_.begin(), contacts_.end(),
+                  [this](const Contact& c) { return liesFlat(work_[c.a], work_[c.b], c); }))
+    return;
   const Books kept = books(y);
   modes_.project(work_, contacts_);
   pack(work_, y);
