@@ -100,6 +100,11 @@ class Stepping {
   /// Brings the near pairs up to date with the boxes. @return whether they are others than before
   bool takePairs();
   double marginOf(std::size_t pair, double h) const;
+  /// Whether a point of what bends goes past a solid within h seconds: its way stays clear of it,
+  /// and leads to where the solid shows another side. Its row, which knows the plane at the start
+  /// alone, would push it out of the way of what it never meets.
+  /// @param v  [m/s] velocity of the second of the pair against the first
+  bool passes(std::size_t pair, const Vec3& v, double h) const;
   /// The same for a speed [m/s] at which surfaces approach.
   double marginFor(double speed, double h) const;
   /// Looks where velocities that contacts gave lead, beyond what was foreseen. @return whether

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/collide/collide.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -93,7 +94,30 @@ bool Stepping::takePairs() {
   double speed = (a.v - b.v).norm();
   for (int i : {ib, ia})
     if (std::isfinite(model_.radius[i])) speed += state_.bodies[i].omega.norm() * model_.radius[i];
+  if (passes(pair, a.v - b.v, h)) speed = 0.0;
   return powerAbove(marginFor(speed, h));
+}
+
+bool Stepping::passes(std::size_t pair, const Vec3& v, double h) const {
+  constexpr double kTurns = 0.25;  // [rad] less than that, and its plane stands for the solid
+  const auto [ib, ia] = state_.near[pair];
+  if (!model_.bends(ia) && !model_.bends(ib)) return false;
+  const int point = model_.bends(ia) ? ia : ib, other = point == ia ? ib : ia;
+  const RigidBody& solid = state_.bodies[other];
+  const Vec3 x = state_.bodies[point].x, way = (point == ia ? h : -h) * v;
+  const double r = model_.radius[point], length = way.norm(), clear = marginFor(0.0, h);
+  // No surface that far off a solid is rounder than a ball of that radius.
+  if (!std::isfinite(model_.radius[other]) || length <= kTurns * (r + clear)) return false;
+  const Shape& shape = model_.shapes[other];
+  const auto planeAt = [&](const Vec3& at) {
+    return separatingPlane(Sphere{r}, {at, Quat::Identity()}, shape, solid.pose());
+  };
+  const double turn = h * solid.omega.norm() * model_.radius[other];
+  const ContactPoint before = planeAt(x);
+  if (before.separation > length + turn + clear) return false;  // there is no row
+  if ((planeAt(x + way).n - before.n).norm() <= kTurns) return false;
+  const Pose middle{x + 0.5 * way, Quat::FromTwoVectors(Vec3::UnitY(), way)};
+  return separation(Capsule{r, length}, middle, shape, solid.pose()) > turn + clear;
 }
 
 double Stepping::marginFor(double speed, double h) const {
@@ -151,6 +175,7 @@ double Stepping::marginAhead(std::size_t pair, double h) const {
   double speed = (va - vb).head<3>().norm();
   if (std::isfinite(model_.radius[ia])) speed += va.tail<3>().norm() * model_.radius[ia];
   if (std::isfinite(model_.radius[ib])) speed += vb.tail<3>().norm() * model_.radius[ib];
+  if (passes(pair, (va - vb).head<3>(), h)) speed = 0.0;
   return marginFor(speed, h);
 }
 
