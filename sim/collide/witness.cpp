@@ -99,10 +99,14 @@ double gapAlong(const Witness& w, const Shape& a, const Pose& poseA, const Shape
 
 bool showsApart(const Witness& w, const Shape& a, const Pose& poseA, const Shape& b,
                 const Pose& poseB, double margin) {
+  return w.known && showsApart(w, a, poseA, boundingRadius(a), b, poseB, boundingRadius(b), margin);
+}
+
+bool showsApart(const Witness& w, const Shape& a, const Pose& poseA, double radiusA, const Shape& b,
+                const Pose& poseB, double radiusB, double margin) {
   // Manifolds take what lies on a side to 1e-9 of the size, and are rounded themselves.
   constexpr double kSlack = 1e-8;
   if (!w.known) return false;
-  const double radiusA = boundingRadius(a), radiusB = boundingRadius(b);
   const double size = (std::isfinite(radiusA) ? radiusA : 0.0) +
                       (std::isfinite(radiusB) ? radiusB : 0.0) + (poseA.x - poseB.x).norm();
   return gapAlong(w, a, poseA, b, poseB) > margin + kSlack * size;

@@ -51,4 +51,8 @@ double gapAlong(const Witness& witness, const Shape& a, const Pose& poseA, const
 bool showsApart(const Witness& witness, const Shape& a, const Pose& poseA, const Shape& b,
                 const Pose& poseB, double margin);
 
+/// The same where their bounding radii [m] are known, which takes all corners to find.
+bool showsApart(const Witness& witness, const Shape& a, const Pose& poseA, double radiusA,
+                const Shape& b, const Pose& poseB, double radiusB, double margin);
+
 }  // namespace tumble

@@ -99,8 +99,8 @@ bool planeShowsApart(const Model& model, const State& state, std::span<const Rig
   const auto [b, a] = state.near[k];
   ++report.certificate.plane_tests;
   const Witness& witness = state.witnesses[k].whole;
-  const bool apart = witness.known && showsApart(witness, model.shapes[a], bodies[a].pose(),
-                                                 model.shapes[b], bodies[b].pose(), margin);
+  const bool apart = showsApart(witness, model.shapes[a], bodies[a].pose(), model.radius[a],
+                                model.shapes[b], bodies[b].pose(), model.radius[b], margin);
   if (apart) ++report.certificate.plane_hits;
   return apart;
 }
