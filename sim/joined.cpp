@@ -11,6 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr double kTurn = 3.14159265358979323846;  // [rad] the widest limit of a hinge
+constexpr double kSame = 1e-6;  // of the size: anchors of so many digits are a particle's position
 
 void need(bool holds, const std::string& where, const std::string& what) {
   if (!holds) throw Refusal(where, what);
@@ -51,10 +52,24 @@ void checkBodies(const Model& model, std::span<const RigidBody> bodies, std::siz
     const bool point = def.kind == JointKind::Ball || def.kind == JointKind::Distance;
     need(point, pathOf(k, field),
          who + " is a particle, which does not turn: \"ball\" or \"distance\" can hold it");
-    const Vec3& anchor = body == def.a ? def.anchorA : def.anchorB;
-    need(anchor == bodies[body].x, pathOf(k, ".anchor"),
-         who + " is a particle, so the anchor must be its position");
+    const Vec3 off = bodies[body].x - (body == def.a ? def.anchorA : def.anchorB);
+    need(off.norm() <= kSame * model.size, pathOf(k, ".anchor"),
+         who + " is a particle, so the anchor must be its position: move it by [" +
+             shortNumber(off.x()) + ", " + shortNumber(off.y()) + ", " + shortNumber(off.z()) +
+             "] m");
   }
+}
+
+/// Anchors on a particle, which does not turn, stand where it is to the last bit.
+void seatAnchors(JointDef& def, std::span<const RigidBody> bodies) {
+  const auto particle = [&](int body) { return body != kNoBody && bodies[body].particle; };
+  if (particle(def.a)) def.anchorA = bodies[def.a].x;
+  if (particle(def.b)) def.anchorB = bodies[def.b].x;
+  if (def.kind != JointKind::Ball) return;
+  if (particle(def.a))
+    def.anchorB = def.anchorA;
+  else
+    def.anchorA = def.anchorB;
 }
 
 /// Anchors, axis and limits are numbers that make a joint.
@@ -99,15 +114,17 @@ void checkStart(const Model& model, std::span<const RigidBody> bodies, std::size
       speed = std::max(speed, bodies[body].v.norm() + joint.arm * bodies[body].omega.norm());
   std::vector<JointRow> rows;
   jointRows(bodies, joint, rows);
+  double squares = 0.0;  // [m²/s²]
+  for (const JointRow& row : rows)
+    if (row.limit < 0) squares += row.arm * row.rate * row.arm * row.rate;
+  need(std::sqrt(squares) <= kRounding * speed, pathOf(k),
+       name + " does not let its bodies begin as they do: they part at " +
+           shortNumber(std::sqrt(squares)) + " m/s there; give both velocities that agree");
   for (const JointRow& row : rows) {
     need(row.limit < 0 || row.arm * row.gap >= -touch, pathOf(k, row.limit == 0 ? ".min" : ".max"),
          name + " begins beyond its " + (row.limit == 0 ? "lower" : "upper") + " limit, by " +
              (joint.kind == JointKind::Hinge ? shortNumber(-row.gap * 180.0 / kTurn) + " degrees"
                                              : shortNumber(-row.gap) + " m"));
-    need(row.limit >= 0 || row.arm * std::abs(row.rate) <= kRounding * speed, pathOf(k),
-         name + " does not let its bodies begin as they do: they part at " +
-             shortNumber(row.arm * std::abs(row.rate)) +
-             " m/s there; give both velocities that agree");
   }
 }
 
@@ -130,6 +147,7 @@ void joinBodies(Model& model, std::span<const RigidBody> bodies) {
   for (std::size_t k = 0; k < defs.size(); ++k) {
     checkBodies(model, bodies, k);
     checkNumbers(model, k);
+    seatAnchors(model.def.joints[k], bodies);
     model.joints.push_back(makeJoint(defs[k], bodies, armOf(model, bodies, defs[k])));
     checkStart(model, bodies, k);
     if (!defs[k].collide && defs[k].b != kNoBody)
