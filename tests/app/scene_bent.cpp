@@ -143,9 +143,15 @@ TEST_CASE("what cannot follow what bends refuses it by name") {
               .find("as \"c\" does; take \"stepping\"") != std::string::npos);
   CHECK(with("[world]\n[stepping]\nsolver = \"pgs\"\n").find("take \"newton\"") !=
         std::string::npos);
-  CHECK(
-      with("[world]\n[[force]]\nkind = \"drag\"\nlinear = 1\n").find("by gravity and wind alone") !=
-      std::string::npos);
+  // No remedy is a method that refuses what bends in its turn.
+  const std::string drag = with("[world]\n[[force]]\nkind = \"drag\"\nlinear = 1\n");
+  CHECK(drag.find("by gravity and wind alone") != std::string::npos);
+  CHECK(drag.find("course") == std::string::npos);
+  const std::string top = with(
+      "[world]\n[[body]]\nname = \"top\"\nshape = { sphere = 0.1 }\nmass = 1\n"
+      "position = [9, 9, 9]\npivot_body = [0, -0.1, 0]\n");
+  CHECK(top.find("knows no pivots; leave it out, a ball joint to the world") != std::string::npos);
+  CHECK(top.find("course") == std::string::npos);
   CHECK(with("[world]\n") == "");
 }
 

@@ -31,7 +31,7 @@ void checkBending(const Model& model) {
         (spring && (model.bends(spring->a) || (spring->b != kNoBody && model.bends(spring->b)))))
       throw Refusal("forces[" + std::to_string(k) + "]",
                     "\"stepping\" drives points of what bends by gravity and wind alone; name the "
-                    "bodies that this force is for, or take method = \"course\"");
+                    "bodies that this force is for, none that is such a point");
   }
 }
 
@@ -48,8 +48,11 @@ void checkStepping(const Model& model, std::span<const RigidBody> /*bodies*/) {
     throw Refusal("stepping.points", "no plan for points is called \"" + stepping.points + "\"");
   checkBending(model);
   if (!model.pivots.empty())
-    throw Refusal("bodies[" + std::to_string(model.pivots[0].body) + "].pivot_body",
-                  "\"stepping\" knows no pivots; take method = \"course\" or leave it out");
+    throw Refusal(
+        "bodies[" + std::to_string(model.pivots[0].body) + "].pivot_body",
+        std::string("\"stepping\" knows no pivots; leave it out, a ball joint to the world "
+                    "holds the same point") +
+            (model.bending.empty() ? ", or take method = \"course\"" : ""));
 }
 
 void advanceStepping(const Model& model, State& state, double t_end, Report& report) {
