@@ -121,8 +121,9 @@ bool Stepping::passes(std::size_t pair, const Vec3& v, double h) const {
 }
 
 double Stepping::marginFor(double speed, double h) const {
-  constexpr double kNeighbour = 1e-4;
-  return std::max(kNeighbour, h * speed + 2.0 * gravity_ * h * h + tolerance_.touch);
+  constexpr double kNeighbour = 1e-4;  // [m] in worlds that are not small
+  const double neighbour = kNeighbour * std::min(1.0, ContactTolerance::scaleOf(model_.size));
+  return std::max(neighbour, h * speed + 2.0 * gravity_ * h * h + tolerance_.touch);
 }
 
 bool Stepping::growBoxes(double h, bool fall) {
