@@ -141,11 +141,13 @@ Vec3 Approach::planeTurn() const {
   const Vec3 &a = side_[0].flyer.body->omega, &b = side_[1].flyer.body->omega;
   switch (wide_.tie) {
     case NormalTie::FaceOfA:
-    case NormalTie::EdgeOfA:
       return a;
     case NormalTie::FaceOfB:
-    case NormalTie::EdgeOfB:
       return b;
+    case NormalTie::EdgeOfA:
+      return edgeTurn(wide_.ea, a, b, wide_.ra, rimOfB(wide_));
+    case NormalTie::EdgeOfB:
+      return edgeTurn(wide_.eb, b, a, wide_.rb, rimOfA(wide_));
     case NormalTie::Points:
       return Vec3::Zero();
     case NormalTie::Edges:
@@ -157,6 +159,26 @@ Vec3 Approach::planeTurn() const {
   const double product = wide_.ea.cross(wide_.eb).dot(wide_.n);
   const Vec3 turn = wide_.n.cross(rate / product);
   return turn.allFinite() ? turn : Vec3::Zero();
+}
+
+/// Of a point of one body, which may wander along a rim, against an edge e of another: n stays
+/// across the edge, and on the line between the two,  t·(pa − pb) = 0,  t = e × n:
+///   Ω = ω − (ω·e) e + φ e,   (reach + bend (along·t)²) φ = t·(va − vb) − bend (along·t) along·w,
+///   w = (ω − (ω·e) e − ω') × n
+/// @param omega, other  [rad/s] of the body of the edge, and of that of the point
+/// @param round         [m] radius of the edge: about a sharp one n turns as fast as the point
+///                      passes it, which does not help
+Vec3 Approach::edgeTurn(const Vec3& e, const Vec3& omega, const Vec3& other, double round,
+                        const RimPoint& rim) const {
+  if (round == 0.0 && rim.bend == 0.0) return omega;
+  const Vec3& n = wide_.n;
+  const Vec3 t = e.cross(n), tilt = omega - omega.dot(e) * e;
+  const double along = rim.along.dot(t), reach = wide_.separation + wide_.ra + wide_.rb;
+  const double passes = t.dot(velocity_ + side_[0].flyer.body->omega.cross(wide_.pa - offset_) -
+                              side_[1].flyer.body->omega.cross(wide_.pb));
+  const double wanders = rim.bend * along * rim.along.dot((tilt - other).cross(n));
+  const Vec3 turn = tilt + (passes - wanders) / (reach + rim.bend * along * along) * e;
+  return turn.allFinite() ? turn : omega;
 }
 
 // A point p of the body moves along the turning n at  p·(ṅ + n × ω) = p·((Ω − ω) × n).

@@ -17,6 +17,7 @@
 #include <span>
 
 #include "sim/collide/contact_point.h"
+#include "sim/collide/rim.h"
 #include "sim/flight/flight.h"
 #include "sim/flight/top.h"
 #include "sim/shape/outline.h"
@@ -80,6 +81,8 @@ class Approach {
   /// The outermost point along `sign` (n + s ṅ).
   Reach outermost(const Side& side, const Seen& seen, double s, double sign) const;
   Vec3 planeTurn() const;
+  Vec3 edgeTurn(const Vec3& e, const Vec3& omega, const Vec3& other, double round,
+                const RimPoint& rim) const;
   Vec3 capTurn() const;
   double stepTurning(const Vec3& turn, double steady, double limit, bool begins) const;
   double fall() const;

@@ -202,4 +202,21 @@ TEST_CASE("a cap that rocks over an edge is followed by its own turn") {
   CHECK(approach.evaluations() < 1'500);
 }
 
+// A cylinder hangs over the edge of a turntable, leans a little, rights itself and rolls along.
+// Looks: 126; 10,703 where the plane is taken to turn with what rolls.
+TEST_CASE("a cylinder that rolls over the edge of a disk is followed by its lean, not its spin") {
+  constexpr double kGap = 3e-9, kSpin = 17.0, kLean = 1e-3, kRights = 0.5;
+  const Cylinder roller{0.05, 0.2};
+  const Vec3 axis(std::cos(kLean), -std::sin(kLean), 0.0), n(std::sin(kLean), std::cos(kLean), 0.0);
+  Flown rolls(
+      roller,
+      {Vec3(1.5, 0.0, 0.0) + (roller.r + kGap) * n, Quat::FromTwoVectors(Vec3::UnitY(), axis)},
+      kSpin * roller.r * Vec3::UnitZ(), kSpin * axis + kRights * Vec3::UnitZ(), Vec3::Zero());
+  Flown table(Cylinder{1.5, 0.2}, {{0.0, -0.1, 0.0}, Quat::Identity()}, Vec3::Zero(),
+              {0.0, 2.0, 0.0}, Vec3::Zero());
+  Approach approach(rolls.flyer(), table.flyer(), kTouch);
+  approach.firstTouch(0.0, 3e-3, true);
+  CHECK(approach.evaluations() < 300);
+}
+
 }  // namespace tumble
