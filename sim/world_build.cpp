@@ -18,7 +18,7 @@ namespace {
 /// Error of a substep, where the exact method has to make steps.
 constexpr double kJointTolerance = 1e-13;
 /// Times the effort that `auto` grants the exact method, where that is asked for by name.
-constexpr long kAsked = 8;
+constexpr long kAsked = 6;
 
 std::string bodyPath(std::size_t i, const char* field = "") {
   return "bodies[" + std::to_string(i) + "]" + field;
