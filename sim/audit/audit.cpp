@@ -212,7 +212,9 @@ void Audit::findDisagreements(Report& report) const {
        kEnergyShare + unsure);
   hold("momentum that nothing gave, relative", books.audit_momentum_error, books.momentum_error,
        kMomentumShare);
-  hold("spin that nothing gave, relative", books.audit_spin_error, 0.0, kMomentumShare);
+  const double spun = books.audit_spin_error,
+               lifted = relative(books.spin_added_repair, spinMax_, load_ * t_ * size_);
+  hold("spin that nothing gave, relative", spun, lifted, kMomentumShare);
   hold("deepest overlap / m", books.audit_max_penetration, books.max_penetration,
        kOverlapShare * nearness_.least());
   hold("way that no speed makes / m", astray_, 0.0, 0.0);
@@ -223,6 +225,10 @@ void Audit::findDisagreements(Report& report) const {
     report.note(("the audit finds balance of energy, relative, " + shortNumber(open) +
                  ", and knows it to " + shortNumber(unsure) +
                  " only, by what is not known of forces within what bends: smaller steps tell more")
+                    .c_str());
+  if (spun > kMomentumShare && spun <= lifted + kMomentumShare)
+    report.note(("bodies in flight were moved out of each other, which gave spin, relative, " +
+                 shortNumber(spun) + ": smaller steps give less")
                     .c_str());
   tellWeakness(report);
 }

@@ -85,7 +85,7 @@ void handOver(const Model& model, State& state, Report& report) {
   state.momentumStart = before->momentumStart;
   state.momentumScale = before->momentumScale;
   state.kineticMax = before->kineticMax;
-  state.energyOwn = before->energyOwn;
+  state.energyLeast = before->energyLeast;
   state.momentumDrift = before->momentumDrift;
   state.load = before->load;
   state.loadPower = before->loadPower;

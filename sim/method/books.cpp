@@ -125,8 +125,8 @@ void account(const Model& model, State& state, Report& report, double potential)
   books.energy_end = kinetic + potential + energyStored(state.lasting);
   // Contacts may take of this, but give nothing.
   const double own = books.energy_end - books.energy_added_repair - books.work_of_forces;
-  books.max_energy_gain = std::max(books.max_energy_gain, own - state.energyOwn);
-  state.energyOwn = own;
+  books.max_energy_gain = std::max(books.max_energy_gain, own - state.energyLeast);
+  state.energyLeast = std::min(state.energyLeast, own);
   const double open = own - books.energy_start + books.energy_lost_impact +
                       books.energy_lost_friction + books.energy_lost_bending;
   books.energy_balance_error =

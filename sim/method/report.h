@@ -49,7 +49,8 @@ struct Certificate {
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
   double energy_lost_bending = 0.0;  ///< [J] in dampers of what bends, and in its implicit steps
   double energy_added_repair = 0.0;  ///< [J] by moving bodies out of each other
-  double max_energy_gain = 0.0;      ///< [J] in a step, beyond what repairs added and forces did
+  double spin_added_repair = 0.0;    ///< [kg m²/s] of its sums by what nothing held: their norms
+  double max_energy_gain = 0.0;      ///< [J] largest rise, but for what repairs and forces added
   double work_of_forces = 0.0;  ///< [J] by forces without a potential and by moving fixed bodies
   /// |E_end − E_start + lost − added − work| / max kinetic, and worst |P − P₀ − ∫F − Σ impulses| /
   /// max Σ|P|. Of a scene at rest, with less than a millionth of that: by the ½ Σ (F t)²/m and the
@@ -101,6 +102,7 @@ inline constexpr CertificateField kCertificateFields[] = {
     {"energy_lost_friction", &Certificate::energy_lost_friction},
     {"energy_lost_bending", &Certificate::energy_lost_bending},
     {"energy_added_repair", &Certificate::energy_added_repair},
+    {"spin_added_repair", &Certificate::spin_added_repair},
     {"max_energy_gain", &Certificate::max_energy_gain},
     {"work_of_forces", &Certificate::work_of_forces},
     {"energy_balance_error", &Certificate::energy_balance_error},

@@ -52,8 +52,8 @@ struct State {
   double momentumDrift = 0.0;           ///< [kg m/s] worst |P − P₀ − ∫F − Σ impulses|
   double momentumScale = 0.0;           ///< [kg m/s] max of Σ|P|
   double kineticMax = 0.0;              ///< [J]
-  /// [J] of the step before, without what repairs and forces did to it.
-  double energyOwn = std::numeric_limits<double>::infinity();
+  /// [J] the least so far, without what repairs and forces did to it.
+  double energyLeast = std::numeric_limits<double>::infinity();
   double load = 0.0;       ///< [N] Σ|F| of gravity and the forces, at the start
   double loadPower = 0.0;  ///< [W/s] Σ F²/m of the same
 

@@ -174,6 +174,8 @@ struct SteppingWork {
   std::vector<Island> islands;            ///< at hand: one for each worker
   std::vector<IslandAnswer> answers;      ///< of the islands of this step
   std::vector<char> open;                 ///< per root: an overlap in its island
+  std::vector<Vec3> given;                ///< [kg m²/s] per root: spin that lifting gave
+  std::vector<char> free;                 ///< per root: no fixed body lifted any of it
   std::vector<int> number, place;         ///< per root: of its island; per island: of its next link
   Problem problem;                        ///< of all bodies at once
   Solution solution;

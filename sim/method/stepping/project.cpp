@@ -90,6 +90,7 @@ int Stepping::lift(double furthest, int most, bool asCrowd) {
       asCrowd ? *findSolver(model_.def.stepping.crowdSolver) : solver_, work_.problem,
       {.tolerance = kTolerance, .maxIterations = atMost}, work_.solution);
 
+  report_.certificate.spin_added_repair += spinOfLifted();
   // Poses move, momenta stay: no kinetic energy comes of it. A turn is kept within a small angle.
   constexpr double kLargestTurn = 0.1;  // [rad]
   for (std::size_t i = 0; i < state_.bodies.size(); ++i) {
@@ -102,6 +103,28 @@ int Stepping::lift(double furthest, int most, bool asCrowd) {
     updateDerived(body);
   }
   return solved.iterations;
+}
+
+/// Who is lifted by d and keeps its momentum P has d × P more angular momentum. What a fixed body
+/// lifts is not free.
+double Stepping::spinOfLifted() {
+  const int world = static_cast<int>(state_.bodies.size());
+  const auto stands = [&](int i) { return i == world || model_.fixed(i); };
+  work_.given.assign(state_.bodies.size(), Vec3::Zero());
+  work_.free.assign(state_.bodies.size(), 1);
+  for (std::size_t r = 0; r < work_.problem.rows.size(); ++r) {
+    const Row& row = work_.problem.rows[r];
+    if (work_.solution.lambda[r] != 0.0 && stands(row.a) != stands(row.b))
+      work_.free[islandRoot(work_.root, stands(row.a) ? row.b : row.a)] = 0;
+  }
+  for (const int i : work_.active)
+    if (!model_.fixed(i))
+      work_.given[islandRoot(work_.root, i)] +=
+          work_.solution.v[i].head<3>().cross(state_.bodies[i].P);
+  double sum = 0.0;
+  for (const int i : work_.active)
+    if (work_.free[i]) sum += work_.given[i].norm();
+  return sum;
 }
 
 }  // namespace tumble

@@ -603,6 +603,7 @@ class Stepping {
   /// @param furthest [m] the deepest overlap, or the widest gap of a joint if that is wider
   /// @return how many it took
   int lift(double furthest, int most, bool asCrowd);
+  double spinOfLifted();  ///< [kg m²/s] sum over islands
 
   // events.cpp
   void recordEvents(double t);
