@@ -47,7 +47,7 @@ bool isBall(const Shape& shape, const RigidBody& body) {
 /// Whether the normal of a contact on a rim comes to the rim's axis at these poses: there it would
 /// lie on a cap, and nothing says where on the rim it is.
 bool liesFlat(const RigidBody& a, const RigidBody& b, Contact c) {
-  constexpr double kFlat = 1e-9;  // [1] of its lean
+  constexpr double kFlat = 1e-6;  // [1] of its lean
   const ContactPoint& point = c.point;
   if (point.rimA == 0.0 && point.rimB == 0.0) return false;
   if (point.tie == NormalTie::FaceOfA || point.tie == NormalTie::FaceOfB) return false;
