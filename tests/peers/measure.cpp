@@ -174,7 +174,7 @@ double spinning(const Scene& scene, const Motion& motion) {
 
 std::vector<Trial> makeTrials() {
   const std::vector<double> fine = {60, 120, 240, 480, 960, 2400, 10000};
-  const std::vector<double> stacks = {60, 120, 240, 480, 960}, crowds = {60, 120, 240, 480};
+  const std::vector<double> stacks = {60, 120, 240, 480, 960}, crowds = {15, 30, 60, 120, 240, 480};
   std::vector<Trial> all = {{"projectile",
                              "projectile",
                              {},

@@ -100,6 +100,9 @@ struct Job {
   Point point;
 };
 
+// What has a clock of its own is asked so many times a second.
+constexpr double kAsked = 60.0;
+
 // Every setup from its coarsest step on, until one is too slow.
 std::vector<Job> measureAll(const Trial& trial, const Scene& scene,
                             const std::vector<EngineSetup>& setups, const Plan& plan,
@@ -108,7 +111,8 @@ std::vector<Job> measureAll(const Trial& trial, const Scene& scene,
   for (std::size_t i = 0; i < setups.size(); ++i) {
     const EngineSetup& setup = setups[i];
     if (!meantFor(setup, scene.world)) continue;
-    for (const double rate : trial.rates) {
+    for (const double of : trial.rates) {
+      const double rate = setup.stepless ? kAsked : of;
       const Measured measured = measure(trial, setup, scene, rate, plan.most);
       if (measured.error)
         jobs.push_back({&setup,
