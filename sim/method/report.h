@@ -49,8 +49,8 @@ struct Certificate {
   double energy_lost_impact = 0.0, energy_lost_friction = 0.0;  ///< [J]
   double energy_lost_bending = 0.0;  ///< [J] in dampers of what bends, and in its implicit steps
   double energy_added_repair = 0.0;  ///< [J] by moving bodies out of each other
-  double spin_added_repair = 0.0;    ///< [kg m²/s] of its sums by what nothing held: their norms
-  double max_energy_gain = 0.0;      ///< [J] largest rise, but for what repairs and forces added
+  double spin_added_repair = 0.0;    ///< [kg m²/s] that this gave what no fixed body held, at most
+  double max_energy_gain = 0.0;      ///< [J] largest rise that neither repairs nor forces gave
   double work_of_forces = 0.0;  ///< [J] by forces without a potential and by moving fixed bodies
   /// |E_end − E_start + lost − added − work| / max kinetic, and worst |P − P₀ − ∫F − Σ impulses| /
   /// max Σ|P|. Of a scene at rest, with less than a millionth of that: by the ½ Σ (F t)²/m and the
