@@ -10,6 +10,8 @@ namespace {
 
 /// [1] Edges that lean by less against the face of a contact lie on it.
 constexpr double kLevel = 1e-6;
+/// [1/s] Edges on a face that turn against it by more are about to lean.
+constexpr double kTurning = 1e-8;
 /// [1] Edges that cross at less than this angle have no point to follow.
 constexpr double kCrossing = 1e-3;
 
@@ -37,12 +39,36 @@ BoxEdge edgeOf(const std::vector<Convex>& parts, const RigidBody& body, std::uin
   return edge;
 }
 
-void tieCrossing(const State& state, Contact& c) {
-  const Vec3 ea =
-      edgeOf(state.exact.parts[c.a], state.bodies[c.a], featureOfA(c.point.feature)).along;
-  const Vec3 eb =
-      edgeOf(state.exact.parts[c.b], state.bodies[c.b], featureOfB(c.point.feature)).along;
+/// A contact of a face, tied to two edges that lie on it instead: the same point, with a normal
+/// that stays across both.
+Contact tiedToEdges(const State& state, const Contact& c, const Vec3& ea, const Vec3& eb) {
+  const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
+  Contact tied = c;
+  tied.point.tie = NormalTie::Edges;
+  tied.point.ea = ea;
+  tied.point.eb = eb;
+  tied.anchor = anchorOf(a, b, tied.point);
+  follow(a, b, tied);
+  return tied;
+}
+
+/// Ties the point of a contact of a face to the edges that cross there: as a point of the face, or,
+/// where they are about to lean against it, as one of two edges, unless that would change a
+/// velocity that is told from none [m/s].
+void tieCrossing(const State& state, double rest, Contact& c) {
+  const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
+  const Vec3 ea = edgeOf(state.exact.parts[c.a], a, featureOfA(c.point.feature)).along;
+  const Vec3 eb = edgeOf(state.exact.parts[c.b], b, featureOfB(c.point.feature)).along;
   if (ea.cross(eb).norm() < kCrossing) return;
+  const Vec3 across = c.point.n.cross(a.omega - b.omega);
+  if (std::max(std::abs(across.dot(ea)), std::abs(across.dot(eb))) > kTurning) {
+    const Contact tied = tiedToEdges(state, c, ea, eb);
+    const double change = approachVelocity(a, b, tied.point) - approachVelocity(a, b, c.point);
+    if (std::abs(change) <= rest) {
+      c = tied;
+      return;
+    }
+  }
   c.point.ea = ea;
   c.point.eb = eb;
   c.point.crosses = true;
@@ -57,12 +83,7 @@ bool tieEdges(const State& state, Contact& c) {
   const double lean =
       std::max(std::abs(ofA.along.dot(c.point.n)), std::abs(ofB.along.dot(c.point.n)));
   if (ofA.along.cross(ofB.along).norm() < kCrossing || lean <= kLevel) return true;
-  Contact tied = c;
-  tied.point.tie = NormalTie::Edges;
-  tied.point.ea = ofA.along;
-  tied.point.eb = ofB.along;
-  tied.anchor = anchorOf(a, b, tied.point);
-  follow(a, b, tied);
+  const Contact tied = tiedToEdges(state, c, ofA.along, ofB.along);
   const bool shows = ofA.shows(-tied.point.n) && ofB.shows(tied.point.n);
   if (shows) c = tied;
   return shows;
@@ -88,10 +109,10 @@ void tieLeaning(const State& state, std::vector<Contact>& contacts) {
   contacts = all;
 }
 
-void tieCrossings(const State& state, std::vector<Contact>& contacts) {
+void tieCrossings(const State& state, double rest, std::vector<Contact>& contacts) {
   for (Contact& c : contacts) {
     if (c.point.tie == NormalTie::FaceOfB || c.point.tie == NormalTie::FaceOfA)
-      tieCrossing(state, c);
+      tieCrossing(state, rest, c);
     c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], c.point);
   }
 }

@@ -63,7 +63,7 @@ void Sustained::chooseModes() {
   }
   if (!state_.exact.modesKnown) {
     const std::vector<Contact> before = lasting;
-    tieCrossings(state_, lasting);
+    tieCrossings(state_, tolerance_.rest, lasting);
     // What touches to rounding is not moved: that would be work.
     for (Contact& c : lasting) c.granted = -c.point.separation;
     std::vector<RigidBody> bodies = state_.bodies;
