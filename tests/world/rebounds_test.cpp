@@ -311,17 +311,9 @@ TEST_CASE("a blow on a row of boxes that touch leaves their energy, by every met
 }
 
 // Oracle: energy. A draft strikes a crowd once a step: what it takes from a blow that goes on is in
-// its books, and it says so. Measured a third of the energy.
+// its books, and it says so. Measured 22 % of the energy.
 TEST_CASE("stepping: a draft says what it takes from blows that go on in a crowd") {
-  const WorldDef one = row(Box{Vec3::Constant(0.1)}, 5, 1e-3, 1.0, false);
-  WorldDef def = one;
-  for (int k = 1; k < 25; ++k) {
-    for (BodyDef body : one.bodies) {
-      body.name += "." + std::to_string(k);
-      body.position.z() = k;
-      def.bodies.push_back(body);
-    }
-  }
+  WorldDef def = row(Box{Vec3::Constant(0.1)}, 100, 1e-6, 1.0, false);
   def.stepping.take(*findSolverPreset("draft"));
   World world(def);
   run(world);

@@ -49,30 +49,37 @@ void Stepping::activateAll() {
 
 bool Stepping::findClusters(double h) {
   const StageScope stage(state_.times, StepStage::Pairs);
-  constexpr int kNone = -1, kCalm = -2;
+  constexpr int kNone = -1, kCalm = -2, kCalmCrowd = -3;
   many_ = false;  // each cluster will say so of itself
   untilHit(0.0, h, tolerance_.keep);
-  const auto hits = [&](const PairMemory& pair) {
+  const auto hits = [&](std::size_t k) {
+    const PairMemory& pair = memory_.pairs[k];
+    if (!model_.def.stepping.divides && isOneOf(work_.crowded, k)) return false;
     const auto due = [&](const Touch& touch) { return touch.rebounds && touch.due < h; };
-    return (pair.tumbles && pair.lasts < h) || landsHard(pair) ||
+    return (pair.tumbles && pair.lasts < h) || landsHard(k) ||
            (pair.strikes && std::any_of(pair.touches.begin(), pair.touches.end(), due));
   };
-  if (std::none_of(memory_.pairs.begin(), memory_.pairs.end(), hits)) return false;
+  std::vector<std::size_t>& struck = work_.struck;
+  struck.clear();
+  for (std::size_t k = 0; k < memory_.pairs.size(); ++k)
+    if (hits(k)) struck.push_back(k);
+  if (struck.empty() && !mixed_) return false;
   joinNear(h);
   for (const auto& [b, a] : work_.met) joinBodies(a, b);
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (hits(memory_.pairs[k])) joinBodies(state_.near[k].second, state_.near[k].first);
+  for (const std::size_t k : struck) joinBodies(state_.near[k].second, state_.near[k].first);
   const std::vector<int>& tied = memory_.tied;
   for (const int i : tied) joinBodies(i, tied.front());
   const int n = model_.count();
   std::vector<int>& number = work_.island;  // per root
   number.assign(n, kCalm);
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (hits(memory_.pairs[k])) number[rootOf(k)] = kNone;
+  for (int i = 0; i < n; ++i)
+    if (work_.crowded[i]) number[islandRoot(work_.root, i)] = kCalmCrowd;
+  for (const std::size_t k : struck) number[rootOf(k)] = kNone;
   if (!tied.empty() && number[islandRoot(work_.root, tied.front())] == kNone) return false;
-  // Those that hit in the order of their first bodies, then what is left, as one.
+  // Those that hit in the order of their first bodies, then what is left: as one what is no crowd,
+  // as another what is.
   int count = 0;
-  bool calm = false;
+  bool calm = false, calmCrowd = false;
   work_.cluster.assign(n, kNone);
   for (int i = 0; i < n; ++i) {
     if (model_.fixed(i)) continue;
@@ -80,11 +87,13 @@ bool Stepping::findClusters(double h) {
     if (own == kNone) own = count++;
     work_.cluster[i] = own;
     calm = calm || own == kCalm;
+    calmCrowd = calmCrowd || own == kCalmCrowd;
   }
-  if (count == 0 || (count == 1 && !calm)) return false;
+  if (count + calm + calmCrowd < 2) return false;
   std::replace(work_.cluster.begin(), work_.cluster.end(), kCalm, count);
+  std::replace(work_.cluster.begin(), work_.cluster.end(), kCalmCrowd, count + calm);
   work_.tiedCluster = tied.empty() ? kNone : work_.cluster[tied.front()];
-  work_.clusters.bodies.resize(count + calm);
+  work_.clusters.bodies.resize(count + calm + calmCrowd);
   return true;
 }
 
@@ -365,6 +374,7 @@ void Stepping::stepClusters(double t1, double h) {
     if (stopped || misses_) return state_.trail.pop_back();
     takePairs();
     lookAtAll(h);
+    findCrowds();
     apart = findClusters(h);
     if (apart) continue;
     state_.trail.pop_back();

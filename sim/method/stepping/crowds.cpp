@@ -34,27 +34,45 @@ bool Stepping::isCrowd(const Island& island) const {
 }
 
 /// One body or two among many faces have many points near and strike few of them.
-bool Stepping::touchAtMany() const {
-  int weight = 0, movers[] = {kNoBody, kNoBody};
-  bool many = false;
+void Stepping::findCrowds() {
+  constexpr int kFew = 2;
+  const auto touches = [](const PairMemory& pair) { return !pair.touches.empty(); };
+  many_ = crowd_ = mixed_ = false;
+  work_.dense.resize(state_.bodies.size());
+  work_.crowded.resize(state_.bodies.size());
+  for (const int i : work_.active) work_.dense[i] = work_.crowded[i] = 0;
+  int sum = 0;
+  for (const PairMemory& pair : memory_.pairs)
+    if (touches(pair)) sum += weightOf(pair);
+  if (sum <= kReflectionsReach) return;
+
+  partBodies();
+  for (const auto& [b, a] : state_.near) joinBodies(a, b);
+  std::vector<int>&weight = work_.island, &members = work_.number;  // per root
+  weight.resize(state_.bodies.size());
+  members.resize(state_.bodies.size());
+  for (const int i : work_.active) weight[i] = members[i] = 0;
+  for (const int i : work_.active)
+    if (!model_.fixed(i)) ++members[islandRoot(work_.root, i)];
+  std::vector<char>& bounces = work_.open;  // per root
+  bounces.assign(state_.bodies.size(), model_.def.stepping.anyCrowd ? 1 : 0);
   for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
     const PairMemory& pair = memory_.pairs[k];
-    if (pair.touches.empty()) continue;
-    weight += weightOf(pair);
-    for (const int i : {state_.near[k].first, state_.near[k].second}) {
-      if (model_.fixed(i) || many) continue;
-      int& mover = movers[movers[0] == kNoBody || movers[0] == i ? 0 : 1];
-      many = mover != kNoBody && mover != i;
-      mover = i;
-    }
+    if (!touches(pair)) continue;
+    const int root = rootOf(k);
+    weight[root] += weightOf(pair);
+    if (pair.bounces) bounces[root] = 1;
   }
-  return many && weight > kReflectionsReach;
-}
-
-bool Stepping::isCrowd() const {
-  const auto bounces = [](const PairMemory& pair) { return pair.bounces && !pair.touches.empty(); };
-  return many_ && (model_.def.stepping.anyCrowd ||
-                   std::any_of(memory_.pairs.begin(), memory_.pairs.end(), bounces));
+  for (const int i : work_.active) {
+    if (model_.fixed(i)) continue;
+    const int root = islandRoot(work_.root, i);
+    work_.dense[i] = members[root] > kFew && weight[root] > kReflectionsReach;
+    work_.crowded[i] = work_.dense[i] && bounces[root];
+    many_ = many_ || work_.dense[i];
+    crowd_ = crowd_ || work_.crowded[i];
+    mixed_ = mixed_ || !work_.crowded[i];
+  }
+  mixed_ = mixed_ && crowd_;
 }
 
 bool Stepping::strikesAsCrowd() const {

@@ -3,7 +3,6 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/contact/impact.h"
 #include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
@@ -59,23 +58,6 @@ bool Stepping::mayMeet(std::size_t pair, double h, double strays) {
 
 /// Bodies that may meet, and all that are near each other in a crowd.
 void Stepping::joinNear(double h) {
-  partBodies();
-  for (const auto& [b, a] : state_.near) joinBodies(a, b);
-  std::vector<int>& weight = work_.island;  // per root
-  weight.assign(state_.bodies.size(), 0);
-  for (std::size_t k = 0; k < state_.near.size(); ++k)
-    if (!memory_.pairs[k].touches.empty()) weight[rootOf(k)] += weightOf(memory_.pairs[k]);
-  constexpr int kFew = 2;                    // bodies that are no crowd, whatever they are near
-  std::vector<int>& members = work_.number;  // per root
-  members.assign(state_.bodies.size(), 0);
-  for (const int i : work_.active)
-    if (!model_.fixed(i)) ++members[islandRoot(work_.root, i)];
-  work_.dense.assign(state_.bodies.size(), 0);
-  for (const int i : work_.active) {
-    if (model_.fixed(i)) continue;
-    const int root = islandRoot(work_.root, i);
-    work_.dense[i] = members[root] > kFew && weight[root] > kReflectionsReach;
-  }
   partBodies();
   for (std::size_t k = 0; k < state_.near.size(); ++k) {
     const auto [b, a] = state_.near[k];

@@ -66,7 +66,6 @@ struct PairMemory {
   bool tumbles = false;  ///< it turned too far for parabolas
   double lasts = 0.0;    ///< [s] how long its point on a rim is where it is, if it tumbles
   bool seamed = false;   ///< a third body keeps apart what was found
-  bool crowded = false;  ///< one of more near pairs than are watched so closely
   std::vector<Touch> touches;
 };
 
@@ -156,7 +155,9 @@ struct SteppingWork {
   std::vector<int> carriers;  ///< fixed bodies that move
   std::vector<int> cluster;   ///< per body: its cluster; < 0 of a fixed one
   int tiedCluster = -1;       ///< that of tied bodies; −1: there are none
-  std::vector<char> dense;    ///< per body: it is near a crowd
+  std::vector<char> dense;    ///< per body: with what is near, it touches at many points
+  std::vector<char> crowded;  ///< per body: it is of a crowd
+  std::vector<std::size_t> struck;       ///< near pairs that hit each other in a step
   std::vector<std::pair<int, int>> met;  ///< near pairs of clusters that were found to be one
   /// [m] per body: how far its centre strayed from the way that it began, and its surface by
   /// turning otherwise

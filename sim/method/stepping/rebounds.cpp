@@ -106,7 +106,7 @@ double Stepping::untilHit(double soon, double h, double least) {
   for (std::size_t k = 0; k < memory_.pairs.size(); ++k) {
     PairMemory& pair = memory_.pairs[k];
     const bool tumbled = std::exchange(pair.tumbles, tumbles(k, h));
-    const bool hits = pair.bounces || landsHard(pair),
+    const bool hits = pair.bounces || landsHard(k),
                struck = std::exchange(pair.strikes, hits || pair.tumbles),
                foreseen = pair.strikes || struck || tumbled, comes = !foreseen && seemsToMeet(k, h);
     if (!foreseen && !comes) continue;
@@ -215,8 +215,9 @@ void Stepping::foresee(Touch& touch, const RigidBody& a, const RigidBody& b, dou
   if (touch.rebounds && held && row.meets()) touch.due = std::min(touch.due, row.due());
 }
 
-bool Stepping::landsHard(const PairMemory& pair) const {
-  return pair.lands && !many_ &&
+bool Stepping::landsHard(std::size_t k) const {
+  const PairMemory& pair = memory_.pairs[k];
+  return pair.lands && !(many_ && isOneOf(work_.dense, k)) &&
          std::any_of(pair.touches.begin(), pair.touches.end(), [&](const Touch& touch) {
            const Contact& c = touch.contact;
            return approachVelocity(state_.bodies[c.a], state_.bodies[c.b], c.point) <
@@ -234,7 +235,7 @@ bool Stepping::seemsToMeet(std::size_t pair, double h) {
   const auto [ib, ia] = state_.near[pair];
   const RigidBody &a = state_.bodies[ia], &b = state_.bodies[ib];
   std::vector<Touch>& touches = memory_.pairs[pair].touches;
-  bool open = !crowd_ && !model_.bends(ia) && !model_.bends(ib);
+  bool open = !isOneOf(work_.crowded, pair) && !model_.bends(ia) && !model_.bends(ib);
   for (Touch& touch : touches) {
     touch.due = 0.0;
     open = open && !closed(touch);

@@ -128,11 +128,9 @@ void Stepping::step() {
 void Stepping::stepTo(double t1, double h) {
   findOut(h);
   if (report_.stopped) return;
-  findCrowded(h);
   work_.met.clear();
-  many_ = touchAtMany();
-  crowd_ = isCrowd();
-  if (divides() && findClusters(h))
+  findCrowds();
+  if ((divides() || mixed_) && findClusters(h))
     stepClusters(t1, h);
   else
     go(t1, h);
@@ -156,8 +154,7 @@ int Stepping::go(double t1, double h) {
   const int n = std::max(1, static_cast<int>(work_.solids.size()));
   const int every = std::clamp(kBodies / n, kFew, kMany);
   const int most = std::max(every, static_cast<int>(kPairs / n / n));
-  many_ = touchAtMany();
-  crowd_ = isCrowd();
+  findCrowds();
   divided_ = false;
   int parts = 1;
   for (; !halted(); ++parts) {

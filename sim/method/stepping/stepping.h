@@ -156,7 +156,7 @@ class Stepping {
   /// Whether a pair without restitution hits harder than what rests. A step's problem would stop it
   /// in two parts, that of the gap and the rest, and they do not add up to one blow where friction
   /// or another contact has a part in it, however short the step is.
-  bool landsHard(const PairMemory& pair) const;
+  bool landsHard(std::size_t pair) const;
   /// Whether what arrives at so many m/s is struck; `least` [m/s] as for untilHit.
   bool isHit(const Touch& touch, double speed, double least) const;
   /// Whether a touch is a contact that lasts but for a hop, lower than bodies fall in a step, by
@@ -171,8 +171,6 @@ class Stepping {
   void foreseePassing(std::size_t pair, double h);
 
   // tumbling.cpp: the hits of bodies that turn too fast for parabolas.
-  /// Tells pairs of few bodies from those in a crowd, whose hits divide no step.
-  void findCrowded(double h);
   /// Whether a pair turns so far in h seconds that its points go by no parabolas.
   bool tumbles(std::size_t pair, double h) const;
   /// How fast [rad/s] a pair's contact runs round a rim, as seen in space.
@@ -210,12 +208,14 @@ class Stepping {
   }
 
   // crowds.cpp: where more contacts meet than reflections are for.
-  /// Whether the bodies whose clock runs, more than two, touch at more points than reflections are
-  /// for.
-  bool touchAtMany() const;
-  /// Whether they are a crowd: they do, and rebound.
-  bool isCrowd() const;
-  /// The same of an island.
+  /// Finds those of the bodies whose clock runs that touch at many points: more than two near each
+  /// other, at more points than reflections are for. Where these rebound they are a crowd.
+  void findCrowds();
+  /// Whether one of a near pair is marked.
+  bool isOneOf(const std::vector<char>& marks, std::size_t pair) const {
+    return marks[state_.near[pair].first] || marks[state_.near[pair].second];
+  }
+  /// Whether an island is a crowd.
   bool isCrowd(const Island& island) const;
   /// What the points of a pair, of which there are some, weigh in it.
   static int weightOf(const PairMemory& pair);
@@ -632,8 +632,9 @@ class Stepping {
   bool divided_ = false;  ///< the bodies whose clock runs have gone a part of the step
   bool struck_ = false;   ///< the part of the step under way begins with a blow
   int cluster_ = 0;       ///< whose clock runs
-  bool many_ = false;     ///< the bodies whose clock runs touch at many points
-  bool crowd_ = false;    ///< the bodies whose clock runs are one
+  bool many_ = false;     ///< of the bodies whose clock runs, some touch at many points
+  bool crowd_ = false;    ///< and are a crowd
+  bool mixed_ = false;    ///< others are none
   bool rough_ = false;    ///< an island is solved as far as is planned for crowds
   bool again_ = false;    ///< islands are solved once more, with what their bodies met
   bool guesses_ = false;  ///< sweeps end early: other pairs of cloth are to press anyhow

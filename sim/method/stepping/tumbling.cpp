@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "sim/collide/approach.h"
-#include "sim/contact/impact.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -16,21 +15,8 @@ constexpr double kRound =
 
 }  // namespace
 
-void Stepping::findCrowded(double h) {
-  std::vector<PairMemory>& pairs = memory_.pairs;
-  bool any = false;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    pairs[k].crowded = false;
-    any = any || tumbles(k, h);
-  }
-  if (!any) return;
-  joinNear(h);
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    pairs[k].crowded = work_.dense[state_.near[k].first] || work_.dense[state_.near[k].second];
-}
-
 bool Stepping::tumbles(std::size_t pair, double h) const {
-  if (memory_.pairs[pair].crowded) return false;
+  if (isOneOf(work_.dense, pair)) return false;     // hits of many divide no step
   constexpr double kRebounds = 0.02, kStays = 0.2;  // [rad] in a step
   const double most = memory_.pairs[pair].bounces ? kRebounds : kStays;
   const auto turns = [&](int i) {
