@@ -22,6 +22,22 @@ void makeFolderOf(const std::string& path) {
   if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
 }
 
+// Whether it is there and nothing that a new file could stand in place of.
+bool isPipeOrDevice(const std::string& path) {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(path, none);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
+// Where the file stands that a link leads to; any other path as it is.
+std::string behindLink(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_symlink(path, none)) return path;
+  const std::filesystem::path place = std::filesystem::canonical(path, none);
+  return none ? path : place.string();
+}
+
 // A file in the folder of the path that has no name yet, and so goes with the process; null where
 // the file system has none of these.
 std::FILE* nameless(const std::string& path) {
@@ -41,7 +57,14 @@ int giveName(std::FILE* file, const std::string& path) {
 }  // namespace
 
 FileWriter::FileWriter(std::string path)
-    : path_(std::move(path)), temporary_(path_ + ".part" + std::to_string(::getpid())) {
+    : path_(behindLink(path)),
+      temporary_(path_ + ".part" + std::to_string(::getpid())),
+      straight_(isPipeOrDevice(path_)) {
+  if (straight_) {
+    file_.reset(std::fopen(path_.c_str(), "wb"));
+    if (!file_) fail(errno);
+    return;
+  }
   makeFolderOf(path_);
   file_.reset(nameless(path_));
   named_ = !file_;
@@ -61,6 +84,7 @@ void FileWriter::write(std::string_view text) {
 
 void FileWriter::finish() {
   if (std::fflush(file_.get()) != 0) fail(errno);
+  if (straight_) return file_.reset();
   if (!named_) {
     const int error = giveName(file_.get(), path_);
     if (error == 0) return file_.reset();
@@ -87,7 +111,7 @@ void prepareFile(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) makeFolder(folder.string());
   if (std::filesystem::is_directory(path)) fail("write", path, EISDIR);
-  FileWriter opens(path);
+  if (!isPipeOrDevice(path)) FileWriter opens(path);
 }
 
 std::string readFile(const std::string& path) {

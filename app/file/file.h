@@ -22,7 +22,8 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// A file that is written piece by piece and gets its name when it is complete, in place of an
 /// older one if there is one. One that is not finished leaves nothing behind; nor does one whose
 /// process is killed, unless the file system has no files without a name: then the temporary one
-/// beside it.
+/// beside it. A link stays one, and what it leads to is written; a pipe or a device, as /dev/stdout
+/// may be, is written into piece by piece.
 class FileWriter {
  public:
   /// @throws FileError
@@ -41,7 +42,8 @@ class FileWriter {
 
   std::string path_, temporary_;
   File file_;
-  bool named_;  ///< the temporary one has a name
+  bool straight_;       ///< into a pipe or a device
+  bool named_ = false;  ///< the temporary one has a name
 };
 
 /// Writes the whole file by way of a temporary one beside it that is renamed when complete.

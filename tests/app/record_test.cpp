@@ -1,4 +1,8 @@
 // Recordings and the files they become.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <sstream>
 
@@ -6,8 +10,10 @@
 #include "app/record/output.h"
 #include "app/scene/scene.h"
 #include "tests/catch.h"
+#include "tests/folder.h"
 
 using namespace tumble;
+using tumble::test::Folder;
 
 namespace {
 
@@ -103,6 +109,26 @@ TEST_CASE("a file is written whole or not at all") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder + "/deep"), {}) == 1);
   CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("what is written to a link is found behind it, and a pipe gets it and stays a pipe") {
+  const Folder folder;
+  writeFile(folder / "a.txt", "first");
+  std::filesystem::create_symlink("a.txt", folder / "link");
+  writeFile(folder / "link", "second");
+  CHECK(readFile(folder / "a.txt") == "second");
+  CHECK(std::filesystem::is_symlink(folder / "link"));
+
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  const int end = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  prepareFile(folder / "pipe");
+  writeFile(folder / "pipe", "third");
+  char told[16] = {};
+  CHECK(::read(end, told, sizeof told) == 5);
+  CHECK(std::string(told) == "third");
+  ::close(end);
+  CHECK(std::filesystem::is_fifo(folder / "pipe"));
+  CHECK(folder.files() == 3);
 }
 
 TEST_CASE("a run of more samples than fit in memory is refused before it begins") {
