@@ -25,6 +25,9 @@ struct Surface {
 
 // Size of a pixel at a point, and the width of an edge line in pixels (never below a visible one).
 float pixelSize(vec3 p) { return dot(p - eye.xyz, forward.xyz) * eye.w; }
+// What a coordinate of the surface changes by from pixel to pixel; never nothing, in a world of any size.
+float perPixel(float x, float pixel) { return max(fwidth(x), 1e-3 * pixel); }
+vec3 perPixel(vec3 x, float pixel) { return max(fwidth(x), vec3(1e-3 * pixel)); }
 float lineScale() { return max(forward.w, 0.75); }
 
 float edgeLine(float pixels, float smallest, float pixel) {
@@ -36,9 +39,9 @@ Surface boxSurface() {
   float sun = lit(worldPoint);
   vec3 away = 1e3 * abs(bodyNormal);
   vec3 toEdge = half_B - abs(bodyPoint);
-  vec3 pixels = toEdge / max(fwidth(bodyPoint), 1e-6) + away;
   float smallest = min(half_B.x, min(half_B.y, half_B.z)), pixel = pixelSize(worldPoint);
-  vec3 bevel = clamp(1.0 - (toEdge + away) / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
+  vec3 pixels = toEdge / perPixel(bodyPoint, pixel) + away;
+  vec3 bevel = clamp(1.0 - (toEdge + smallest * away) / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
   vec3 tilted = bodyNormal + 0.9 * bevel * sign(bodyPoint);
   return Surface(sun, worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
                  edgeLine(min(pixels.x, min(pixels.y, pixels.z)), smallest, pixel));
@@ -47,28 +50,29 @@ Surface boxSurface() {
 Surface cylinderSurface() {
   float sun = lit(worldPoint);
   bool cap = abs(bodyNormal.y) > 0.5;
-  vec3 outward = vec3(bodyPoint.x, 0.0, bodyPoint.z) / max(length(bodyPoint.xz), 1e-9);
+  vec3 outward = vec3(bodyPoint.x, 0.0, bodyPoint.z) / max(length(bodyPoint.xz), 1e-30);
   vec3 upward = vec3(0.0, sign(bodyPoint.y), 0.0);
   float toRim = cap ? half_B.x - length(bodyPoint.xz) : half_B.y - abs(bodyPoint.y);
   float smallest = min(half_B.x, half_B.y), pixel = pixelSize(worldPoint);
   float bevel = clamp(1.0 - toRim / max(0.06 * smallest, 0.5 * pixel), 0.0, 1.0);
   vec3 tilted = cap ? upward + 0.9 * bevel * outward : outward + 0.9 * bevel * upward;
   return Surface(sun, worldPoint, rotate(turnBody, normalize(tilted)), bodyPoint,
-                 edgeLine(toRim / max(fwidth(toRim), 1e-6), smallest, pixel));
+                 edgeLine(toRim / perPixel(toRim, pixel), smallest, pixel));
 }
 
 #ifdef FACETS
 Surface facetSurface() {
   float sun = lit(worldPoint);
-  vec3 pixels = toEdge / max(fwidth(toEdge), 1e-6);
+  float pixel = pixelSize(worldPoint);
+  vec3 pixels = toEdge / perPixel(toEdge, pixel);
   return Surface(sun, worldPoint, rotate(turnBody, normalize(smoothNormal)), bodyPoint,
-                 edgeLine(min(pixels.x, min(pixels.y, pixels.z)), thickness, pixelSize(worldPoint)));
+                 edgeLine(min(pixels.x, min(pixels.y, pixels.z)), thickness, pixel));
 }
 #endif
 // With lines where the planes of the principal axes cut it.
 Surface ellipsoidSurface() {
   float sun = lit(worldPoint);
-  vec3 normal = normalize(bodyPoint / (half_B * half_B)), pixels = abs(bodyPoint) / max(fwidth(bodyPoint), 1e-6);
+  vec3 normal = normalize(bodyPoint / (half_B * half_B)), pixels = abs(bodyPoint) / perPixel(bodyPoint, pixelSize(worldPoint));
   return Surface(sun, worldPoint, rotate(turnBody, normal), bodyPoint, edgeLine(min(pixels.x, min(pixels.y, pixels.z)), 1.0, 1e-6));
 }
 
@@ -84,7 +88,7 @@ Surface ballSurface() {
 
 // The colour of the half of the body that the point lies in.
 vec3 sideColour(Surface s) {
-  float front = clamp(0.5 + s.point_B.z / max(fwidth(s.point_B.z), 1e-6), 0.0, 1.0);
+  float front = clamp(0.5 + s.point_B.z / perPixel(s.point_B.z, pixelSize(s.point)), 0.0, 1.0);
   return colourBack + front * (colour - colourBack);
 }
 
@@ -108,7 +112,7 @@ vec3 spinMark(vec3 base, Surface s) {
 // Share of this fragment on the wanted side of the floor; all but balls are cut before.
 float kept(Surface s) {
 #ifdef BALL
-  return pass.y == 0.0 ? 1.0 : clamp(0.5 + pass.y * s.point.y / max(fwidth(s.point.y), 1e-6), 0.0, 1.0);
+  return pass.y == 0.0 ? 1.0 : clamp(0.5 + pass.y * s.point.y / perPixel(s.point.y, pixelSize(s.point)), 0.0, 1.0);
 #else
   return 1.0;
 #endif

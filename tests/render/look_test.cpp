@@ -132,6 +132,34 @@ TEST_CASE("a box has dark edges") {
   CHECK(edge < 0.95 * brightnessAt(image, picture, {0.0, 0.45, 0.3}));
 }
 
+// Oracle: invariance. Lengths differ by a factor alone; what remains is rounding of single
+// precision. Pixels off by more than 2 of 255: measured 0, allowed 1e-4 of them.
+TEST_CASE("a picture of a world a hundred thousand times as small looks the same") {
+  Picture picture = stage();
+  Instance ball = box({-0.5, 0.2, 0.4}, Finish::Solid),
+           barrel = box({0.6, 0.3, 0.0}, Finish::Solid);
+  ball.form = Form::Sphere;
+  ball.scale.setConstant(0.2);
+  barrel.form = Form::Cylinder;
+  ball.back = barrel.back = Colour{0.9f, 0.8f, 0.2f};
+  picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid), ball, barrel};
+  const Image large = studio().draw(picture, kFull);
+  constexpr double kSmall = 1e-5;
+  picture.camera.eye *= kSmall;
+  picture.camera.target *= kSmall;
+  picture.centre *= kSmall;
+  picture.radius *= kSmall;
+  for (Instance& body : picture.instances) {
+    body.position *= kSmall;
+    body.scale *= kSmall;
+  }
+  const Image small = studio().draw(picture, kFull);
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < large.rgb.size(); ++i)
+    off += std::abs(large.rgb[i] - small.rgb[i]) > 2;
+  CHECK(static_cast<double>(off) < 1e-4 * static_cast<double>(large.rgb.size()));
+}
+
 // The wall stands to the right, its shadow falls further right: what darkens the slab is the sky it
 // hides.
 TEST_CASE("a slab is darker beside a wall than alone, without being in its shadow") {
