@@ -17,6 +17,7 @@
 #include "app/file/file.h"
 #include "app/panel/event_line.h"
 #include "app/panel/page.h"
+#include "app/present/digits.h"
 #include "app/present/instants.h"
 #include "render/png_writer.h"
 #include "render/sheet.h"
@@ -100,8 +101,9 @@ std::string Shoot::sheet() {
     Picture picture = presenter().image(k);
     stripForPanel(picture);
     if (!panels.empty()) picture.bar.reset();  // one scale, told once
-    panels.push_back({studio_.draw(picture, format, panelPage(scene_).y()),
-                      fmt::format("t = {:.2f} s", recording().samples[k].t), ""});
+    panels.push_back(
+        {studio_.draw(picture, format, panelPage(scene_).y()),
+         fmt::format("t = {} s", instant(recording().samples[k].t, scene_.world.duration)), ""});
   }
   writePng(path, drawSheet(panels, kColumns, scene_.title, scene_.subtitle, studio_.fonts()),
            stampOf(scene_, what));

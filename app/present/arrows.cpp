@@ -46,10 +46,12 @@ void addArrows(const Scene& scene, const Sample& sample, const ArrowScale& scale
 }
 
 double largestContactForce(const Recording& recording) {
+  constexpr double kRounding = 1e-12;  // of the largest: what is left of no force
   std::vector<double> forces;
   for (const Sample& sample : recording.samples)
-    for (const ContactSample& contact : sample.contacts)
-      if (!contact.force.isZero()) forces.push_back(contact.force.norm());
+    for (const ContactSample& contact : sample.contacts) forces.push_back(contact.force.norm());
+  const double largest = forces.empty() ? 0.0 : *std::max_element(forces.begin(), forces.end());
+  std::erase_if(forces, [&](double force) { return force <= kRounding * largest; });
   if (forces.empty()) return 1.0;
   // In a run that comes to rest the largest force that lasts is within the lowest 98 %.
   const std::size_t index = forces.size() - 1 - forces.size() / 50;

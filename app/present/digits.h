@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -16,6 +17,14 @@ inline std::string fourDigits(double value) {
     text = fmt::format("{:.0f}", rounded);
   if (text.size() > 5 && text.ends_with(".0")) text.resize(text.size() - 2);
   return (value < 0.0 ? "−" : "") + text;
+}
+
+/// An instant of a run: hundredths of a second, or the second digit of how long the run is, if that
+/// is finer, and `more` digits: "0.50", "0.00120".
+/// @param duration  [s] of the run, > 0
+inline std::string instant(double t, double duration, int more = 0) {
+  const int second = 1 - static_cast<int>(std::floor(std::log10(duration)));
+  return fmt::format("{:.{}f}", t, std::max(2, second) + more);
 }
 
 /// So many significant digits at most, as they are printed: "0.00598", "−2.5 × 10⁻¹¹", "10⁻⁹".

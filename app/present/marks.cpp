@@ -11,7 +11,8 @@
 
 namespace tumble {
 
-void addImpacts(const Recording& recording, double t, double aspect, Picture& picture) {
+void addImpacts(const Scene& scene, const Recording& recording, double t, double aspect,
+                Picture& picture) {
   constexpr double kPage = 720.0, kWidth = 96.0, kHeight = 72.0;  // [px] that a mark needs
   constexpr double kSmall = 0.02;  // of the largest: not worth a mark
   std::vector<Event> hits;
@@ -32,10 +33,10 @@ void addImpacts(const Recording& recording, double t, double aspect, Picture& pi
     });
     if (!room) continue;
     taken.push_back(place);
-    picture.marks.push_back(
-        {hit.p,
-         {fmt::format("t = {:.3f} s", hit.t), "j = " + fourDigits(hit.j) + " N·s"},
-         colour::kForce});
+    picture.marks.push_back({hit.p,
+                             {fmt::format("t = {} s", instant(hit.t, scene.world.duration, 1)),
+                              "j = " + fourDigits(hit.j) + " N·s"},
+                             colour::kForce});
   }
 }
 

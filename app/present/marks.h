@@ -8,6 +8,7 @@ namespace tumble {
 
 /// Rings at the hits up to t [s] with "t = 0.631 s" and "j = 168.3 N·s": the largest first, as many
 /// as find room on the page.
-void addImpacts(const Recording& recording, double t, double aspect, Picture& picture);
+void addImpacts(const Scene& scene, const Recording& recording, double t, double aspect,
+                Picture& picture);
 
 }  // namespace tumble

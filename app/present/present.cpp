@@ -167,8 +167,8 @@ Picture Presenter::image(int k) const {
   addLabels(scene_, sample, picture);
   addTexts(scene_, sample, picture);
   addAnnotations(sample, picture);
-  picture.subtitle +=
-      fmt::format("{}t = {:.2f} s", picture.subtitle.empty() ? "" : "   ", sample.t);
+  picture.subtitle += fmt::format("{}t = {} s", picture.subtitle.empty() ? "" : "   ",
+                                  instant(sample.t, scene_.world.duration));
   if (scene_.show.energy)
     picture.subtitle += "   energy " + fourDigits(sample.kinetic + sample.potential) + " J";
   finish(picture);
@@ -357,7 +357,7 @@ void Presenter::addAnnotations(const Sample& sample, Picture& picture) const {
   if (show.momenta) addMomenta(scene_, recording_, sample, picture);
   if (show.missteps) addMissteps(scene_, recording_, sample.t, picture);
   addLessons(sample, picture);
-  if (show.impacts) addImpacts(recording_, sample.t, aspectOf(scene_), picture);
+  if (show.impacts) addImpacts(scene_, recording_, sample.t, aspectOf(scene_), picture);
 }
 
 // What the lectures draw to explain.

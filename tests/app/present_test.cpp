@@ -4,6 +4,7 @@
 
 #include "app/present/arrows.h"
 #include "app/present/bodies.h"
+#include "app/present/digits.h"
 #include "app/present/labels.h"
 #include "app/present/palette.h"
 #include "app/present/present.h"
@@ -274,6 +275,30 @@ TEST_CASE("force arrows are as long as their force is large, and point up from t
   CHECK((picture.arrows[1].tip - Vec3(1.0, 0.11, 0.0)).norm() < 1e-15);
   // A force that presses the upper body's neighbour down is drawn on the upper body.
   CHECK((picture.arrows[2].tip - Vec3(2.0, 0.22, 0.0)).norm() < 1e-15);
+}
+
+TEST_CASE(
+    "the forces of grains of dust have arrows too, and what rounding leaves of none has not") {
+  Recording recording;
+  const auto pushed = [](double force) {
+    return ContactSample{1, 0, Vec3::Zero(), Vec3::UnitY(), 0.0, {0.0, force, 0.0}};
+  };
+  recording.samples.resize(1);
+  CHECK(largestContactForce(recording) == 1.0);
+  recording.samples[0].contacts = {pushed(0.0), pushed(3e-17)};
+  CHECK(largestContactForce(recording) == 3e-17);
+  recording.samples[0].contacts.assign(200, pushed(1e-14));
+  recording.samples[0].contacts.push_back(pushed(10.0));
+  CHECK(largestContactForce(recording) == 10.0);
+}
+
+TEST_CASE("a time on a picture has two digits of how long the run is, and hundredths at least") {
+  CHECK(instant(0.5, 1.0) == "0.50");
+  CHECK(instant(12.345, 60.0) == "12.35");
+  CHECK(instant(0.5, 0.1) == "0.50");
+  CHECK(instant(0.0213, 0.0632) == "0.021");
+  CHECK(instant(0.00123, 0.002) == "0.0012");
+  CHECK(instant(0.00123, 0.002, 1) == "0.00123");
 }
 
 TEST_CASE("the ladder sums each level of the tallest tower, top first, and keeps rows apart") {
