@@ -139,14 +139,15 @@ double Canvas::textWidth(std::string_view utf8, const TextStyle& style) {
 
 std::vector<std::string> Canvas::lines(std::string_view utf8, double width,
                                        const TextStyle& style) {
+  constexpr const char* kBlanks = " \t\n\r";
   std::vector<std::string> lines;
   std::size_t begin = 0, blank = 0, good = 0;  // of the line, and its last blanks that fit
   for (std::size_t end = 0; end < utf8.size();) {
-    end = std::min(utf8.find(' ', end + 1), utf8.size());
+    end = std::min(utf8.find_first_of(kBlanks, end + 1), utf8.size());
     while (blank > begin && textWidth(utf8.substr(begin, end - begin), style) > width) {
       const std::size_t at = good > begin ? good : blank;
       lines.emplace_back(utf8.substr(begin, at - begin));
-      begin = std::min(utf8.find_first_not_of(' ', at), utf8.size());
+      begin = std::min(utf8.find_first_not_of(kBlanks, at), utf8.size());
     }
     blank = end;
     if (!belongTogether(wordBefore(utf8, end), wordAfter(utf8, end))) good = end;

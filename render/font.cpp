@@ -94,7 +94,9 @@ Fonts::Fonts(const std::string& folder) {
 
 Fonts::~Fonts() = default;
 
+// Tabs and line breaks, which fonts draw a box for, are blanks.
 Fonts::Glyph Fonts::find(Face face, char32_t letter) const {
+  if (letter < U' ') letter = U' ';
   const Font* own = fonts_[static_cast<std::size_t>(face)].get();
   const Font* fallback = fonts_[kFallback].get();
   if (const int index = stbtt_FindGlyphIndex(&own->info, static_cast<int>(letter)))

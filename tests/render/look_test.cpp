@@ -418,6 +418,8 @@ TEST_CASE("text is set on lines that are no wider than asked, broken at blanks a
   }
   CHECK(joined.find("A title that is longer than the page is wide") == 0);
   CHECK(canvas.lines("unbreakably", 10.0, style).size() == 1);
+  CHECK(canvas.lines("broken\nanywhere\tblank", 10.0, style).size() == 3);
+  CHECK(canvas.textWidth("a\nb\tc", style) == canvas.textWidth("a b c", style));
   CHECK(canvas.lines("", 10.0, style).empty());
 }
 
