@@ -239,8 +239,10 @@ void Shoot::video(const std::string& path, std::pair<int, int> range) {
   ImageFormat format = scene_.image;
   format.transparent = false;
   const int last = std::min(range.second, presenter().count());
+  const Interrupt interrupt;
   Progress progress("filming");
   for (int k = range.first; k < last; ++k) {
+    if (Interrupt::asked()) throw Interrupted("stopped while filming; nothing is kept of it");
     video.add(studio_.draw(presenter().image(k), format));
     progress.show(static_cast<double>(k - range.first) / (last - range.first));
   }

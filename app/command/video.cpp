@@ -51,9 +51,14 @@ pid_t spawnFfmpeg(std::vector<std::string> words, int input, int other) {
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   posix_spawn_file_actions_addclose(&actions, other);
   posix_spawn_file_actions_addclose(&actions, input);
+  // In a group of its own, for Ctrl-C to reach this process alone, which then ends it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   pid_t process = -1;
   const int error =
-      posix_spawnp(&process, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
+      posix_spawnp(&process, words[0].c_str(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error == 0) return process;
   throw FileError(

@@ -214,6 +214,33 @@ TEST_CASE("Ctrl-C ends between two images, says how many are there, and the next
   CHECK(drawn < 101);
 }
 
+TEST_CASE("processes that draw for one that is asked to stop, stop with it") {
+  const Folder scratch;
+  scratch.file("long.toml", "camera = { elevation = 20 }\n" + kDrawnBall + "rate = 500\n");
+  const Outcome outcome =
+      tumbleRun(scratch, "render long.toml -o out --jobs 2",
+                "me=$(exec sh -c 'echo $PPID'); "
+                "(while [ ! -e out/image-000002.png ]; do sleep .02; done; kill -TERM $me) & :");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(outcome.says(" of 101 images are there; run again to go on"));
+  CHECK(filesBelow(scratch.path / "out") < 101);
+}
+
+TEST_CASE("a film that is stopped by Ctrl-C leaves nothing of it") {
+  const Folder scratch;
+  scratch.file("long.toml", "camera = { elevation = 20 }\n" + kDrawnBall + "rate = 500\n");
+  const Outcome outcome = tumbleRun(
+      scratch, "render long.toml -o out --video film.mp4 --set world.duration=2",
+      "me=$(exec sh -c 'echo $PPID'); " +
+          std::string("(while [ ! -e .film.part.mp4 ]; do sleep .02; done; kill -INT $me) & :"));
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 130);
+  CHECK(outcome.says("stopped while filming"));
+  CHECK_FALSE(std::filesystem::exists(scratch / ".film.part.mp4"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "film.mp4"));
+}
+
 TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in which nothing moved") {
   const Folder scratch;
   scratch.file("rest.toml",
