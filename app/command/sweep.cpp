@@ -7,6 +7,7 @@
 #include "app/command/run.h"
 #include "app/command/sweeping.h"
 #include "app/file/file.h"
+#include "app/panel/variant_run.h"
 
 namespace tumble::command {
 
@@ -27,6 +28,9 @@ int sweep(int argc, char** argv) {
   const Scene scene = load(options);
   if (!scene.sweep)
     throw UsageError(fmt::format("{} has no [sweep] with parameter and values", scene.file));
+  // A value that the scene or its method refuses is told before the first run.
+  for (std::size_t k = part.first; k < scene.sweep->values.size(); k += part.second)
+    makeWorld(sceneOf(scene, {"", {scene.sweep->setting(k)}, {}}));
   if (folder.empty()) folder = "out/" + scene.name;
   makeFolder(folder);
 

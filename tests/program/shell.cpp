@@ -241,6 +241,17 @@ TEST_CASE("a film that is stopped by Ctrl-C leaves nothing of it") {
   CHECK_FALSE(std::filesystem::exists(scratch / "film.mp4"));
 }
 
+TEST_CASE("a sweep of which a later value is refused runs none") {
+  const Folder scratch;
+  scratch.file("ball.toml",
+               kDrawnBall + "[sweep]\nparameter = \"body.ball.mass\"\nvalues = [1, 2, -3]\n");
+  const Outcome outcome = tumbleRun(scratch, "sweep ball.toml -o out");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 3);
+  CHECK(outcome.says("body.ball.mass: expected a number [kg] > 0, found -3"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
 TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in which nothing moved") {
   const Folder scratch;
   scratch.file("rest.toml",
