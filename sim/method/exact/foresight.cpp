@@ -1,6 +1,7 @@
 // How far to look ahead at once, what may be met there, and what may have happened unseen.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "sim/collide/collide.h"
@@ -59,16 +60,19 @@ double Sustained::lookAhead() const {
 }
 
 double Sustained::speedBound(int ia, int ib, double h) const {
+  constexpr double kMore = 2.0;  // times that forces may grow
   const RigidBody &a = trial_[ia], &b = trial_[ib];
   const auto turning = [&](int i) {
+    const RigidBody& body = trial_[i];
     double corner = 0.0;
     for (const Convex& part : state_.exact.parts[i]) corner = std::max(corner, part.outline.corner);
-    return trial_[i].omega.norm() * corner;
+    const double rate = (body.Iinv * (body.torque - body.omega.cross(body.L))).norm();
+    return corner * (body.omega.norm() + kMore * rate * h);
   };
   const HalfSpace* plane = std::get_if<HalfSpace>(&model_.shapes[ib]);
   if (!plane) plane = std::get_if<HalfSpace>(&model_.shapes[ia]);
   const Vec3 relative = a.v - b.v;
-  const double bend = 2.0 * (a.invM * a.force - b.invM * b.force).norm();
+  const double bend = kMore * (a.invM * a.force - b.invM * b.force).norm();
   return (plane ? std::abs(plane->n.dot(relative)) : relative.norm()) + turning(ia) + turning(ib) +
          bend * h;
 }
@@ -80,6 +84,7 @@ void Sustained::findNear(double h) {
   sweptBoxes(model_, state_.bodies, h, fastest, tolerance_.touch, boxes);
   state_.near = nearPairs(model_, state_, boxes);
   near_.clear();
+  apart_.clear();
   watched_.clear();
   touching_.clear();
   if (stopAtUnknownPair(model_, state_.near, report_)) return;
@@ -95,7 +100,10 @@ void Sustained::findNear(double h) {
                              [&, b = b, a = a](const Contact& c) { return c.a == a && c.b == b; });
     pair.now = separation(model_.shapes[a], state_.bodies[a].pose(), model_.shapes[b],
                           state_.bodies[b].pose());
-    if (!pair.lasts && pair.now > pair.speed * h) continue;
+    if (!pair.lasts && pair.now > pair.speed * h) {
+      apart_.push_back(pair);
+      continue;
+    }
     const double slack = kOff * ContactTolerance::scaleOf(model_.size);
     pair.floor = pair.now < tolerance_.touch ? std::min(-slack, pair.now - 0.1 * slack) : 0.0;
     near_.push_back(pair);
@@ -109,6 +117,19 @@ void Sustained::findNear(double h) {
       if (!touches || !held(c)) watched_.push_back(c);
     }
   }
+}
+
+// Their forces grew more than was foreseen.
+bool Sustained::metUnseen() {
+  const auto meets = [&](const Near& pair) {
+    return separation(model_.shapes[pair.a], trial_[pair.a].pose(), model_.shapes[pair.b],
+                      trial_[pair.b].pose()) < pair.floor;
+  };
+  const auto met = std::partition(apart_.begin(), apart_.end(), std::not_fn(meets));
+  const bool any = met != apart_.end();
+  near_.insert(near_.end(), met, apart_.end());
+  apart_.erase(met, apart_.end());
+  return any;
 }
 
 // Those that have sunk below have left the face that they would have touched.

@@ -88,7 +88,7 @@ void Sustained::next() {
   if (report_.stopped) return;
   double h = most_;
   bool event = findEvent(h);
-  allowance(h);
+  for (allowance(h); metUnseen(); allowance(h)) event = findEvent(h);
   // What contacts keep from one try to the next may lead a motion astray: it is cut short.
   for (; overlap_ > kAstray * ContactTolerance::scaleOf(model_.size) && h > kInstant;
        allowance(h)) {

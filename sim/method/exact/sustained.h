@@ -83,6 +83,8 @@ class Sustained {
   double lookAhead() const;
   void findNear(double h);
   double speedBound(int a, int b, double h) const;
+  /// Whether bodies that were too far apart overlap where they were last tried; they are near then.
+  bool metUnseen();
   /// An instant between two looks at which something may have happened unseen; hi.s if there is
   /// none.
   double doubt(const Look& lo, const Look& hi) const;
@@ -100,6 +102,7 @@ class Sustained {
   std::vector<double> y0_, y_;
   std::vector<RigidBody> trial_;
   std::vector<Near> near_;
+  std::vector<Near> apart_;        ///< pairs that are too far apart to meet
   std::vector<Contact> watched_;   ///< points of lasting pairs that do not last
   std::vector<Contact> touching_;  ///< points of lasting pairs that touched at the start
   std::vector<double> gaps_;       ///< [m] of near_, where the bodies were last tried
