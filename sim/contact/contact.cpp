@@ -170,28 +170,48 @@ ContactClass classify(double vrel, double tolerance) {
 
 namespace {
 
-/// The same where a or b is an ellipsoid: the torus that stands for it is another one at each n.
+/// The same where a or b is an ellipsoid: the torus that stands for it is another one at each n. Of
+/// all n the right one parts the bodies most. Newton's method on the tori finds it, from where n
+/// went with b; where that leads astray, n goes uphill first.
 void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
-  constexpr int kMostRounds = 12;
+  constexpr int kMostRounds = 60, kMostHalves = 12;
   constexpr double kSettled = 1e-15;  // [1]
+  constexpr double kNearer = 1e-6;  // of the semi-axes: bodies that are so much nearer went astray
+  constexpr double kStride = 0.5;   // [1]
   ContactPoint& c = contact.point;
   const Anchor& anchor = contact.anchor;
   const bool onA = c.tie == NormalTie::FaceOfA, onB = c.tie == NormalTie::FaceOfB;
-  c.pa = toWorld(a.pose(), anchor.pa_B);
-  c.pb = toWorld(b.pose(), anchor.pb_B);
-  if (onA || onB) c.n = (onA ? a.q : b.q) * anchor.n_B;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const bool ovalA = c.halfA.x() > 0.0, ovalB = c.halfB.x() > 0.0;
+  const double allowed = kNearer * (c.halfA.maxCoeff() + c.halfB.maxCoeff());
+  const Vec3 anchorA = toWorld(a.pose(), anchor.pa_B), anchorB = toWorld(b.pose(), anchor.pb_B);
+  Vec3 way;  // [m] from b to a, between what is outermost along n
+  const auto bend = [&](const Vec3& n) {
+    c.n = n;
+    c.pa = anchorA;
+    c.pb = anchorB;
     c.ea = a.q * anchor.ea_B;
     c.eb = b.q * anchor.eb_B;
-    if (ovalA) bendAsEllipsoidA(c, a.x, a.R);
-    if (ovalB) bendAsEllipsoidB(c, b.x, b.R);
-    if (onA || onB) break;
-    const Vec3 fromA = ovalA ? c.pa : toWorld(a.pose(), anchor.pa_B);
-    const Vec3 fromB = ovalB ? c.pb : toWorld(b.pose(), anchor.pb_B);
-    const Vec3 before = c.n;
-    alignNormal(c, fromA, fromB);
-    if ((c.n - before).norm() <= kSettled) break;
+    if (c.tie == NormalTie::EdgeOfA) c.n = across(n, c.ea).normalized();
+    if (c.tie == NormalTie::EdgeOfB) c.n = across(n, c.eb).normalized();
+    if (c.halfA.x() > 0.0) bendAsEllipsoidA(c, a.x, a.R);
+    if (c.halfB.x() > 0.0) bendAsEllipsoidB(c, b.x, b.R);
+    way = c.pa - c.pb - (c.ra + c.rb) * c.n;
+    if (c.rimA > 0.0) way += c.rimA * rimOfA(c).out;
+    if (c.rimB > 0.0) way -= c.rimB * rimOfB(c).out;
+    return c.n.dot(way);
+  };
+  double apart = bend((onA ? a.q : b.q) * anchor.n_B);
+  for (int round = 0; !onA && !onB && round < kMostRounds; ++round) {
+    const Vec3 before = c.n, uphill = across(way, before);
+    const bool aligned = alignNormal(c, Vec3(c.pa), Vec3(c.pb));
+    if (aligned && (c.n - before).norm() <= kSettled) break;
+    double now = bend(Vec3(c.n));
+    if (!aligned || now < apart - allowed) {
+      double stride = uphill.isZero(0.0) ? 0.0 : kStride / uphill.norm();
+      for (int half = 0; half < kMostHalves; ++half, stride *= 0.5)
+        if (now = bend((before + stride * uphill).normalized()); now > apart) break;
+      if (!(now > apart)) break;
+    }
+    apart = now;
   }
   if (onA || onB) {
     placeOnFace(c);

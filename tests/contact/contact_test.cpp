@@ -1,11 +1,15 @@
 // Contacts: how they are told apart, how their normals turn, how the course's impulse acts.
 #include "sim/contact/contact.h"
 
+#include <random>
+
 #include "sim/body/mass_properties.h"
+#include "sim/collide/collide.h"
 #include "sim/contact/impulse.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
 #include "tests/contact/coasted.h"
+#include "tests/world/draws.h"
 
 using namespace tumble;
 
@@ -181,5 +185,49 @@ TEST_CASE("tangents are of length 1 along any slip, however slow") {
     CHECK(std::abs(t1.norm() - 1.0) <= 1e-15);
     CHECK(std::abs(t2.norm() - 1.0) <= 1e-15);
     CHECK(std::abs(t1.dot(t2)) <= 1e-15);
+  }
+}
+
+// Oracle: the certified separation of collide. Ellipsoids of semi-axes of up to 9 : 1 that touch
+// somewhere are turned by up to 1.2 rad each, and brought near each other again. Measured 3e-15 m;
+// of 400 such pairs 50 were off by up to 0.4 m where Newton's method alone sought the normal.
+TEST_CASE("ellipsoids that turn far are followed to where they touch then") {
+  scenes::Draws draws{std::mt19937(1)};
+  const auto any = [&] { return draws(-1.0, 1.0); };
+  const auto direction = [&] { return Vec3(any(), any(), any()).normalized(); };
+  const auto oval = [&] {
+    const auto axis = [&] { return 0.15 * std::pow(3.0, any()); };
+    return Ellipsoid{{axis(), axis(), axis()}};
+  };
+  const auto turn = [&](RigidBody& body, const Vec3& by) {
+    body.q = rotated(body.q, by).normalized();
+    updateDerived(body);
+  };
+  for (int k = 0; k < 40; ++k) {
+    CAPTURE(k);
+    const Ellipsoid ofA = oval(), ofB = oval();
+    RigidBody a = makeBody(solidMass(ofA, 1.0)), b = makeBody(solidMass(ofB, 1.0));
+    const Vec3 side = direction();
+    const auto bringTo = [&](double gap) {  // along `side`
+      double near = 0.0, far = 2.0;
+      for (int i = 0; i < 36; ++i) {
+        const double middle = 0.5 * (near + far);
+        a.x = middle * side;
+        (separation(ofA, a.pose(), ofB, b.pose()) > 0.0 ? far : near) = middle;
+      }
+      a.x = (far + gap) * side;
+    };
+    for (RigidBody* body : {&a, &b}) turn(*body, 3.0 * direction());
+    bringTo(0.0);
+    Manifold found;
+    collide(ofA, a.pose(), ofB, b.pose(), 1e-6, found);
+    REQUIRE(found.size() == 1);
+    Contact c;
+    c.point = found.front();
+    c.anchor = anchorOf(a, b, c.point);
+    for (RigidBody* body : {&a, &b}) turn(*body, 1.2 * any() * direction());
+    bringTo(2e-3 * any());
+    follow(a, b, c);
+    CHECK(std::abs(c.point.separation - separation(ofA, a.pose(), ofB, b.pose())) < 1e-13);
   }
 }
