@@ -88,7 +88,12 @@ Finding compareImage(const Golden& now, const NamedImage& drawn, const Manifest&
     finding.remark = "there is no golden of this name";
     return finding;
   }
-  finding.expected = readPng(file.string());
+  try {
+    finding.expected = readPng(file.string());
+  } catch (const std::runtime_error&) {
+    finding.remark = "what stands there is no image";
+    return finding;
+  }
   finding.image = compare(*finding.expected, drawn.image);
   if (pixelHash(*finding.expected) != hashIn(manifest, now.subject, drawn.name))
     finding.remark = "the golden is not the one in manifest.json";
@@ -144,12 +149,7 @@ Renewal store(const Golden& now, const NamedImage& drawn, Manifest& manifest,
               const fs::path& folder) {
   const std::string file = (folder / now.subject / (drawn.name + ".png")).string();
   const bool stood = fs::exists(file);
-  Finding before{.subject = now.subject, .name = drawn.name};
-  try {
-    before = compareImage(now, drawn, manifest, folder);
-  } catch (const std::runtime_error&) {
-    before.remark = "what stood there was no image";
-  }
+  const Finding before = compareImage(now, drawn, manifest, folder);
   writePng(file, drawn.image);
   manifest.images[now.subject][drawn.name] = pixelHash(drawn.image);
   return renewal(before, stood);

@@ -53,7 +53,7 @@ TEST_CASE("a subject without goldens fails in every part") {
   for (const Finding& finding : findings) CHECK_FALSE(finding.passes());
 }
 
-TEST_CASE("one level more of light, an image gone, and a hand-made golden each fail") {
+TEST_CASE("one level more of light, an image gone, a hand-made golden and what is none each fail") {
   const Folder scratch;
   Manifest manifest;
   const std::string folder = scratch.path.string();
@@ -69,6 +69,15 @@ TEST_CASE("one level more of light, an image gone, and a hand-made golden each f
 
   writePng((scratch.path / "drop/start.png").string(), plain(41));
   CHECK_FALSE(allPass(compareGolden(brighter, manifest, folder)));
+
+  scratch.file("drop/start.png", "<<<<<<< a merge that was left half done");
+  const auto findings = compareGolden(sample(), manifest, folder);
+  REQUIRE(findings.size() == 3);
+  const auto start = std::find_if(findings.begin(), findings.end(),
+                                  [](const Finding& finding) { return finding.name == "start"; });
+  CHECK(start->verdict() == "what stands there is no image");
+  CHECK(std::count_if(findings.begin(), findings.end(),
+                      [](const Finding& finding) { return finding.passes(); }) == 2);
 }
 
 TEST_CASE("an update removes images that are no longer drawn") {
