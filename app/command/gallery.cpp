@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <numeric>
 
 #include "app/command/command.h"
@@ -29,6 +31,19 @@ struct Options {
   bool all = false;
   std::vector<std::string> scenes, overrides;
 };
+
+// Two of one name would share a folder, and pictures of the later one pass for the other's.
+void requireNamesApart(const std::vector<std::string>& scenes) {
+  std::map<std::string, std::string> files;
+  for (const std::string& scene : scenes) {
+    const std::string file = scenePath(scene);
+    const std::string name = std::filesystem::path(file).stem().string();
+    const auto [other, isNew] = files.emplace(name, file);
+    if (!isNew)
+      throw UsageError(fmt::format("'{}' and '{}' would both be drawn into '{}'; rename one",
+                                   other->second, file, name));
+  }
+}
 
 // Draws one demo into folder/<name>; the worst exit code of its parts.
 int exhibit(const Options& options, const std::string& asked, Studio& studio,
@@ -93,10 +108,11 @@ int gallery(int argc, char** argv) {
   addOverrides(line, options.overrides);
   if (!line.read(argc, argv)) return kOk;
 
+  if (options.scenes.empty()) options.scenes = demoNames();
+  requireNamesApart(options.scenes);
   Studio studio;
   studio.open();
   std::vector<Exhibit> exhibits;
-  if (options.scenes.empty()) options.scenes = demoNames();
   exhibits.reserve(options.scenes.size());  // scenes must stay where they are
   int code = kOk;
   for (const std::string& scene : options.scenes)

@@ -265,6 +265,17 @@ TEST_CASE("a sweep whose claims fail says so, and check tells of a scene in whic
   CHECK(holds(check.out, "nothing moved"));
 }
 
+TEST_CASE("a gallery of two scenes of one name is refused before any is drawn") {
+  const Folder scratch;
+  std::filesystem::create_directories(scratch / "other");
+  for (const char* name : {"ball.toml", "other/ball.toml"}) scratch.file(name, kDrawnBall);
+  const Outcome outcome = tumbleRun(scratch, "gallery ball.toml other/ball.toml -o out");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.says("'ball.toml' and 'other/ball.toml' would both be drawn into 'ball'"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "out"));
+}
+
 TEST_CASE("panels that a scene has not got keep no other picture from being drawn") {
   const Folder scratch;
   scratch.file("ball.toml", kDrawnBall);
