@@ -48,6 +48,17 @@ void requireKnownFunctions(const std::string& text, const mu::Parser& parser) {
                         static_cast<int>(word.at));
 }
 
+// What begins like a number and goes on like a name: muParser reads the number, and stumbles
+// behind.
+void requireNamesApart(const std::string& text, std::size_t stumbled) {
+  for (const Word& word : wordsOf(text))
+    if (!isName(word) && word.at < stumbled && stumbled < word.at + word.text.size())
+      throw NotAFormula(inQuotes(word.text) +
+                            " begins like a number; give what it names another name, or put a * "
+                            "behind the number",
+                        static_cast<int>(word.at));
+}
+
 }  // namespace
 
 struct Formula::Parser {
@@ -74,6 +85,7 @@ Formula::Formula(const std::string& text) : parser_(new Parser) {
       parser.DefineVar(names_[i], &parser_->numbers[i]);
     parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
+    requireNamesApart(text, static_cast<std::size_t>(std::max(0, error.GetPos())));
     throw NotAFormula(error.GetMsg() + "; expected for example \"ball.y\" or \"energy / 2\"",
                       std::clamp(error.GetPos(), 0, static_cast<int>(text.size())));
   }

@@ -142,6 +142,8 @@ TEST_CASE("a formula that is none is refused where it goes wrong") {
                Slip{"value = \"t * 1e5 + ball.3.y (2)\"\nequals = 0",
                     {"throw:13:20:", "unknown function 'ball.3.y'; valid: "}},
                Slip{"value = \"t + e\"\nequals = 0", {"throw:13:14:", "did you mean 'energy'?"}},
+               Slip{"value = \"t + 3.x\"\nequals = 0", {"throw:13:14:", "'3.x' begins"}},
+               Slip{"value = \"2t\"\nequals = 0", {"throw:13:10:", "'2t'", "*"}},
                Slip{"value = \"t2 + t23 + t\"\nequals = 0", {"throw:13:10:", "throw:13:15:"}},
                Slip{"value = \"a + ball.3.q\"\nequals = 0",
                     {"throw:13:10:", "'a'; valid: t", "throw:13:14:", "'ball.3.q'; valid: x"}},
