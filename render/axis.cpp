@@ -14,6 +14,12 @@ double niceStep(double x) {
   return 10.0 * power;
 }
 
+/// What an axis shows above values that are all alike: 1, or as much again where 1 is nothing
+/// beside them or they are nothing beside 1.
+double roomOf(double size) {
+  return size == 0.0 || (size > 1e-6 && size < 1e6) ? 1.0 : size;
+}
+
 }  // namespace
 
 Scale::Scale(const ChartAxis& axis, std::span<const double> values, double from, double to,
@@ -44,7 +50,8 @@ Scale::Scale(const ChartAxis& axis, std::span<const double> values, double from,
       ticks_.push_back({power, std::fmod(power - low_, every) == 0.0});
     return;
   }
-  if (high_ - low_ <= 1e-12 * std::max(std::abs(low_), std::abs(high_))) high_ = low_ + 1.0;
+  const double size = std::max(std::abs(low_), std::abs(high_));
+  if (high_ - low_ <= 1e-12 * size) high_ = low_ + roomOf(size);
   step_ = niceStep((high_ - low_) / most);
   const double first = std::floor(low_ / step_ + 1e-9), last = std::ceil(high_ / step_ - 1e-9);
   for (double k = first; k <= last; k += 1.0) ticks_.push_back({k * step_, true});
@@ -53,7 +60,8 @@ Scale::Scale(const ChartAxis& axis, std::span<const double> values, double from,
 }
 
 bool Scale::holds(double value) const {
-  return std::isfinite(value) && (!logarithmic_ || value > 0.0);
+  constexpr double kMost = 1e300;  // steps of larger ones overflow
+  return std::abs(value) <= kMost && (!logarithmic_ || value > 0.0);
 }
 
 double Scale::at(double value) const {

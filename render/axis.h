@@ -28,7 +28,7 @@ class Scale {
   /// @param room  [px] that a labelled tick needs
   Scale(const ChartAxis& axis, std::span<const double> values, double from, double to, double room);
 
-  /// Whether the value has a place: finite, and on a logarithmic axis > 0.
+  /// Whether the value has a place: at most 1e300, and on a logarithmic axis > 0.
   bool holds(double value) const;
   /// [px]
   double at(double value) const;

@@ -61,6 +61,22 @@ TEST_CASE("a linear axis has round numbers around what it shows") {
   CHECK(labelled(Scale({"y", true}, {}, 0.0, 100.0, 40.0)).size() >= 2);
 }
 
+// Beside 1e17 a step of 1 is none, and nothing of 1e-17 is seen on an axis up to 1.
+TEST_CASE("a value that never changes has room on its axis, however large or small it is") {
+  for (const double value : {0.0, 1e-300, -1e-17, 1e-3, 1962.0, -1e17, 1e300}) {
+    CAPTURE(value);
+    const Scale scale({"y", false}, std::vector<double>{value, value}, 0.0, 100.0, 20.0);
+    const std::vector<double> numbers = labelled(scale);
+    CHECK(numbers.size() >= 2);
+    CHECK(numbers.size() <= 12);
+    CHECK(numbers.back() - numbers.front() >= std::abs(value) * 1e-6);
+    CHECK((value == 0.0 || numbers.back() - numbers.front() <= std::max(2.0, 3 * std::abs(value))));
+    CHECK(scale.at(value) >= -1e-6);
+    CHECK(scale.at(value) <= 100.0 + 1e-6);
+  }
+  CHECK_FALSE(Scale({"y", false}, {}, 0.0, 100.0, 20.0).holds(1e301));
+}
+
 TEST_CASE("an axis that begins at zero shows a value as its share of the length") {
   const double values[] = {70.0, 98.0};
   const Scale from({"", false, true}, values, 500.0, 100.0, 40.0);
