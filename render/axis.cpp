@@ -64,6 +64,13 @@ bool Scale::holds(double value) const {
   return std::abs(value) <= kMost && (!logarithmic_ || value > 0.0);
 }
 
+int Scale::power() const {
+  constexpr double kLargest = 1e7, kFinest = 0.99e-5;  // of numbers and steps: seven digits
+  const double size = std::max(std::abs(low_), std::abs(high_));
+  if (logarithmic_ || (size < kLargest && step_ > kFinest)) return 0;
+  return static_cast<int>(std::floor(std::log10(size)));
+}
+
 double Scale::at(double value) const {
   const double x = logarithmic_ ? std::log10(value) : value;
   return from_ + (x - low_) / (high_ - low_) * (to_ - from_);

@@ -35,6 +35,8 @@ class Scale {
   const std::vector<Tick>& ticks() const { return ticks_; }
   /// Difference of labelled ticks, to know how many digits they need; 1 on a logarithmic axis.
   double step() const { return step_; }
+  /// Power of ten that the axis' numbers are told in: 0 unless they would take too many digits.
+  int power() const;
   bool logarithmic() const { return logarithmic_; }
   bool aboveZero() const { return !logarithmic_ && low_ > 0.0; }
 

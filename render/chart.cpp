@@ -36,8 +36,9 @@ Drawing::TextStyle aligned(Drawing::TextStyle style, Align align) {
 class TickText {
  public:
   TickText(const Tick& tick, const Scale& scale) {
+    const double unit = std::pow(10.0, scale.power());
     if (!scale.logarithmic())
-      base_ = formatTick(tick.value, scale.step());
+      base_ = formatTick(tick.value / unit, scale.step() / unit);
     else if (tick.value == 0.0 || tick.value == 1.0)
       base_ = tick.value == 0.0 ? "1" : "10";
     else {
@@ -60,6 +61,15 @@ class TickText {
  private:
   std::string base_, exponent_;
 };
+
+/// The caption, and the power of ten that the numbers are told in: "contact force / N  (× 10⁻¹⁶)".
+std::string captionOf(const ChartAxis& axis, const Scale& scale) {
+  constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  if (scale.power() == 0) return axis.caption;
+  std::string power;
+  for (const char c : std::to_string(scale.power())) power += c == '-' ? "⁻" : kRaised[c - '0'];
+  return axis.caption + "  (× 10" + power + ")";
+}
 
 /// The value that a tick stands for.
 double valueOf(const Tick& tick, const Scale& scale) {
@@ -203,8 +213,9 @@ class Plot {
       const TickText text(tick, y_);
       if (tick.labelled) text.draw({left_ - 10.0 - text.width(canvas_), y + 4.5}, canvas_);
     }
-    canvas_.text({left_ - 32.0, top_ - 16.0}, chart_.y.caption, kCaption);
-    canvas_.text({right_, bottom_ + 42.0}, chart_.x.caption, aligned(kCaption, Align::Right));
+    canvas_.text({left_ - 32.0, top_ - 16.0}, captionOf(chart_.y, y_), kCaption);
+    canvas_.text({right_, bottom_ + 42.0}, captionOf(chart_.x, x_),
+                 aligned(kCaption, Align::Right));
   }
 
   // Two strokes across a gap in the upright axis, between its foot and the first tick above.

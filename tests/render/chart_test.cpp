@@ -77,6 +77,26 @@ TEST_CASE("a value that never changes has room on its axis, however large or sma
   CHECK_FALSE(Scale({"y", false}, {}, 0.0, 100.0, 20.0).holds(1e301));
 }
 
+TEST_CASE("numbers of more digits than find room are told in a power of ten, with the caption") {
+  const auto power = [](double low, double high) {
+    return Scale({"y", false}, std::vector<double>{low, high}, 0.0, 100.0, 20.0).power();
+  };
+  CHECK(power(0.0, 8e6) == 0);
+  CHECK(power(0.0, 6e-5) == 0);
+  CHECK(power(-3e7, 1e7) == 7);
+  CHECK(power(1e-16, 4e-16) == -16);
+  CHECK(Scale({"y", true}, std::vector<double>{1e-16, 1.0}, 0.0, 100.0, 20.0).power() == 0);
+  Chart chart;
+  chart.y = {"force / N", false};
+  chart.curves.resize(1);
+  chart.curves[0].points = {{0.0, 1e-16}, {1.0, 4e-16}};
+  Fonts fonts(kFonts);
+  const std::string svg = svgOf(chart, 480.0, 270.0, fonts);
+  CHECK(svg.find("force / N  (× 10⁻¹⁶)") != std::string::npos);
+  CHECK(svg.find(">4<") != std::string::npos);
+  CHECK(svg.find("0.000000") == std::string::npos);
+}
+
 TEST_CASE("an axis that begins at zero shows a value as its share of the length") {
   const double values[] = {70.0, 98.0};
   const Scale from({"", false, true}, values, 500.0, 100.0, 40.0);
