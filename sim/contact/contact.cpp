@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "sim/collide/align.h"
 #include "sim/collide/ellipsoid.h"
@@ -170,18 +172,26 @@ ContactClass classify(double vrel, double tolerance) {
 
 namespace {
 
-/// The same where a or b is an ellipsoid: the torus that stands for it is another one at each n. Of
-/// all n the right one parts the bodies most. Newton's method on the tori finds it, from where n
-/// went with b; where that leads astray, n goes uphill first.
-void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
+/// Of the size of what is round: points that turned to where they are so much nearer went astray.
+constexpr double kNearer = 1e-6;
+
+/// [m] of what is round at a contact.
+double sizeOf(const ContactPoint& c) {
+  return c.halfA.maxCoeff() + c.halfB.maxCoeff() + c.rimA + c.rimB;
+}
+
+/// Of rounds that nothing but n tells where they touch, the right n of all parts them most. The
+/// torus that stands for an ellipsoid is another one at each n. Newton's method on tori and rims
+/// finds it, from the better of the last n and of the first, which went with b; where that leads
+/// astray, n goes uphill first.
+void followRound(const RigidBody& a, const RigidBody& b, Contact& contact) {
   constexpr int kMostRounds = 60, kMostHalves = 12;
-  constexpr double kSettled = 1e-15;  // [1]
-  constexpr double kNearer = 1e-6;  // of the semi-axes: bodies that are so much nearer went astray
-  constexpr double kStride = 0.5;   // [1]
+  constexpr double kSettled = 1e-15, kRounding = 1e-12;  // [1]
+  constexpr double kStride = 0.5;                        // [1]
   ContactPoint& c = contact.point;
   const Anchor& anchor = contact.anchor;
   const bool onA = c.tie == NormalTie::FaceOfA, onB = c.tie == NormalTie::FaceOfB;
-  const double allowed = kNearer * (c.halfA.maxCoeff() + c.halfB.maxCoeff());
+  const double allowed = kNearer * sizeOf(c);
   const Vec3 anchorA = toWorld(a.pose(), anchor.pa_B), anchorB = toWorld(b.pose(), anchor.pb_B);
   Vec3 way;  // [m] from b to a, between what is outermost along n
   const auto bend = [&](const Vec3& n) {
@@ -199,12 +209,21 @@ void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
     if (c.rimB > 0.0) way -= c.rimB * rimOfB(c).out;
     return c.n.dot(way);
   };
+  const Vec3 kept = c.n;
   double apart = bend((onA ? a.q : b.q) * anchor.n_B);
+  if (!onA && !onB) {
+    const Vec3 first = c.n;
+    const double then = bend(kept);
+    if (!(then > apart)) bend(first);
+    apart = std::max(apart, then);
+  }
+  double turn = std::numeric_limits<double>::infinity();
   for (int round = 0; !onA && !onB && round < kMostRounds; ++round) {
     const Vec3 before = c.n, uphill = across(way, before);
     const bool aligned = alignNormal(c, Vec3(c.pa), Vec3(c.pb));
-    if (aligned && (c.n - before).norm() <= kSettled) break;
+    const double last = std::exchange(turn, (c.n - before).norm());
     double now = bend(Vec3(c.n));
+    if (aligned && (turn <= kSettled || (turn >= last && turn < kRounding))) break;
     if (!aligned || now < apart - allowed) {
       double stride = uphill.isZero(0.0) ? 0.0 : kStride / uphill.norm();
       for (int half = 0; half < kMostHalves; ++half, stride *= 0.5)
@@ -213,12 +232,11 @@ void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
     }
     apart = now;
   }
-  if (onA || onB) {
-    placeOnFace(c);
-    c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
-    if (onA) c.pa = c.pb + reach(c) * c.n;
-    if (onB) c.pb = c.pa - reach(c) * c.n;
-  }
+  if (c.rimA > 0.0) c.pa += c.rimA * rimOfA(c).out;
+  if (c.rimB > 0.0) c.pb += c.rimB * rimOfB(c).out;
+  c.separation = c.n.dot(c.pa - c.pb) - c.ra - c.rb;
+  if (onA || c.tie == NormalTie::EdgeOfA) c.pa = c.pb + reach(c) * c.n;
+  if (onB || c.tie == NormalTie::EdgeOfB) c.pb = c.pa - reach(c) * c.n;
   placeBetween(c);
 }
 
@@ -226,7 +244,7 @@ void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
 
 [[gnu::flatten]] void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   ContactPoint& c = contact.point;
-  if (c.halfA.x() > 0.0 || c.halfB.x() > 0.0) return followEllipsoid(a, b, contact);
+  if (c.halfA.x() > 0.0 || c.halfB.x() > 0.0) return followRound(a, b, contact);
   const Anchor& anchor = contact.anchor;
   c.pa = toWorld(a.pose(), anchor.pa_B);
   c.pb = toWorld(b.pose(), anchor.pb_B);
@@ -236,6 +254,13 @@ void followEllipsoid(const RigidBody& a, const RigidBody& b, Contact& contact) {
   if (rim && c.tie != NormalTie::FaceOfA && c.tie != NormalTie::FaceOfB) {
     c.n = b.q * anchor.n_B;
     alignNormal(c, Vec3(c.pa), Vec3(c.pb));
+    const bool onEdge = c.tie == NormalTie::EdgeOfA || c.tie == NormalTie::EdgeOfB;
+    if (onEdge && c.separation < -kNearer * sizeOf(c)) {
+      const ContactPoint astray = c;
+      followRound(a, b, contact);
+      if (std::abs(c.separation) < std::abs(astray.separation)) return;
+      c = astray;
+    }
     return placeBetween(c);
   }
   switch (c.tie) {

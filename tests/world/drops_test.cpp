@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tests/catch.h"
+#include "tests/world/draws.h"
 #include "tests/world/scenes.h"
 
 using namespace tumble;
@@ -103,6 +104,68 @@ TEST_CASE("random drops of one to three bodies come to an end") {
 
 TEST_CASE("hundreds of random drops come to an end", "[long]") {
   checkDrops(20261, 300);
+}
+
+namespace {
+
+/// Boxes, cylinders, capsules and ellipsoids with edges from 3 cm to 1.2 m, one to three of them,
+/// that fall over up to two more which are fixed.
+WorldDef oddDrop(unsigned seed) {
+  Draws draws{std::mt19937(seed)};
+  const double e = draws(0.0, 1.0) < 0.5 ? 0.0 : draws(0.0, 0.8);
+  const double mu = draws(0.0, 1.0) < 0.2 ? 0.0 : draws(0.0, 1.0);
+  const auto vector = [&](double lo, double hi) {
+    const double x = draws(lo, hi), y = draws(lo, hi);
+    return Vec3(x, y, draws(lo, hi));
+  };
+  WorldDef def = worldOf("exact", 0.8, {ground(e, mu)});
+  double height = 0.0;
+  const auto add = [&](bool fixed, const Vec3& place) {
+    const double kind = draws(0.0, 5.0);
+    const Vec3 power = vector(0.0, 1.0);
+    const Vec3 edges = 0.03 * Vec3(std::pow(40.0, power.x()), std::pow(40.0, power.y()),
+                                   std::pow(40.0, power.z()));
+    BodyDef body = box("body" + std::to_string(def.bodies.size()), edges, place, e, mu);
+    if (kind > 2.0) body.shape = Cylinder{0.5 * edges.x(), edges.y()};
+    if (kind > 3.0) body.shape = Capsule{0.3 * edges.x(), edges.y()};
+    if (kind > 4.0) body.shape = Ellipsoid{0.5 * edges};
+    const Vec3 axis = vector(-1.0, 1.0);
+    body.orientation = Quat(draws(-1.0, 1.0), axis.x(), axis.y(), axis.z()).normalized();
+    body.fixed = fixed;
+    const Aabb from = boundingBox(body.shape, {Vec3::Zero(), body.orientation});
+    if (!fixed) {
+      body.position.y() += height - from.lo.y();
+      body.velocity = vector(-1.0, 0.0);
+      body.angularVelocity = vector(-2.0, 2.0);
+    }
+    height = std::max(height, body.position.y() + from.hi.y());
+    def.bodies.push_back(body);
+  };
+  const int fixed = static_cast<int>(draws(0.0, 3.0)),
+            moving = 1 + static_cast<int>(draws(0.0, 3.0));
+  for (int k = 0; k < fixed; ++k) add(true, Vec3(0.6 * k - 0.3, draws(0.0, 0.4), 0.0));
+  for (int k = 0; k < moving; ++k) add(false, Vec3(draws(-0.3, 0.3), draws(0.0, 0.1), 0.0));
+  return def;
+}
+
+}  // namespace
+
+// Oracle: conservation, and no overlap. Of 250 such scenes 20 went up to 0.4 m into each other or
+// lost up to half of their momentum, most without a word: bodies that turned fast met unseen, and
+// normals of ellipsoids and of rims on edges ended on the far side. These are six of them. Measured
+// at most 2e-12 m of overlap, 4e-14 of the energy and 7e-13 of the momentum open.
+TEST_CASE("bodies of any proportions fall over each other and over what stands there") {
+  for (const unsigned seed : {39u, 45u, 57u, 74u, 130u, 192u}) {
+    CAPTURE(seed);
+    World world(oddDrop(seed));
+    world.advance(0.8);
+    const Certificate& books = world.report().certificate;
+    CAPTURE(world.report().reason);
+    CHECK_FALSE(world.report().stopped);
+    CHECK(books.max_penetration < 1e-9);
+    CHECK(books.energy_balance_error < 1e-10);
+    CHECK(books.momentum_error < 1e-10);
+  }
 }
 
 // Oracle: conservation. A box slides by its lowest edge, which is level, over the edge of a block,

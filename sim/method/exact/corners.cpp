@@ -74,8 +74,13 @@ void tieCrossing(const State& state, double rest, Contact& c) {
   c.point.crosses = true;
 }
 
-/// Ties a contact of a face to its edges, if these lean. @return whether the solids touch there
+/// Ties a contact of a face to its edges, if these lean; and one of edges to the normal of both:
+/// where one of them ends, collide has another. @return whether the solids touch there
 bool tieEdges(const State& state, Contact& c) {
+  if (c.point.tie == NormalTie::Edges) {
+    c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], c.point);
+    follow(state.bodies[c.a], state.bodies[c.b], c);
+  }
   if (c.point.tie != NormalTie::FaceOfA && c.point.tie != NormalTie::FaceOfB) return true;
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
   const BoxEdge ofA = edgeOf(state.exact.parts[c.a], a, featureOfA(c.point.feature));
