@@ -39,8 +39,8 @@ BoxEdge edgeOf(const std::vector<Convex>& parts, const RigidBody& body, std::uin
   return edge;
 }
 
-/// A contact of a face, tied to two edges that lie on it instead: the same point, with a normal
-/// that stays across both.
+/// A contact tied to two edges that cross there: the same point, with a normal that stays across
+/// both.
 Contact tiedToEdges(const State& state, const Contact& c, const Vec3& ea, const Vec3& eb) {
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
   Contact tied = c;
@@ -77,10 +77,7 @@ void tieCrossing(const State& state, double rest, Contact& c) {
 /// Ties a contact of a face to its edges, if these lean; and one of edges to the normal of both:
 /// where one of them ends, collide has another. @return whether the solids touch there
 bool tieEdges(const State& state, Contact& c) {
-  if (c.point.tie == NormalTie::Edges) {
-    c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], c.point);
-    follow(state.bodies[c.a], state.bodies[c.b], c);
-  }
+  if (c.point.tie == NormalTie::Edges) c = tiedToEdges(state, c, c.point.ea, c.point.eb);
   if (c.point.tie != NormalTie::FaceOfA && c.point.tie != NormalTie::FaceOfB) return true;
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
   const BoxEdge ofA = edgeOf(state.exact.parts[c.a], a, featureOfA(c.point.feature));
