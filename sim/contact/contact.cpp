@@ -1,3 +1,5 @@
+// Where contacts are, how fast they go and how they go on: one file, for all three share the
+// geometry of edges, rims and what is round.
 #include "sim/contact/contact.h"
 
 #include <algorithm>
