@@ -12,7 +12,7 @@ namespace {
 constexpr double kStill = 1e-16;
 // [1] Only rounding keeps turns below this from getting smaller.
 constexpr double kNearlyStill = 1e-10;
-// [1] The largest turn at once, and of a crossing along a rim; of n, in units of its lean against
+// [1] The largest turn of n at once, in units of its lean against
 // the axis of a rim, beyond which it would go round to the other side.
 constexpr double kStride = 0.5;
 constexpr int kMostTurns = 32;
@@ -74,44 +74,6 @@ bool alignNormal(ContactPoint& c, const Vec3& fromA, const Vec3& fromB) {
   if (c.tie == NormalTie::EdgeOfB) c.pb = c.pa - reach * c.n;
   if (c.tie == NormalTie::EdgeOfA) c.pa = c.pb + reach * c.n;
   return size < kNearlyStill;
-}
-
-Vec3 crossingAlongA(const ContactPoint& c) {
-  return c.rimA > 0.0 ? Vec3(c.n.cross(c.ea).normalized()) : c.ea;
-}
-
-Vec3 crossingAlongB(const ContactPoint& c) {
-  return c.rimB > 0.0 ? Vec3(c.n.cross(c.eb).normalized()) : c.eb;
-}
-
-void alignCrossing(ContactPoint& c, const Vec3& fromA, const Vec3& fromB) {
-  c.pa = fromA + c.rimA * c.ea;
-  c.pb = fromB + c.rimB * c.eb;
-  double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kMostTurns; ++k) {
-    const Vec3 ta = crossingAlongA(c), tb = crossingAlongB(c), way = c.pa - c.pb;
-    const double sine = c.n.dot(ta.cross(tb));
-    double alongA = -c.n.dot(way.cross(tb)) / sine, alongB = -c.n.dot(way.cross(ta)) / sine;
-    const double size = std::max(std::abs(alongA), std::abs(alongB));
-    if (!std::isfinite(size) || size >= last) return;
-    last = size;
-    const auto turned = [&](const Vec3& out, const Vec3& along, double angle) {
-      const double small = std::clamp(angle, -kStride, kStride);
-      return Vec3((out + small * along).normalized());
-    };
-    if (c.rimA > 0.0) {
-      c.ea = turned(c.ea, ta, alongA / c.rimA);
-      c.pa = fromA + c.rimA * c.ea;
-    } else {
-      c.pa += alongA * ta;
-    }
-    if (c.rimB > 0.0) {
-      c.eb = turned(c.eb, tb, alongB / c.rimB);
-      c.pb = fromB + c.rimB * c.eb;
-    } else {
-      c.pb += alongB * tb;
-    }
-  }
 }
 
 }  // namespace tumble

@@ -20,13 +20,4 @@ RimPoint rimOfB(const ContactPoint& c);
 /// @return false where n would not be the widest near it
 bool alignNormal(ContactPoint& c, const Vec3& fromA, const Vec3& fromB);
 
-/// Moves the point of a contact of a face to where the edges or rims of both cross, seen along n,
-/// from the places at which they are given; sets pa, pb and, of rims, ea or eb.
-/// @param fromA, fromB  [m] points of edges, or centres of rims
-void alignCrossing(ContactPoint& c, const Vec3& fromA, const Vec3& fromB);
-
-/// Tangents [1] along which the point of a crossing wanders over a, and over b.
-Vec3 crossingAlongA(const ContactPoint& c);
-Vec3 crossingAlongB(const ContactPoint& c);
-
 }  // namespace tumble

@@ -6,6 +6,7 @@
 
 #include "sim/collide/align.h"
 #include "sim/collide/convex.h"
+#include "sim/collide/crossing_point.h"
 #include "sim/collide/facet.h"
 #include "sim/collide/rim_points.h"
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/collide/align.h"
+#include "sim/collide/crossing_point.h"
 #include "sim/collide/ellipsoid.h"
 #include "sim/math/frames.h"
 
@@ -57,6 +58,11 @@ bool hasRim(const ContactPoint& c) {
   return c.rimA > 0.0 || c.rimB > 0.0;
 }
 
+/// Whether the place of contact goes round a rim, and n with it.
+bool rolls(const ContactPoint& c) {
+  return hasRim(c) && (isSlant(c) || !c.crosses);
+}
+
 /// Centre of the rim that a point is on; the point itself if there is none.
 Vec3 centreOf(const Vec3& p, double r, const Vec3& e, const Vec3& outward, bool crosses) {
   if (r == 0.0) return p;
@@ -89,14 +95,30 @@ Vec3 freeRate(const ContactPoint& c, const RimPoint& a, const RimPoint& b, const
   return ((uu * wt - tu * wu) / det) * t + ((tt * wu - tu * wt) / det) * u;
 }
 
+/// Where edges or rims cross at a slant, points wander along both so that their offset stays
+/// square to them, and n = ± τa×τb turns with the tangents.
+Rolling crossingOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  const Slant slant(c);
+  const Vec3 &ta = slant.ta, &tb = slant.tb, way = c.pa - c.pb;
+  const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
+  const Vec3 turnA = a.omega.cross(ta), turnB = b.omega.cross(tb);
+  const auto [alongA, alongB] =
+      slant.ways(ta.dot(relative) + way.dot(turnA), tb.dot(relative) + way.dot(turnB));
+  const Vec3 rateA = turnA + alongA * slant.bendA, rateB = turnB + alongB * slant.bendB;
+  const Vec3 product = ta.cross(tb);
+  const Vec3 rate = across(rateA.cross(tb) + ta.cross(rateB), c.n) / product.dot(c.n);
+  return {rate, alongA * ta, alongB * tb};
+}
+
 Rolling rollingOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
+  if (isSlant(c)) return crossingOf(a, b, c);
   const RimPoint rimA = rimOfA(c), rimB = rimOfB(c);
-  const auto rolls = [](const RimPoint& rim, const Vec3& turn) {
+  const auto runs = [](const RimPoint& rim, const Vec3& turn) {
     return Vec3(rim.bend * rim.along.dot(turn) * rim.along);
   };
   const Vec3 turnA = a.omega.cross(c.n), turnB = b.omega.cross(c.n);
   const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
-  const Vec3 w = relative + rolls(rimA, turnA) + rolls(rimB, turnB);
+  const Vec3 w = relative + runs(rimA, turnA) + runs(rimB, turnB);
   Rolling roll;
   switch (c.tie) {
     case NormalTie::FaceOfB:
@@ -114,8 +136,8 @@ Rolling rollingOf(const RigidBody& a, const RigidBody& b, const ContactPoint& c)
     default:
       roll.rate = freeRate(c, rimA, rimB, w, nullptr, Vec3::Zero());
   }
-  roll.wanderA = -rolls(rimA, roll.rate - turnA);
-  roll.wanderB = rolls(rimB, roll.rate - turnB);
+  roll.wanderA = -runs(rimA, roll.rate - turnA);
+  roll.wanderB = runs(rimB, roll.rate - turnB);
   // Feet follow what they are the feet of.
   const Vec3 apart = reach(c) * roll.rate;
   if (c.tie == NormalTie::FaceOfB || c.tie == NormalTie::EdgeOfB)
@@ -169,6 +191,9 @@ ContactClass classify(double vrel, double tolerance) {
   anchor.n_B = tied.conjugate() * c.n;
   if (!c.ea.isZero(0.0)) anchor.ea_B = a.q.conjugate() * c.ea;
   if (!c.eb.isZero(0.0)) anchor.eb_B = b.q.conjugate() * c.eb;
+  if (!isSlant(c)) return anchor;
+  if (c.rimA > 0.0) anchor.ea_B = a.q.conjugate() * c.ea.cross(crossingAlongA(c));
+  if (c.rimB > 0.0) anchor.eb_B = b.q.conjugate() * c.eb.cross(crossingAlongB(c));
   return anchor;
 }
 
@@ -242,17 +267,45 @@ void followRound(const RigidBody& a, const RigidBody& b, Contact& contact) {
   placeBetween(c);
 }
 
+/// A rim and an edge that cross at a slant, from where the place on the edge is near the rim.
+void followSlant(const RigidBody& a, const RigidBody& b, Contact& contact) {
+  ContactPoint& c = contact.point;
+  const Anchor& anchor = contact.anchor;
+  const Vec3 fromA = toWorld(a.pose(), anchor.pa_B), fromB = toWorld(b.pose(), anchor.pb_B);
+  const Vec3 alongA = a.q * anchor.ea_B, alongB = b.q * anchor.eb_B;  // of the rim its axis
+  c.n = b.q * anchor.n_B;
+  if (c.rimA > 0.0) c.ea = across(fromB - fromA, alongA).normalized();
+  if (c.rimB > 0.0) c.eb = across(fromA - fromB, alongB).normalized();
+  alignSlant(c, fromA, fromB, alongA, alongB);
+  placeBetween(c);
+}
+
+/// Whether a rim touches a ball, to whose centre the nearest point of a circle is known.
+bool isNearBall(const ContactPoint& c) {
+  return c.tie == NormalTie::Points && (c.rimA == 0.0 || c.rimB == 0.0) && c.ra + c.rb > 0.0;
+}
+
+/// @param c  with pa and pb at the centres of ball and rim
+void followBall(ContactPoint& c) {
+  if (c.rimA > 0.0) c.pa += c.rimA * across(c.pb - c.pa, c.ea).normalized();
+  if (c.rimB > 0.0) c.pb += c.rimB * across(c.pa - c.pb, c.eb).normalized();
+  alongOffset(c, c.pa - c.pb);
+  placeBetween(c);
+}
+
 }  // namespace
 
 [[gnu::flatten]] void follow(const RigidBody& a, const RigidBody& b, Contact& contact) {
   ContactPoint& c = contact.point;
   if (c.halfA.x() > 0.0 || c.halfB.x() > 0.0) return followRound(a, b, contact);
+  if (isSlant(c)) return followSlant(a, b, contact);
   const Anchor& anchor = contact.anchor;
   c.pa = toWorld(a.pose(), anchor.pa_B);
   c.pb = toWorld(b.pose(), anchor.pb_B);
   c.ea = a.q * anchor.ea_B;
   c.eb = b.q * anchor.eb_B;
   const bool rim = hasRim(c);
+  if (rim && isNearBall(c)) return followBall(c);
   if (rim && c.tie != NormalTie::FaceOfA && c.tie != NormalTie::FaceOfB) {
     c.n = b.q * anchor.n_B;
     alignNormal(c, Vec3(c.pa), Vec3(c.pb));
@@ -331,7 +384,7 @@ Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
 }
 
 Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  if (hasRim(c) && !c.crosses) {
+  if (rolls(c)) {
     const Rolling roll = rollingOf(a, b, c);
     return pointVelocity(a, c.pa) + roll.wanderA - c.ra * roll.rate;
   }
@@ -370,7 +423,7 @@ double normalAccelerationBias(const RigidBody& a, const RigidBody& b, const Cont
   const Vec3 centripetal =
       a.omega.cross(a.omega.cross(c.pa - a.x)) - b.omega.cross(b.omega.cross(c.pb - b.x));
   const Vec3 relative = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
-  if (hasRim(c) && !c.crosses) {
+  if (rolls(c)) {
     const Rolling roll = rollingOf(a, b, c);
     const Vec3 wanders = a.omega.cross(roll.wanderA) - b.omega.cross(roll.wanderB);
     return c.n.dot(centripetal + wanders) + roll.rate.dot(relative);

@@ -164,10 +164,11 @@ WorldDef oddDrop(unsigned seed) {
 
 // Oracle: conservation, and no overlap. Of 250 such scenes 20 went up to 0.4 m into each other or
 // lost up to half of their momentum, most without a word: bodies that turned fast met unseen, and
-// normals of ellipsoids and of rims on edges ended on the far side. These are six of them. Measured
-// at most 2e-12 m of overlap, 4e-14 of the energy and 7e-13 of the momentum open.
+// normals of ellipsoids and of rims on edges ended on the far side. These are six of them. In three
+// more, rims came to lie flat on edges, or nearly below a ball: 1e-5 of the momentum, and 0.04 J.
+// Measured at most 5e-12 m of overlap, 4e-14 of the energy and 2e-12 of the momentum open.
 TEST_CASE("bodies of any proportions fall over each other and over what stands there") {
-  for (const unsigned seed : {39u, 45u, 57u, 74u, 130u, 192u}) {
+  for (const unsigned seed : {12u, 38u, 39u, 45u, 57u, 74u, 89u, 130u, 192u}) {
     CAPTURE(seed);
     World world(oddDrop(seed));
     world.advance(0.8);

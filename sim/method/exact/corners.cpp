@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/collide/align.h"
 #include "sim/collide/features.h"
+#include "sim/math/frames.h"
 
 namespace tumble {
 namespace {
@@ -12,44 +14,89 @@ namespace {
 constexpr double kLevel = 1e-6;
 /// [1/s] Edges on a face that turn against it by more are about to lean.
 constexpr double kTurning = 1e-8;
+/// [1] Rims that lean by less against the normal may come to lie flat.
+constexpr double kLittle = 0.5;
 /// [1] Edges that cross at less than this angle have no point to follow.
 constexpr double kCrossing = 1e-3;
 
-/// The edge of a box that a contact point is on, and the outward normals of the faces beside it
-/// [1], world; zero if it is on none.
-struct BoxEdge {
+/// The edge of a box, or the rim of a cap, that a contact point is on: its direction there and the
+/// outward normals of the faces beside it [1], world; zero if it is on none.
+struct Border {
   Vec3 along = Vec3::Zero(), faces[2] = {Vec3::Zero(), Vec3::Zero()};
   /// Whether a solid that is outermost there along n may touch there.
   bool shows(const Vec3& n) const { return faces[0].dot(n) >= 0.0 && faces[1].dot(n) >= 0.0; }
 };
 
-BoxEdge edgeOf(const std::vector<Convex>& parts, const RigidBody& body, std::uint32_t code) {
-  BoxEdge edge;
+/// @param rim  [m] radius of the rim that the point p [m] is on, in the direction `out` [1] from
+///             its centre; 0 if it is on none
+Border borderOf(const std::vector<Convex>& parts, const RigidBody& body, std::uint32_t code,
+                double rim, const Vec3& out, const Vec3& p) {
+  Border border;
   const std::size_t part = code >> 20;
-  if ((code & kKindCode) != kEdgeCode || part >= parts.size() ||
-      !std::holds_alternative<Box>(parts[part].shape))
-    return edge;
+  if (part >= parts.size()) return border;
+  const Quat q = body.q * parts[part].pose.q;
+  if (rim > 0.0) {
+    const Vec3 axis = q * Vec3::UnitY(), middle = toWorld(body.pose(), parts[part].pose.x);
+    border.along = axis.cross(out).normalized();
+    border.faces[0] = (p - middle).dot(axis) < 0.0 ? Vec3(-axis) : axis;
+    border.faces[1] = out;
+    return border;
+  }
+  if ((code & kKindCode) != kEdgeCode || !std::holds_alternative<Box>(parts[part].shape))
+    return border;
   const std::uint32_t number = code & (kEdgeCode - 1);
   const int axis = static_cast<int>(number >> 2);
-  if (axis > 2) return edge;
-  const Quat q = body.q * parts[part].pose.q;
-  edge.along = q * Vec3::Unit(axis);
-  edge.faces[0] = q * Vec3(((number & 1) != 0 ? 1.0 : -1.0) * Vec3::Unit(nextAxis(axis)));
-  edge.faces[1] = q * Vec3(((number & 2) != 0 ? 1.0 : -1.0) * Vec3::Unit(lastAxis(axis)));
-  return edge;
+  if (axis > 2) return border;
+  border.along = q * Vec3::Unit(axis);
+  border.faces[0] = q * Vec3(((number & 1) != 0 ? 1.0 : -1.0) * Vec3::Unit(nextAxis(axis)));
+  border.faces[1] = q * Vec3(((number & 2) != 0 ? 1.0 : -1.0) * Vec3::Unit(lastAxis(axis)));
+  return border;
 }
 
-/// A contact tied to two edges that cross there: the same point, with a normal that stays across
-/// both.
-Contact tiedToEdges(const State& state, const Contact& c, const Vec3& ea, const Vec3& eb) {
+/// What crosses there, if it is not two rims.
+Border borderOfA(const State& state, const Contact& c) {
+  const ContactPoint& at = c.point;
+  return borderOf(state.exact.parts[c.a], state.bodies[c.a], featureOfA(at.feature),
+                  at.crosses && at.rimB == 0.0 ? at.rimA : 0.0, at.ea, at.pa);
+}
+
+Border borderOfB(const State& state, const Contact& c) {
+  const ContactPoint& at = c.point;
+  return borderOf(state.exact.parts[c.b], state.bodies[c.b], featureOfB(at.feature),
+                  at.crosses && at.rimA == 0.0 ? at.rimB : 0.0, at.eb, at.pb);
+}
+
+/// A contact tied to two edges or rims that cross there: the same point, with a normal that stays
+/// across both.
+Contact tiedToBoth(const State& state, const Contact& c, const Border& ofA, const Border& ofB) {
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
   Contact tied = c;
-  tied.point.tie = NormalTie::Edges;
-  tied.point.ea = ea;
-  tied.point.eb = eb;
-  tied.anchor = anchorOf(a, b, tied.point);
+  ContactPoint& at = tied.point;
+  if (!at.crosses || at.rimA == 0.0) at.ea = ofA.along;
+  if (!at.crosses || at.rimB == 0.0) at.eb = ofB.along;
+  at.tie = NormalTie::Edges;
+  at.crosses = at.crosses && (at.rimA > 0.0 || at.rimB > 0.0);
+  tied.anchor = anchorOf(a, b, at);
   follow(a, b, tied);
   return tied;
+}
+
+/// Ties a contact of a rim and an edge to both as they cross, where the rim leans little: as it
+/// comes to lie flat, the outermost point along n runs round it ever faster, and then to its other
+/// side.
+void tieRim(const State& state, Contact& c) {
+  ContactPoint& at = c.point;
+  const bool ofA = at.tie == NormalTie::EdgeOfB && at.rimA > 0.0,
+             ofB = at.tie == NormalTie::EdgeOfA && at.rimB > 0.0;
+  if (at.halfA.x() > 0.0 || at.halfB.x() > 0.0 || (!ofA && !ofB)) return;
+  const RimPoint rim = ofA ? rimOfA(at) : rimOfB(at);
+  const Vec3& edge = ofA ? at.eb : at.ea;
+  if (!(rim.lean < kLittle && rim.along.cross(edge).norm() > std::max(rim.lean, kCrossing))) return;
+  (ofA ? at.ea : at.eb) = rim.out;
+  at.tie = NormalTie::Edges;
+  at.crosses = true;
+  c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], at);
+  follow(state.bodies[c.a], state.bodies[c.b], c);
 }
 
 /// Ties the point of a contact of a face to the edges that cross there: as a point of the face, or,
@@ -57,18 +104,19 @@ Contact tiedToEdges(const State& state, const Contact& c, const Vec3& ea, const 
 /// velocity that is told from none [m/s].
 void tieCrossing(const State& state, double rest, Contact& c) {
   const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
-  const Vec3 ea = edgeOf(state.exact.parts[c.a], a, featureOfA(c.point.feature)).along;
-  const Vec3 eb = edgeOf(state.exact.parts[c.b], b, featureOfB(c.point.feature)).along;
+  const Border ofA = borderOfA(state, c), ofB = borderOfB(state, c);
+  const Vec3 &ea = ofA.along, &eb = ofB.along;
   if (ea.cross(eb).norm() < kCrossing) return;
   const Vec3 across = c.point.n.cross(a.omega - b.omega);
   if (std::max(std::abs(across.dot(ea)), std::abs(across.dot(eb))) > kTurning) {
-    const Contact tied = tiedToEdges(state, c, ea, eb);
+    const Contact tied = tiedToBoth(state, c, ofA, ofB);
     const double change = approachVelocity(a, b, tied.point) - approachVelocity(a, b, c.point);
     if (std::abs(change) <= rest) {
       c = tied;
       return;
     }
   }
+  if (c.point.crosses) return;
   c.point.ea = ea;
   c.point.eb = eb;
   c.point.crosses = true;
@@ -77,15 +125,15 @@ void tieCrossing(const State& state, double rest, Contact& c) {
 /// Ties a contact of a face to its edges, if these lean; and one of edges to the normal of both:
 /// where one of them ends, collide has another. @return whether the solids touch there
 bool tieEdges(const State& state, Contact& c) {
-  if (c.point.tie == NormalTie::Edges) c = tiedToEdges(state, c, c.point.ea, c.point.eb);
+  tieRim(state, c);
+  if (c.point.tie == NormalTie::Edges && !c.point.crosses)
+    c = tiedToBoth(state, c, {.along = c.point.ea}, {.along = c.point.eb});
   if (c.point.tie != NormalTie::FaceOfA && c.point.tie != NormalTie::FaceOfB) return true;
-  const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
-  const BoxEdge ofA = edgeOf(state.exact.parts[c.a], a, featureOfA(c.point.feature));
-  const BoxEdge ofB = edgeOf(state.exact.parts[c.b], b, featureOfB(c.point.feature));
+  const Border ofA = borderOfA(state, c), ofB = borderOfB(state, c);
   const double lean =
       std::max(std::abs(ofA.along.dot(c.point.n)), std::abs(ofB.along.dot(c.point.n)));
   if (ofA.along.cross(ofB.along).norm() < kCrossing || lean <= kLevel) return true;
-  const Contact tied = tiedToEdges(state, c, ofA.along, ofB.along);
+  const Contact tied = tiedToBoth(state, c, ofA, ofB);
   const bool shows = ofA.shows(-tied.point.n) && ofB.shows(tied.point.n);
   if (shows) c = tied;
   return shows;
@@ -115,6 +163,7 @@ void tieCrossings(const State& state, double rest, std::vector<Contact>& contact
   for (Contact& c : contacts) {
     if (c.point.tie == NormalTie::FaceOfB || c.point.tie == NormalTie::FaceOfA)
       tieCrossing(state, rest, c);
+    tieRim(state, c);
     c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], c.point);
   }
 }
