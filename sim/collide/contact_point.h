@@ -15,7 +15,7 @@ enum class NormalTie : std::uint8_t {
   Points,   ///< two points (ball centres, vertices): n along pa − pb
   EdgeOfB,  ///< a point of a against an edge of b: n along the part of pa − pb across eb
   EdgeOfA,  ///< a point of b against an edge of a
-  Edges,    ///< an edge against an edge or a rim: n across both, of edges along ± ea × eb
+  Edges,    ///< edges or rims against each other: n across both, of edges along ± ea × eb
 };
 
 /// One point of contact, or of nearness. World frame, SI.
@@ -37,7 +37,7 @@ struct ContactPoint {
   /// [m] Semi-axes of an ellipsoid, else 0: then radius and rim are those of the torus that bends
   /// as it does here (ellipsoid.h).
   Vec3 halfA = Vec3::Zero(), halfB = Vec3::Zero();
-  /// Of a contact of a face, or of a rim against an edge at a slant: pa and pb are where an edge of
+  /// Of a contact of a face, or of a rim at a slant: pa and pb are where an edge of
   /// a crosses one of b, along ea and eb, and wander along both. Of a rim, ea or eb is then the
   /// unit vector from its centre to the point.
   bool crosses = false;

@@ -194,6 +194,7 @@ ContactClass classify(double vrel, double tolerance) {
   if (!isSlant(c)) return anchor;
   if (c.rimA > 0.0) anchor.ea_B = a.q.conjugate() * c.ea.cross(crossingAlongA(c));
   if (c.rimB > 0.0) anchor.eb_B = b.q.conjugate() * c.eb.cross(crossingAlongB(c));
+  anchor.place_B = toBody(b.pose(), c.pb);
   return anchor;
 }
 
@@ -267,15 +268,16 @@ void followRound(const RigidBody& a, const RigidBody& b, Contact& contact) {
   placeBetween(c);
 }
 
-/// A rim and an edge that cross at a slant, from where the place on the edge is near the rim.
+/// Edges and rims that cross at a slant, from where rims are nearest to a place that goes with b.
 void followSlant(const RigidBody& a, const RigidBody& b, Contact& contact) {
   ContactPoint& c = contact.point;
   const Anchor& anchor = contact.anchor;
   const Vec3 fromA = toWorld(a.pose(), anchor.pa_B), fromB = toWorld(b.pose(), anchor.pb_B);
-  const Vec3 alongA = a.q * anchor.ea_B, alongB = b.q * anchor.eb_B;  // of the rim its axis
+  const Vec3 alongA = a.q * anchor.ea_B, alongB = b.q * anchor.eb_B;  // of rims their axes
+  const Vec3 place = toWorld(b.pose(), anchor.place_B);
   c.n = b.q * anchor.n_B;
-  if (c.rimA > 0.0) c.ea = across(fromB - fromA, alongA).normalized();
-  if (c.rimB > 0.0) c.eb = across(fromA - fromB, alongB).normalized();
+  if (c.rimA > 0.0) c.ea = across(place - fromA, alongA).normalized();
+  if (c.rimB > 0.0) c.eb = across(place - fromB, alongB).normalized();
   alignSlant(c, fromA, fromB, alongA, alongB);
   placeBetween(c);
 }

@@ -36,6 +36,7 @@ struct Anchor {
   Vec3 pa_B = Vec3::Zero(), pb_B = Vec3::Zero();  ///< [m] material points; of rims their centres
   Vec3 n_B = Vec3::Zero();                        ///< normal in the frame of the body it is tied to
   Vec3 ea_B = Vec3::Zero(), eb_B = Vec3::Zero();  ///< edge directions, axes of rims
+  Vec3 place_B = Vec3::Zero();                    ///< [m] in b, of edges and rims at a slant
 };
 
 /// One contact between two bodies of a world.

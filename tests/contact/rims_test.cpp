@@ -161,17 +161,18 @@ TEST_CASE("a side that comes to lie on a disc is followed along its rim to the l
   CHECK(gap < 1e-14);
 }
 
-// Oracle: what it is by definition – a point of the circle and one of the line whose offset is
-// square to both – and central differences of that, of order four, h = 1e-3 s. Both bodies turn,
-// and the disc passes through where it lies flat on the edge, sharp or round: there the outermost
-// point of its rim along n is any, and comes to be on the far side. Measured 7e-17, and 7e-11,
-// 8e-13, 3e-10 and 4e-11.
+// Oracle: what it is by definition – points of the circle and of a line, or another circle, whose
+// offset is square to both – and central differences of that, of order four, h = 1e-3 s. Both
+// bodies turn, and the disc passes through where it lies flat on the edge, sharp, round or a rim:
+// there the outermost point of its rim along n is any, and comes to be on the far side. Measured
+// 7e-17, and 1e-10, 2e-12, 3e-10 and 5e-11.
 TEST_CASE("a disc that comes to lie on an edge, and beyond, is followed where its rim crosses it") {
   constexpr double kRadius = 0.3, h = 1e-3;
   const Vec3 rim(0.0, -0.05, 0.0);  // its centre in the disc
   const Vec3 out(std::cos(0.6), 0.0, std::sin(0.6)), edge = Vec3::UnitX();
   double on = 0.0, rate = 0.0, speed = 0.0, bend = 0.0, place = 0.0;
-  for (const double round : {0.0, 0.2}) {
+  for (const auto& [round, other] :
+       {std::pair(0.0, 0.0), std::pair(0.2, 0.0), std::pair(0.0, 0.2)}) {
     const RigidBody a = moving(Cylinder{kRadius, 0.1}, {-kRadius * out - rim, Quat::Identity()},
                                {0.1, -0.2, 0.3}, Vec3::UnitY().cross(out) + Vec3(0.2, 0.5, -0.1));
     const RigidBody b = moving(Box{{0.5, 0.5, 0.5}}, {{0.1, -0.6, 0.2}, Quat::Identity()},
@@ -181,7 +182,8 @@ TEST_CASE("a disc that comes to lie on an edge, and beyond, is followed where it
     start.point.crosses = true;
     start.point.rimA = kRadius;
     start.point.ea = out;
-    start.point.eb = edge;
+    start.point.rimB = other;
+    start.point.eb = other > 0.0 ? Vec3(Vec3::UnitZ()) : edge;
     start.point.pb = -round * Vec3::UnitY();
     start.point.rb = round;
     start.anchor = anchorOf(a, b, start.point);
@@ -195,11 +197,16 @@ TEST_CASE("a disc that comes to lie on an edge, and beyond, is followed where it
       const RigidBody a1 = coasted(a, t), b1 = coasted(b, t);
       const ContactPoint c = at(t);
       const Vec3 axis = a1.q * Vec3::UnitY(), spoke = c.pa - toWorld(a1.pose(), rim);
-      const Vec3 line = b1.q * edge,
-                 fromLine = c.pb - toWorld(b1.pose(), toBody(b.pose(), start.point.pb));
-      on = std::max({on, std::abs(axis.dot(spoke)), std::abs(spoke.norm() - kRadius),
-                     fromLine.cross(line).norm(), std::abs(c.n.dot(axis.cross(spoke))),
-                     std::abs(c.n.dot(line)), (c.pa - c.pb - (c.separation + round) * c.n).norm()});
+      const Vec3 middle = start.point.pb - other * Vec3::UnitZ();
+      const Vec3 fromMiddle = c.pb - toWorld(b1.pose(), toBody(b.pose(), middle));
+      const Vec3 axisB = b1.q * Vec3::UnitY();
+      const Vec3 line = other > 0.0 ? axisB.cross(fromMiddle) : Vec3(b1.q * edge);
+      const double off = other > 0.0
+                             ? std::abs(fromMiddle.norm() - other) + std::abs(axisB.dot(fromMiddle))
+                             : fromMiddle.cross(line).norm();
+      on = std::max({on, std::abs(axis.dot(spoke)), std::abs(spoke.norm() - kRadius), off,
+                     std::abs(c.n.dot(axis.cross(spoke))), std::abs(c.n.dot(line)),
+                     (c.pa - c.pb - (c.separation + round) * c.n).norm()});
       const auto slope = [&](auto value) -> decltype(value(0.0)) {
         return ((value(t - 2 * h) - value(t + 2 * h)) + 8.0 * (value(t + h) - value(t - h))) /
                (12.0 * h);

@@ -53,17 +53,16 @@ Border borderOf(const std::vector<Convex>& parts, const RigidBody& body, std::ui
   return border;
 }
 
-/// What crosses there, if it is not two rims.
 Border borderOfA(const State& state, const Contact& c) {
   const ContactPoint& at = c.point;
   return borderOf(state.exact.parts[c.a], state.bodies[c.a], featureOfA(at.feature),
-                  at.crosses && at.rimB == 0.0 ? at.rimA : 0.0, at.ea, at.pa);
+                  at.crosses ? at.rimA : 0.0, at.ea, at.pa);
 }
 
 Border borderOfB(const State& state, const Contact& c) {
   const ContactPoint& at = c.point;
   return borderOf(state.exact.parts[c.b], state.bodies[c.b], featureOfB(at.feature),
-                  at.crosses && at.rimA == 0.0 ? at.rimB : 0.0, at.eb, at.pb);
+                  at.crosses ? at.rimB : 0.0, at.eb, at.pb);
 }
 
 /// A contact tied to two edges or rims that cross there: the same point, with a normal that stays
@@ -81,18 +80,22 @@ Contact tiedToBoth(const State& state, const Contact& c, const Border& ofA, cons
   return tied;
 }
 
-/// Ties a contact of a rim and an edge to both as they cross, where the rim leans little: as it
-/// comes to lie flat, the outermost point along n runs round it ever faster, and then to its other
-/// side.
-void tieRim(const State& state, Contact& c) {
+/// Ties a contact of a rim and an edge, or of two rims, to both as they cross, where a rim leans
+/// little: as it comes to lie flat, the outermost point along n runs round it ever faster, and then
+/// to its other side.
+void tieRims(const State& state, Contact& c) {
   ContactPoint& at = c.point;
-  const bool ofA = at.tie == NormalTie::EdgeOfB && at.rimA > 0.0,
-             ofB = at.tie == NormalTie::EdgeOfA && at.rimB > 0.0;
-  if (at.halfA.x() > 0.0 || at.halfB.x() > 0.0 || (!ofA && !ofB)) return;
-  const RimPoint rim = ofA ? rimOfA(at) : rimOfB(at);
-  const Vec3& edge = ofA ? at.eb : at.ea;
-  if (!(rim.lean < kLittle && rim.along.cross(edge).norm() > std::max(rim.lean, kCrossing))) return;
-  (ofA ? at.ea : at.eb) = rim.out;
+  const bool round = at.halfA.x() > 0.0 || at.halfB.x() > 0.0;
+  const bool rims = at.tie == NormalTie::Points && at.rimA > 0.0 && at.rimB > 0.0,
+             rimA = at.tie == NormalTie::EdgeOfB && at.rimA > 0.0,
+             rimB = at.tie == NormalTie::EdgeOfA && at.rimB > 0.0;
+  if (round || !(rims || rimA || rimB)) return;
+  const RimPoint a = rimOfA(at), b = rimOfB(at);
+  const Vec3 alongA = at.rimA > 0.0 ? a.along : at.ea, alongB = at.rimB > 0.0 ? b.along : at.eb;
+  const double lean = std::min(a.lean, b.lean);
+  if (!(lean < kLittle && alongA.cross(alongB).norm() > std::max(lean, kCrossing))) return;
+  if (at.rimA > 0.0) at.ea = a.out;
+  if (at.rimB > 0.0) at.eb = b.out;
   at.tie = NormalTie::Edges;
   at.crosses = true;
   c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], at);
@@ -125,7 +128,7 @@ void tieCrossing(const State& state, double rest, Contact& c) {
 /// Ties a contact of a face to its edges, if these lean; and one of edges to the normal of both:
 /// where one of them ends, collide has another. @return whether the solids touch there
 bool tieEdges(const State& state, Contact& c) {
-  tieRim(state, c);
+  tieRims(state, c);
   if (c.point.tie == NormalTie::Edges && !c.point.crosses)
     c = tiedToBoth(state, c, {.along = c.point.ea}, {.along = c.point.eb});
   if (c.point.tie != NormalTie::FaceOfA && c.point.tie != NormalTie::FaceOfB) return true;
@@ -163,7 +166,7 @@ void tieCrossings(const State& state, double rest, std::vector<Contact>& contact
   for (Contact& c : contacts) {
     if (c.point.tie == NormalTie::FaceOfB || c.point.tie == NormalTie::FaceOfA)
       tieCrossing(state, rest, c);
-    tieRim(state, c);
+    tieRims(state, c);
     c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], c.point);
   }
 }

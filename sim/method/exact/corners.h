@@ -1,4 +1,4 @@
-// Contact points at which edges of boxes, or an edge and a rim, cross, and which wander over both.
+// Contact points at which edges of boxes, or rims, cross, and which wander over both.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// Ties contacts to the bodies of the state. A corner at which edges of boxes, or an edge and a
-/// rim, cross follows both; with a normal of its own, across both, where they are about to lean
+/// Ties contacts to the bodies of the state. A corner at which edges of boxes, or rims, cross
+/// follows both; with a normal of its own, across both, where they are about to lean
 /// against the face, or the rim leans little against the edge.
 /// @param rest  [m/s] speed that is told from none
 void tieCrossings(const State& state, double rest, std::vector<Contact>& contacts);
