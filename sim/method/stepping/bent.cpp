@@ -205,10 +205,12 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   part.timesK(v, pull);
   BentBooks books;
   double gained = part.reached - part.stored;
+  if (part.joined) books.given = gained;
   for (std::size_t p = 0; p < part.bodies.size(); ++p) {
     const RigidBody& body = state_.bodies[part.bodies[p]];
     const Vec3 impulse = part.constant[p] - pull[p];
     const Vec3 before = work_.before[part.bodies[p]].head<3>() + part.leanOf(p);
+    books.given += impulse.dot(part.reachedAt[p] - body.x) / h;
     if (part.mover[p] < 0) {
       books.led -= impulse.dot(body.v);
       books.external -= impulse;
@@ -229,9 +231,12 @@ Stepping::BentBooks Stepping::booksOf(const BendingPart& part, double h) const {
   return books;
 }
 
+/// What the step takes of points that joints hold may be less than nothing, for these are booked by
+/// other velocities. Linear forces gain only where their work on the way is more than energies
+/// give.
 bool Stepping::BentBooks::gained() const {
   constexpr double kGain = 1e-7;  // of the energies at both ends
-  return taken < -kGain * size;
+  return taken < -kGain * size && given > kGain * size;
 }
 
 /// Where the velocities at hand lead.

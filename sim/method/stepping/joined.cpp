@@ -151,6 +151,10 @@ bool Stepping::isBent(const Row& row) const {
   return model_.bends(row.a) || (row.b < model_.count() && model_.bends(row.b));
 }
 
+bool Stepping::holdsBent(const Joint& joint) const {
+  return model_.bends(joint.a) || (joint.b < model_.count() && model_.bends(joint.b));
+}
+
 /// Half the power of λ on what bends [J], at the velocities of the bodies.
 double Stepping::halfGivenToBent() const {
   double sum = 0.0;
@@ -183,13 +187,18 @@ void Stepping::meetJoints(double h) {
 void Stepping::divideFirst(double h) {
   memory_.division = 1;
   if (model_.joints.empty()) return;
+  std::vector<Joint> rigid;  // points of what bends yield, and may be thousands
+  for (const Joint& joint : model_.joints)
+    if (!holdsBent(joint)) rigid.push_back(joint);
   std::vector<RigidBody> bodies = state_.bodies;
   sumForces(model_.def.gravity, model_.def.forces, bodies);
   Bonds bonds;
-  restBonds(bodies, model_.joints, {}, h, bonds);
+  restBonds(bodies, rigid, {}, h, bonds);
   RestForces().apply(bodies, {}, &bonds);
-  std::vector<JointForce> forces;
-  jointForces(state_.bodies, model_.joints, bonds, 1.0, forces);
+  std::vector<JointForce> known, forces;
+  jointForces(state_.bodies, rigid, bonds, 1.0, known);
+  for (std::size_t k = 0, next = 0; k < model_.joints.size(); ++k)
+    forces.push_back(holdsBent(model_.joints[k]) ? JointForce{} : known[next++]);
   divide(h, forces);
 }
 

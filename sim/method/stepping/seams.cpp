@@ -50,6 +50,13 @@ void Stepping::leaveSeams() {
     }
 }
 
+/// Whether a point of what bends goes its own way beside another body: it is no face that goes on
+/// in that one, as in points of its own cloth.
+bool Stepping::passesThrough(int point, int other) const {
+  const std::vector<int>& partOf = memory_.bendings->partOf;
+  return model_.bends(point) && partOf[point] != partOf[other];
+}
+
 /// Whether one of the contacts that hold `body` has a plane that parts the two bodies of a pair.
 bool Stepping::keptApart(int pair, int body) const {
   constexpr double kAlike = 1.0 - 1e-12;  // cosine of normals of faces that are flush
@@ -59,6 +66,8 @@ bool Stepping::keptApart(int pair, int body) const {
   return std::any_of(work_.holders[body].begin(), work_.holders[body].end(), [&](int k) {
     const std::vector<Touch>& touches = memory_.pairs[k].touches;
     if (k == pair || touches.empty()) return false;
+    const auto [kb, ka] = state_.near[k];
+    if (passesThrough(ka == body ? kb : ka, other)) return false;
     const Vec3 m = state_.near[k].second == body ? touches.front().contact.point.n
                                                  : Vec3(-touches.front().contact.point.n);
     if (std::abs(m.dot(n)) > kAlike) return false;

@@ -9,6 +9,7 @@
 // by their forces alone, so that the move keeps angular momentum.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -132,6 +133,7 @@ class Stepping {
   // seams.cpp: what a third body keeps apart.
   bool closed(const Touch& touch) const;
   void leaveSeams();
+  bool passesThrough(int point, int other) const;
   bool keptApart(int pair, int body) const;
 
   // rebounds.cpp: impacts.
@@ -378,6 +380,7 @@ class Stepping {
   // joined.cpp
   void bookJoints(double h);
   bool isBent(const Row& row) const;
+  bool holdsBent(const Joint& joint) const;
   double halfGivenToBent() const;
   /// What the rows of joints as they stand take from the world and from fixed bodies.
   void bookOuter();
@@ -496,7 +499,9 @@ class Stepping {
   bool bendFurther(double h, bool all);
   bool turnOn(BendingPart& part, double h);
   struct BentBooks {
-    double taken = 0.0;            ///< [J] by the implicit step
+    double taken = 0.0;  ///< [J] by the implicit step
+    /// [J] by its impulses on the way, beyond what energies lose; asked of what joints hold.
+    double given = std::numeric_limits<double>::infinity();
     double led = 0.0;              ///< [J] work of points that are led along
     double size = 0.0;             ///< [J] of the energies that make it up
     double movedOut = 0.0;         ///< [J] that the way out of solids gives
