@@ -88,6 +88,7 @@ void readArray(const Node& node, std::size_t number, Section& root, const Materi
   if (!node.as<Table>()) return;
 
   const std::string name = readName(section);
+  bodies.claim(section, name, "array");
   const GeneratorRow* row = readKind(section);
   if (!row) return;
   Generator generator = row->make(section, weather);

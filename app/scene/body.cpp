@@ -199,6 +199,14 @@ void BodyList::add(BodyEntry entry, Spot spot, Section& section) {
   scene_.world.bodies.push_back(std::move(entry.def));
 }
 
+void BodyList::claim(Section& section, const std::string& name, const std::string& what) {
+  if (!section.find("name")) return;
+  const auto [claimed, isNew] = claimed_.emplace(name, what);
+  const std::string has = indices_.contains(name) ? "body" : isNew ? "" : claimed->second;
+  if (!has.empty())
+    section.complain("name", "there is a " + has + " " + inQuotes(name) + " already");
+}
+
 // Copies of one hull or mesh share its points.
 void BodyList::share(Shape& shape) {
   if (Hull* hull = std::get_if<Hull>(&shape)) share(hull->solid);

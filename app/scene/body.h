@@ -27,6 +27,9 @@ class BodyList {
 
   /// Complains, at the spot and on behalf of the section, about a name that is taken or not a name.
   void add(BodyEntry entry, Spot spot, Section& section);
+  /// Takes the name that a section gives what is made of many bodies, or joins some: an "array", a
+  /// "cloth". Complains if anything has it.
+  void claim(Section& section, const std::string& name, const std::string& what);
   /// Index of the next body; its path into the world is "bodies[next]".
   std::size_t next() const { return scene_.world.bodies.size(); }
   std::string nextPath() const { return "bodies[" + std::to_string(next()) + "]"; }
@@ -46,6 +49,7 @@ class BodyList {
 
   Scene& scene_;
   std::map<std::string, int> indices_;
+  std::map<std::string, std::string> claimed_;  // what has a name that is no body's
   std::vector<std::shared_ptr<const Polyhedron>> solids_;
 };
 

@@ -73,6 +73,7 @@ void readCloths(Section& root, const Materials& materials, BodyList& bodies, Sce
     Section section(node, pathOf("cloth", node, number++), root.findings());
     if (!node.as<Table>()) continue;
     BentTable bent = readBent(section, materials);
+    bodies.claim(section, bent.name, "cloth");
     const ClothDef cloth = readWeave(section);
     double thickness = 0.01;
     section.read("thickness", thickness, kLength);

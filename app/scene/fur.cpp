@@ -103,6 +103,7 @@ void readFurs(Section& root, const Materials& materials, BodyList& bodies, Scene
     Section section(node, pathOf("fur", node, number++), root.findings());
     if (!node.as<Table>()) continue;
     const FurTable fur = readFur(section, materials, bodies);
+    bodies.claim(section, fur.bent.name, "fur");
     if (!section.good() || !fur.on) continue;
     const BodyDef& body = scene.world.bodies[static_cast<std::size_t>(*fur.on)];
     const std::string barren = barrenness(body.shape);

@@ -9,7 +9,7 @@ namespace {
 constexpr double kRadians = 3.14159265358979323846 / 180.0;
 
 // Names are letters as those of bodies, and each stands once.
-void readName(Section& section, std::vector<JointDef>& joints, JointDef& joint) {
+void readName(Section& section, BodyList& bodies, std::vector<JointDef>& joints, JointDef& joint) {
   joint.name = "joint." + std::to_string(joints.size());
   section.read("name", joint.name);
   if (!isName(joint.name))
@@ -17,6 +17,8 @@ void readName(Section& section, std::vector<JointDef>& joints, JointDef& joint) 
   const auto same = [&](const JointDef& other) { return other.name == joint.name; };
   if (std::any_of(joints.begin(), joints.end(), same))
     section.complain("name", "there is a joint " + inQuotes(joint.name) + " already");
+  else
+    bodies.claim(section, joint.name, "joint");
 }
 
 void readEnds(Section& section, const BodyList& bodies, JointDef& joint) {
@@ -56,7 +58,7 @@ void readLimits(Section& section, JointDef& joint) {
 
 }  // namespace
 
-void readJoints(Section& root, const BodyList& bodies, std::vector<JointDef>& joints) {
+void readJoints(Section& root, BodyList& bodies, std::vector<JointDef>& joints) {
   std::vector<std::string> kinds;
   for (const JointName& row : jointNames()) kinds.emplace_back(row.name);
   for (const Node& node : root.tables("joint")) {
@@ -64,7 +66,7 @@ void readJoints(Section& root, const BodyList& bodies, std::vector<JointDef>& jo
                     "joints[" + std::to_string(joints.size()) + "]");
     JointDef joint;
     std::string kind;
-    readName(section, joints, joint);
+    readName(section, bodies, joints, joint);
     section.read("kind", kind, kinds);
     if (!section.find("kind")) section.complain("kind", "missing" + hint("", kinds));
     // Without a kind nobody can tell which keys are known.

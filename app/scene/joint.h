@@ -5,6 +5,6 @@
 
 namespace tumble {
 
-void readJoints(Section& root, const BodyList& bodies, std::vector<JointDef>& joints);
+void readJoints(Section& root, BodyList& bodies, std::vector<JointDef>& joints);
 
 }  // namespace tumble

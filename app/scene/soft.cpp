@@ -81,6 +81,7 @@ void readSofts(Section& root, const Materials& materials, BodyList& bodies, Scen
     Section section(node, pathOf("soft", node, number++), root.findings());
     if (!node.as<Table>()) continue;
     BentTable bent = readBent(section, materials);
+    bodies.claim(section, bent.name, "soft box");
     const SoftDef soft = readSolid(section);
     double skin = 0.005;
     section.read("skin", skin, kLength);

@@ -1,5 +1,7 @@
 // [[cloth]] and [[soft]]: what becomes of them, and what is refused.
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "app/record/recording.h"
 #include "app/scene/scene.h"
@@ -26,6 +28,43 @@ TEST_CASE("two cloths of one name are told once, not once a point") {
   CAPTURE(twice);
   CHECK(complaint(twice).find("already") != std::string::npos);
   CHECK(countOfComplaints(twice) == 1);
+}
+
+// Oracle: what is written, each as the first of the kind and then as the second.
+TEST_CASE("a name stands once over all that a scene names") {
+  const std::string body =
+      "[[body]]\nname = \"n\"\nshape = { sphere = 0.1 }\nmass = 1\nposition = [0, 1, 0]\n";
+  const std::string head = "[world]\n[[body]]\nname = \"b\"\nshape = { sphere = 0.3 }\nmass = 1\n";
+  const std::string array =
+      "[[array]]\nname = \"n\"\nkind = \"row\"\ncount = 2\nstep = [1, 0, 0]\n"
+      "body = { shape = { sphere = 0.1 }, mass = 1, position = [3, 0, 0] }\n";
+  const std::string cloth = "[[cloth]]\nname = \"n\"\n" + kGrid + "position = [0, 3, 0]\n";
+  const std::string soft =
+      "[[soft]]\nname = \"n\"\ncells = [1, 1, 1]\nsize = [1, 1, 1]\nyoung = 1e4\nposition = [0, 7, "
+      "0]\n";
+  const std::string fur = "[[fur]]\nname = \"n\"\non = \"b\"\nstrands = 2\nlength = 0.1\n";
+  const std::string joint =
+      "[[joint]]\nname = \"n\"\nkind = \"ball\"\na = \"b\"\nanchor = [0, 0, 0]\n";
+  struct Pair {
+    std::string first, second, is;
+  };
+  const std::vector<Pair> pairs = {
+      {body, array, "body"},  {body, cloth, "body"}, {body, soft, "body"},
+      {body, fur, "body"},    {body, joint, "body"}, {array, cloth, "array"},
+      {cloth, soft, "cloth"}, {cloth, fur, "cloth"}, {soft, fur, "soft box"},
+      {fur, joint, "fur"},
+  };
+  for (const Pair& pair : pairs) {
+    const std::string text = head + pair.first + pair.second;
+    const long line =
+        2 + std::count(text.begin(), text.end() - static_cast<long>(pair.second.size()), '\n');
+    CAPTURE(text, complaint(text));
+    CHECK(countOfComplaints(text) == 1);
+    CHECK(complaint(text).find(":" + std::to_string(line) + ":8") != std::string::npos);
+    CHECK(complaint(text).find("there is a " + pair.is + " 'n' already") != std::string::npos);
+    CHECK(complaint(head + pair.first).empty());
+    CHECK(complaint(head + pair.second).empty());
+  }
 }
 
 TEST_CASE("a cloth is points, a force between them and a surface") {
