@@ -81,6 +81,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::advance(double t) {
+  if (!std::isfinite(t)) throw std::invalid_argument("a world advances to an instant, in seconds");
   const Model& model = parts_->model;
   auto& [state, report, audit, lastAdvance] = *parts_->now;
   const double end = std::min(t, model.def.duration);

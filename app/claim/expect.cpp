@@ -67,8 +67,9 @@ Expectation judged(const Scene& scene, const ExpectDef& expect, const Recording&
   const Measured measured = measure(expect, recording, meter);
   Expectation one;
   const double target = targetOf(scene, expect, measured.sample);
-  one.row = {labelOf(expect), measured.value, target,
-             errorOf(expect.relation, measured.value, target), expect.within};
+  const double value = std::isnan(measured.value) ? kNoNumber : measured.value;  // of no sign
+  one.row = {labelOf(expect), value, target, errorOf(expect.relation, measured.value, target),
+             expect.within};
   one.row.relation = expect.relation;
   const Gauge* alone = meter.alone();
   if (!alone || !measured.sample) return one;

@@ -111,7 +111,8 @@ std::string describe(const Node& node) {
   if (const Array* array = node.as<Array>())
     return array->size() == 1 ? "a list of 1 value"
                               : "a list of " + std::to_string(array->size()) + " values";
-  if (const std::string* text = node.as<std::string>()) return "the string " + inQuotes(*text);
+  const std::string* text = node.as<std::string>();
+  if (text) return text->empty() ? "an empty string" : "the string " + inQuotes(*text);
   return toToml(node);
 }
 

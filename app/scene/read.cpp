@@ -46,7 +46,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   readTexts(root, scene);
   readWorld(root, scene);
   readCourse(root, scene.world.course);
-  readStepping(root, scene.world.stepping);
+  readStepping(root, scene.world);
   const Materials materials = readMaterials(root);
   readPairs(root, materials, scene.world.pairs);
   BodyList bodies(scene);

@@ -114,7 +114,10 @@ void readCourse(Section& root, CourseSettings& course) {
   section.finish();
 }
 
-void readStepping(Section& root, SteppingSettings& stepping) {
+void readStepping(Section& root, WorldDef& world) {
+  constexpr double kLeast = 24.0;  // steps in a run
+  SteppingSettings& stepping = world.stepping;
+  stepping.step = std::min(stepping.step, world.duration / kLeast);
   const Node* node = root.find("stepping");
   if (!node) return;
   Section section(*node, "stepping", root.findings(), "stepping");

@@ -8,7 +8,8 @@ namespace tumble {
 void readTexts(Section& root, Scene& scene);
 void readWorld(Section& root, Scene& scene);
 void readCourse(Section& root, CourseSettings& course);
-void readStepping(Section& root, SteppingSettings& stepping);
+/// A run shorter than some default steps has shorter ones, to be seen at all.
+void readStepping(Section& root, WorldDef& world);
 void readImage(Section& root, ImageFormat& image);
 void readShow(Section& root, ShowFlags& show);
 

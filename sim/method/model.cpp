@@ -28,6 +28,7 @@ void SteppingSettings::treatCrowdsAlike() {
 }
 
 std::string shortNumber(double value) {
+  if (std::isnan(value)) return "nan";  // whatever its sign
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
   return {text, end.ptr};

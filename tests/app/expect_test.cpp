@@ -50,6 +50,13 @@ std::string expectRefusal(const std::string& expect) {
 
 }  // namespace
 
+TEST_CASE("a formula that gives no number says so without a sign") {
+  const ClaimRow row = expectRow("value = \"sqrt(0 - 1 - t)\"\nequals = 1\nwithin = 1");
+  CHECK_FALSE(row.holds());
+  CHECK(std::isnan(row.measured));
+  CHECK_FALSE(std::signbit(row.measured));
+}
+
 // Oracle: closed form. Measured 4e-16, allowed 1e-12.
 TEST_CASE("a formula is measured at an instant, at the ends and where it is largest or least") {
   CHECK(expectRow("value = \"ball.3.y\"\nat = 0.3\nequals = 1.45\nwithin = 1e-12").holds());

@@ -58,6 +58,7 @@ TEST_CASE("a wrong value of a body is named with its place and what was expected
       {"mass = 1e-40", "8:8", "beyond 1e-30 to 1e30"},
       {"mass = true", "8:8", "body.ball.mass: expected a number [kg] > 0, found true"},
       {"mass = 2024-01-01", "8:8", "found a date or time"},
+      {"mass = \"\"", "8:8", "body.ball.mass: expected a number [kg] > 0, found an empty string"},
       {"mass = \"2 kg\"", "8:8", "found the string '2 kg'"},
       {"density = 0", "8:11", "body.ball.density: expected a number [kg/m³] > 0, found 0"},
       {"restitution = 1.5", "8:15",
@@ -86,6 +87,30 @@ TEST_CASE("a wrong value of a body is named with its place and what was expected
       {"\"a b\\u001b\" = 1", "8:1", "body.ball.'a b?': unknown key"},
   };
   for (const Wrong& wrong : table) check(kRight + wrong.text + "\n", wrong);
+}
+
+TEST_CASE("a text that begins off the page is told how large that is") {
+  const std::string off = "text.0.page: [";
+  check(kRight + "[[text]]\ntext = \"a\"\npage = [1280, 40]\n",
+        {"", "10:8", off + "1280, 40] is off the page, which is 1280 px wide and 720 px high"});
+  check(kRight + "[[text]]\ntext = \"a\"\npage = [30, -1]\n", {"", "10:8", off + "30, -1] is off"});
+  check(kRight + "[[text]]\ntext = \"a\"\npage = [720, 9]\n[image]\nsize = [300, 300]\n",
+        {"", "10:8", "which is 720 px wide"});
+  CHECK(complaints(kRight + "[[text]]\ntext = \"a\"\npage = [1279, 719]\n").empty());
+}
+
+// Oracle: closed form, 1/240 s, or as many steps as tell of a fall.
+TEST_CASE("a run too short for the default step has shorter ones, unless the scene gives one") {
+  const auto stepOf = [](const std::string& duration, const std::string& more = "") {
+    return parseScene("[world]\nduration = " + duration + "\n" + more +
+                          "[[body]]\nshape = { sphere = 1 }\nmass = 1\n",
+                      "s.toml")
+        .world.stepping.step;
+  };
+  CHECK(stepOf("5") == 1.0 / 240.0);
+  CHECK(stepOf("0.1") == 1.0 / 240.0);
+  CHECK(stepOf("2.4e-6") == Approx(1e-7).epsilon(1e-15));
+  CHECK(stepOf("2.4e-6", "[stepping]\nstep = 0.01\n") == 0.01);
 }
 
 TEST_CASE("a wrong second body is named by its number until it has a name") {

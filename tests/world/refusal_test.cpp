@@ -1,4 +1,7 @@
 // Worlds that cannot be are refused, with the place in the definition.
+#include <limits>
+#include <stdexcept>
+
 #include "tests/catch.h"
 #include "tests/world/scenes.h"
 
@@ -25,6 +28,16 @@ WorldDef sound() {
 }
 
 }  // namespace
+
+TEST_CASE("a world does not advance to what is no instant") {
+  World world(sound());
+  world.advance(0.1);
+  for (const double t :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()})
+    CHECK_THROWS_AS(world.advance(t), std::invalid_argument);
+  CHECK_NOTHROW(world.advance(1e9));  // to its end
+}
 
 TEST_CASE("impossible worlds are refused where they are wrong") {
   CHECK(refusedAt(sound()).empty());
