@@ -95,6 +95,7 @@ class World {
   /// Lets time run until the state at t [s] is known, or the report says stopped. The method keeps
   /// its own steps: where it is asked to pause never changes the motion. Times must not decrease;
   /// beyond the duration nothing moves.
+  /// @throws std::invalid_argument for what is no number, or infinite.
   void advance(double t);
 
   /// The instant t ≤ the last advance, and no earlier than the one before. At an event: the state
