@@ -3,6 +3,7 @@
 // of rims, and where boundaries cross.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/collide/align.h"
 #include "sim/collide/convex.h"
@@ -276,8 +277,8 @@ Patch lineOf(const Core& core, int edge) {
   return patch;
 }
 
-void linePoints(const Core& a, const Core& b, const Plane& plane, double tolerance, Manifold& out) {
-  const Patch lineA = lineOf(a, plane.i), lineB = lineOf(b, plane.j);
+void linePoints(const Patch& lineA, const Patch& lineB, const Plane& plane, double tolerance,
+                Manifold& out) {
   endsAlong(lineA, lineB, plane, tolerance, out);
   const std::size_t first = out.size();
   Plane turned = plane;
@@ -285,6 +286,45 @@ void linePoints(const Core& a, const Core& b, const Plane& plane, double toleran
   turned.eb = plane.ea;
   endsAlong(lineB, lineA, turned, tolerance, out);
   for (std::size_t k = first; k < out.size(); ++k) mirror(out[k]);
+}
+
+// The line that a core shows along n and that lies along e, if it shows one.
+std::optional<Patch> lineAlong(const Core& core, const Vec3& n, const Vec3& e, double tolerance) {
+  if (core.isCylinder())
+    return core.axis().cross(e).norm() < kParallel ? std::optional(lineOf(core, 0)) : std::nullopt;
+  int outermostCorner = -1;
+  const double level = n.dot(outermost(core, n, outermostCorner)) - tolerance;
+  for (int k = 0; k < static_cast<int>(core.edges.size()); ++k) {
+    const Patch line = lineOf(core, k);
+    const Vec3 &p = line.polygon.corners[0], &q = line.polygon.corners[1];
+    if (std::max(n.dot(p), n.dot(q)) >= level &&
+        (q - p).cross(e).norm() < kParallel * (q - p).norm())
+      return line;
+  }
+  return std::nullopt;
+}
+
+// Where solids lie side by side and one end is nearer by a little, the other end.
+void farEnd(const Core& a, const Core& b, const Plane& plane, const ContactPoint& near,
+            double tolerance, Manifold& out) {
+  const Vec3& axis = a.isCylinder() ? a.axis() : b.axis();
+  if (std::abs(axis.dot(plane.n)) >= kParallel) return;
+  const std::optional<Patch> lineA = lineAlong(a, -plane.n, axis, tolerance),
+                             lineB = lineAlong(b, plane.n, axis, tolerance);
+  if (!lineA || !lineB) return;
+  const auto along = [](const Patch& line) {
+    return Vec3((line.polygon.corners[1] - line.polygon.corners[0]).normalized());
+  };
+  Plane both = plane;
+  both.ea = along(*lineA);
+  both.eb = along(*lineB);
+  Manifold ends;
+  linePoints(*lineA, *lineB, both, tolerance, ends);
+  const auto far =
+      std::max_element(ends.begin(), ends.end(), [&](const ContactPoint& c, const ContactPoint& d) {
+        return (c.pa - near.pa).squaredNorm() < (d.pa - near.pa).squaredNorm();
+      });
+  if (ends.size() > 1) out.push_back(*far);
 }
 
 }  // namespace
@@ -300,8 +340,11 @@ void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolera
     OnFace(patchOf(b, plane.n), faceOf(a, plane.i), -plane.n, close, out).find();
     for (std::size_t k = first; k < out.size(); ++k) mirror(out[k]);
   }
-  if (onLines && plane.ea.cross(plane.eb).norm() < kParallel) linePoints(a, b, plane, close, out);
-  if (!plane.alongside && (onLines || out.size() == first)) out.push_back(pointOf(plane, a, b));
+  if (onLines && plane.ea.cross(plane.eb).norm() < kParallel)
+    linePoints(lineOf(a, plane.i), lineOf(b, plane.j), plane, close, out);
+  const bool none = out.size() == first;
+  if (!plane.alongside && (onLines || none)) out.push_back(pointOf(plane, a, b));
+  if (none && !onLines) farEnd(a, b, plane, ContactPoint(out.back()), close, out);
   const auto far = [&](const ContactPoint& c) { return !(c.separation <= margin); };
   out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(), far),
             out.end());
