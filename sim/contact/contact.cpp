@@ -54,6 +54,14 @@ void placeOnFace(ContactPoint& c) {
   if (c.rimB > 0.0) c.pb += c.rimB * rimOfB(c).out;
 }
 
+/// How a contact goes on. Edges that have come to lie along each other cross nowhere: a point of a
+/// goes along the edge of b, or, as sharp edges have no direction, along a face that n stands for.
+NormalTie tieOf(const ContactPoint& c) {
+  constexpr double kParallel = 1e-6;  // sine
+  if (c.tie != NormalTie::Edges || c.crosses || c.ea.cross(c.eb).norm() > kParallel) return c.tie;
+  return c.ra + c.rb > 0.0 ? NormalTie::EdgeOfB : NormalTie::FaceOfB;
+}
+
 bool hasRim(const ContactPoint& c) {
   return c.rimA > 0.0 || c.rimB > 0.0;
 }
@@ -320,7 +328,7 @@ void followBall(ContactPoint& c) {
     }
     return placeBetween(c);
   }
-  switch (c.tie) {
+  switch (tieOf(c)) {
     case NormalTie::FaceOfB:  // the foot of pa moves over the face of b
       c.n = b.q * anchor.n_B;
       placeOnFace(c);
@@ -358,12 +366,13 @@ void followBall(ContactPoint& c) {
 }
 
 Vec3 normalRate(const RigidBody& a, const RigidBody& b, const ContactPoint& c) {
-  if (c.tie == NormalTie::FaceOfB) return b.omega.cross(c.n);
-  if (c.tie == NormalTie::FaceOfA) return a.omega.cross(c.n);
+  const NormalTie tie = tieOf(c);
+  if (tie == NormalTie::FaceOfB) return b.omega.cross(c.n);
+  if (tie == NormalTie::FaceOfA) return a.omega.cross(c.n);
   if (hasRim(c)) return rollingOf(a, b, c).rate;
   const Vec3 offsetRate = pointVelocity(a, c.pa) - pointVelocity(b, c.pb);
   const double d = reach(c);
-  switch (c.tie) {
+  switch (tie) {
     case NormalTie::Points:
       return across(offsetRate, c.n) / d;
     case NormalTie::EdgeOfB: {  // only the part across the edge turns n; the edge turns with b
@@ -390,7 +399,7 @@ Vec3 placeVelocity(const RigidBody& a, const RigidBody& b, const ContactPoint& c
     const Rolling roll = rollingOf(a, b, c);
     return pointVelocity(a, c.pa) + roll.wanderA - c.ra * roll.rate;
   }
-  switch (c.crosses ? NormalTie::Edges : c.tie) {
+  switch (c.crosses ? NormalTie::Edges : tieOf(c)) {
     case NormalTie::FaceOfB:
     case NormalTie::Points:
     case NormalTie::EdgeOfB:

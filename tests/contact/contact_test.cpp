@@ -131,6 +131,38 @@ TEST_CASE("a contact of round edges is the same wherever it was followed before"
   }
 }
 
+// Oracle: closed form. A turn about n leaves n and the gap, also where edges come to lie along each
+// other, and cross nowhere: a capsule that settled on two others had no energy that was a number.
+// Measured 2e-16, and 3e-16 of the gap.
+TEST_CASE("edges that come to lie along each other keep their normal, and move at numbers") {
+  const RigidBody b = movingBox({0.1, 0.0, 0.2}, {1, 2, 0.5}, 0.4, {0.3, -0.4, 0.5}, {1, -2, 0.7});
+  const RigidBody a = movingBox({0.2, 0.9, 0.1}, {0.2, -1, 0.5}, 1.1, {-0.6, 0, 0.1}, {-1, 0.4, 2});
+  double turned = 0.0, gap = 0.0;
+  for (const bool roundEdges : {true, false}) {
+    const Contact c = contactOf(NormalTie::Edges, a, b, roundEdges);
+    const double angle =
+        std::atan2(c.point.ea.cross(c.point.eb).dot(c.point.n), c.point.ea.dot(c.point.eb));
+    for (const double off : {0.0, 1e-16, 1e-12, 1e-9, 1e-7}) {
+      const Quat turn = fromAxisAngle(c.point.n, angle - off);
+      RigidBody along = a;
+      along.x = c.point.pa + turn * (a.x - c.point.pa);
+      along.q = turn * a.q;
+      updateDerived(along);
+      setVelocity(along, a.v, a.omega);
+      Contact now = c;
+      follow(along, b, now);
+      turned = std::max(turned, (now.point.n - c.point.n).norm());
+      gap = std::max(gap, std::abs(now.point.separation - c.point.separation));
+      CHECK(normalRate(along, b, now.point).allFinite());
+      CHECK(placeVelocity(along, b, now.point).allFinite());
+      CHECK(std::isfinite(normalAccelerationBias(along, b, now.point)));
+    }
+  }
+  CAPTURE(turned, gap);
+  CHECK(turned < 1e-14);
+  CHECK(gap < 1e-14);
+}
+
 // Oracle: closed form; only rounding remains. Measured 4e-16, allowed 1e-12.
 TEST_CASE("an off-centre hit leaves at -e times its approach speed and never gains energy") {
   for (double e : {0.0, 0.5, 1.0}) {
