@@ -69,6 +69,10 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
 void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
                  Manifold& out);
 
+/// Where solids lie side by side, along edges or axes of cylinders that are nearly parallel: the
+/// ends of what these lines share, tied to lines. @return whether there are two
+bool lineEnds(const Core& a, const Core& b, const Plane& plane, double tolerance, Manifold& ends);
+
 /// Takes a contact point from the frame of b, which stands at xb turned by Rb, to the world.
 void toWorld(const Mat3& Rb, const Vec3& xb, ContactPoint& c);
 

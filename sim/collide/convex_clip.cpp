@@ -107,6 +107,19 @@ void shareOfSegments(const Facet& a, const Facet& b, const Vec3& n, double toler
   }
 }
 
+// Something round along an edge: the faces beside that end where it crosses the edge, be it by a
+// little. @return whether there are such points
+bool clipOnEdge(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
+                Manifold& out) {
+  if (plane.tie == NormalTie::FaceOfA || plane.tie == NormalTie::FaceOfB) return false;
+  Manifold ends;
+  if (!lineEnds(a, b, plane, tolerance, ends)) return false;
+  const std::size_t before = out.size();
+  for (const ContactPoint& c : ends)
+    if (c.separation <= margin) out.push_back(c);
+  return out.size() > before;
+}
+
 // Whether a polyhedron holds a point.
 bool holds(const Core& core, const Vec3& p) {
   for (std::size_t f = 0; f < core.normals.size(); ++f)
@@ -143,6 +156,8 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
   PlacedList points;
   if (plane.tie != NormalTie::Points) {
     const Facet facetA = outermostFacet(a, -plane.n), facetB = outermostFacet(b, plane.n);
+    const bool faces = facetA.isPolygon() || facetB.isPolygon();
+    if (radii > 0.0 && faces && clipOnEdge(a, b, plane, tolerance, margin, out)) return;
     if (facetB.isPolygon()) {
       clipOnFace(facetA, facetB, plane.n, tolerance, points);
     } else if (facetA.isPolygon()) {

@@ -3,7 +3,7 @@
 // of rims, and where boundaries cross.
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 #include "sim/collide/align.h"
 #include "sim/collide/convex.h"
@@ -288,43 +288,68 @@ void linePoints(const Patch& lineA, const Patch& lineB, const Plane& plane, doub
   for (std::size_t k = first; k < out.size(); ++k) mirror(out[k]);
 }
 
-// The line that a core shows along n and that lies along e, if it shows one.
-std::optional<Patch> lineAlong(const Core& core, const Vec3& n, const Vec3& e, double tolerance) {
-  if (core.isCylinder())
-    return core.axis().cross(e).norm() < kParallel ? std::optional(lineOf(core, 0)) : std::nullopt;
-  int outermostCorner = -1;
-  const double level = n.dot(outermost(core, n, outermostCorner)) - tolerance;
-  for (int k = 0; k < static_cast<int>(core.edges.size()); ++k) {
-    const Patch line = lineOf(core, k);
-    const Vec3 &p = line.polygon.corners[0], &q = line.polygon.corners[1];
-    if (std::max(n.dot(p), n.dot(q)) >= level &&
-        (q - p).cross(e).norm() < kParallel * (q - p).norm())
-      return line;
+// The lines that a core shows along n, nearly square to it.
+std::vector<Patch> linesAlong(const Core& core, const Vec3& n, double tolerance) {
+  std::vector<Patch> lines;
+  if (core.isEllipsoid()) return lines;
+  if (core.isCylinder()) {
+    if (std::abs(core.axis().dot(n)) < kParallel) lines.push_back(lineOf(core, 0));
+    return lines;
   }
-  return std::nullopt;
+  int corner = -1;
+  const double level = n.dot(outermost(core, n, corner)) - tolerance;
+  for (int k = 0; k < static_cast<int>(core.edges.size()); ++k) {
+    const auto& edge = core.edges[static_cast<std::size_t>(k)];
+    const Vec3 &p = core.points[static_cast<std::size_t>(edge.from)],
+               &q = core.points[static_cast<std::size_t>(edge.to)];
+    if (std::max(n.dot(p), n.dot(q)) < level) continue;
+    if (std::abs(n.dot(q - p)) < kParallel * (q - p).norm()) lines.push_back(lineOf(core, k));
+  }
+  return lines;
 }
 
-// Where solids lie side by side and one end is nearer by a little, the other end.
-void farEnd(const Core& a, const Core& b, const Plane& plane, const ContactPoint& near,
-            double tolerance, Manifold& out) {
-  const Vec3& axis = a.isCylinder() ? a.axis() : b.axis();
-  if (std::abs(axis.dot(plane.n)) >= kParallel) return;
-  const std::optional<Patch> lineA = lineAlong(a, -plane.n, axis, tolerance),
-                             lineB = lineAlong(b, plane.n, axis, tolerance);
-  if (!lineA || !lineB) return;
+}  // namespace
+
+bool lineEnds(const Core& a, const Core& b, const Plane& plane, double tolerance, Manifold& ends) {
+  if (plane.tie == NormalTie::Edges && plane.ea.cross(plane.eb).norm() >= kParallel) return false;
+  const double close = kClose * tolerance;
   const auto along = [](const Patch& line) {
     return Vec3((line.polygon.corners[1] - line.polygon.corners[0]).normalized());
   };
+  const std::vector<Patch> linesA = linesAlong(a, -plane.n, close);
+  if (linesA.empty()) return false;
+  const std::vector<Patch> linesB = linesAlong(b, plane.n, close);
+  const Patch *lineA = nullptr, *lineB = nullptr;
+  double least = kParallel;  // sine
+  for (const Patch& ofA : linesA) {
+    for (const Patch& ofB : linesB) {
+      const double sine = along(ofA).cross(along(ofB)).norm();
+      if (sine >= least) continue;
+      least = sine;
+      lineA = &ofA;
+      lineB = &ofB;
+    }
+  }
+  if (!lineA) return false;
   Plane both = plane;
   both.ea = along(*lineA);
   both.eb = along(*lineB);
+  linePoints(*lineA, *lineB, both, close, ends);
+  return ends.size() > 1;
+}
+
+namespace {
+
+// Where one end is nearer by a little, so that the plane tells of that one alone, the other end.
+void farEnd(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
+            Manifold& out) {
   Manifold ends;
-  linePoints(*lineA, *lineB, both, tolerance, ends);
+  if (!lineEnds(a, b, plane, tolerance, ends)) return;
   const auto far =
       std::max_element(ends.begin(), ends.end(), [&](const ContactPoint& c, const ContactPoint& d) {
-        return (c.pa - near.pa).squaredNorm() < (d.pa - near.pa).squaredNorm();
+        return (c.pa - plane.pa).squaredNorm() < (d.pa - plane.pa).squaredNorm();
       });
-  if (ends.size() > 1) out.push_back(*far);
+  if (far->separation <= margin) out.push_back(*far);
 }
 
 }  // namespace
@@ -344,7 +369,7 @@ void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolera
     linePoints(lineOf(a, plane.i), lineOf(b, plane.j), plane, close, out);
   const bool none = out.size() == first;
   if (!plane.alongside && (onLines || none)) out.push_back(pointOf(plane, a, b));
-  if (none && !onLines) farEnd(a, b, plane, ContactPoint(out.back()), close, out);
+  if (none && !onLines) farEnd(a, b, plane, tolerance, margin, out);
   const auto far = [&](const ContactPoint& c) { return !(c.separation <= margin); };
   out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(), far),
             out.end());

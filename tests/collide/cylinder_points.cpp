@@ -6,6 +6,7 @@
 #include "sim/collide/collide.h"
 #include "sim/math/frames.h"
 #include "sim/math/rotation.h"
+#include "sim/shape/convex_hull.h"
 #include "tests/catch.h"
 #include "tests/collide/random_pose.h"
 
@@ -147,6 +148,36 @@ TEST_CASE("a cylinder that lies along another or an edge, tilted a little, touch
         CHECK(std::abs(manifold[0].p.z() - side * 0.3) < std::abs(tilt));
         CHECK(std::abs(manifold[1].p.z() + side * 0.3) < std::abs(tilt));
       }
+    }
+  }
+}
+
+// Oracle: closed form, to first order in the yaw. The faces beside the edge end where the capsule
+// crosses it, but what holds it are the ends of what both share.
+TEST_CASE("a capsule on the edge of a hull, turned a little, touches at both ends") {
+  const double s = std::sqrt(0.75);
+  std::vector<Vec3> corners;
+  for (const double z : {-0.5, 0.5})
+    for (int k = 0; k < 6; ++k)
+      corners.emplace_back(std::cos(k * std::numbers::pi / 3.0),
+                           std::sin(k * std::numbers::pi / 3.0) - s, z);
+  const Shape prism =
+      Hull{std::make_shared<const Polyhedron>(convexHull(corners)), -corners.front()};
+  const Vec3 edge(0.5, 0.0, 0.0), out(0.5, s, 0.0);
+  for (const double yaw : {0.0, 1e-7, -1e-5, 1e-4, -5e-4}) {
+    const Pose above{edge + 0.2 * out, fromAxisAngle(out, yaw) * kLying};
+    for (const bool swapped : {false, true}) {
+      CAPTURE(yaw, swapped);
+      Manifold manifold;
+      swapped ? collide(prism, Pose{}, Capsule{0.2, 0.6}, above, 1e-3, manifold)
+              : collide(Capsule{0.2, 0.6}, above, prism, Pose{}, 1e-3, manifold);
+      REQUIRE(manifold.size() == 2);
+      for (const ContactPoint& c : manifold) {
+        CHECK(std::abs(c.separation) < 0.3 * yaw * yaw + 3e-16);
+        CHECK(std::abs(std::abs(c.p.z()) - 0.3) < std::abs(yaw) + 1e-15);
+        CHECK((c.p - edge - Vec3(0.0, 0.0, c.p.z())).norm() < 0.3 * std::abs(yaw) + 1e-15);
+      }
+      CHECK(manifold[0].p.z() * manifold[1].p.z() < 0.0);
     }
   }
 }
