@@ -12,8 +12,8 @@ namespace {
 constexpr double kStill = 1e-16;
 // [1] Only rounding keeps turns below this from getting smaller.
 constexpr double kNearlyStill = 1e-10;
-// [1] The largest turn of n at once, in units of its lean against
-// the axis of a rim, beyond which it would go round to the other side.
+// [1] The largest turn of n at once, in units of its lean against the axis of a rim, beyond which
+// it would go round to the other side.
 constexpr double kStride = 0.5;
 constexpr int kMostTurns = 32;
 

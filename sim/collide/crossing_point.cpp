@@ -51,13 +51,11 @@ void alignCrossing(ContactPoint& c, const Vec3& fromA, const Vec3& fromB) {
   }
 }
 
-Slant::Slant(const ContactPoint& c)
-    : Slant(c, c.rimA > 0.0 ? Vec3(c.ea.cross(crossingAlongA(c))) : c.ea,
-            c.rimB > 0.0 ? Vec3(c.eb.cross(crossingAlongB(c))) : c.eb) {}
+Slant::Slant(const ContactPoint& c) : Slant(c, crossingAlongA(c), crossingAlongB(c)) {}
 
 Slant::Slant(const ContactPoint& c, const Vec3& alongA, const Vec3& alongB)
-    : ta(c.rimA > 0.0 ? Vec3(alongA.cross(c.ea)) : alongA),
-      tb(c.rimB > 0.0 ? Vec3(alongB.cross(c.eb)) : alongB),
+    : ta(alongA),
+      tb(alongB),
       bendA(bendOf(c.rimA, c.ea)),
       bendB(bendOf(c.rimB, c.eb)),
       growthA_(1.0 + (c.pa - c.pb).dot(bendA)),
@@ -77,7 +75,8 @@ void alignSlant(ContactPoint& c, const Vec3& fromA, const Vec3& fromB, const Vec
   if (c.rimB == 0.0) c.eb = alongB;
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0;; ++k) {
-    const Slant slant(c, alongA, alongB);
+    const Slant slant(c, c.rimA > 0.0 ? Vec3(alongA.cross(c.ea)) : alongA,
+                      c.rimB > 0.0 ? Vec3(alongB.cross(c.eb)) : alongB);
     const Vec3 across = slant.ta.cross(slant.tb).normalized(), way = c.pa - c.pb;
     c.n = across.dot(c.n) < 0.0 ? Vec3(-across) : across;
     c.separation = c.n.dot(way) - c.ra - c.rb;

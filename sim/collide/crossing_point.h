@@ -30,8 +30,8 @@ struct Slant {
 
   /// Of a contact with its normal.
   explicit Slant(const ContactPoint& c);
-  /// @param alongA, alongB  [1] directions of edges, or axes of rims
-  Slant(const ContactPoint& c, const Vec3& alongA, const Vec3& alongB);
+  /// @param ta, tb  [1] tangents there
+  Slant(const ContactPoint& c, const Vec3& ta, const Vec3& tb);
   /// The ways [m] along both that bring ta·way = a and tb·way = b to 0; of rates, speeds.
   std::pair<double, double> ways(double a, double b) const;
 

@@ -65,18 +65,23 @@ Border borderOfB(const State& state, const Contact& c) {
                   at.crosses ? at.rimB : 0.0, at.eb, at.pb);
 }
 
+/// Ties a contact that goes on in another way to its bodies anew.
+void tieAnew(const State& state, Contact& c) {
+  const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
+  c.anchor = anchorOf(a, b, c.point);
+  follow(a, b, c);
+}
+
 /// A contact tied to two edges or rims that cross there: the same point, with a normal that stays
 /// across both.
 Contact tiedToBoth(const State& state, const Contact& c, const Border& ofA, const Border& ofB) {
-  const RigidBody &a = state.bodies[c.a], &b = state.bodies[c.b];
   Contact tied = c;
   ContactPoint& at = tied.point;
   if (!at.crosses || at.rimA == 0.0) at.ea = ofA.along;
   if (!at.crosses || at.rimB == 0.0) at.eb = ofB.along;
   at.tie = NormalTie::Edges;
   at.crosses = at.crosses && (at.rimA > 0.0 || at.rimB > 0.0);
-  tied.anchor = anchorOf(a, b, at);
-  follow(a, b, tied);
+  tieAnew(state, tied);
   return tied;
 }
 
@@ -98,8 +103,7 @@ void tieRims(const State& state, Contact& c) {
   if (at.rimB > 0.0) at.eb = b.out;
   at.tie = NormalTie::Edges;
   at.crosses = true;
-  c.anchor = anchorOf(state.bodies[c.a], state.bodies[c.b], at);
-  follow(state.bodies[c.a], state.bodies[c.b], c);
+  tieAnew(state, c);
 }
 
 /// Ties the point of a contact of a face to the edges that cross there: as a point of the face, or,
