@@ -32,7 +32,7 @@ void Stepping::bookJoints(double h) {
   for (std::size_t i = 0; i < work_.bonds.rows.size(); ++i) {
     const Row& row = work_.bonds.rows[i];
     const bool limit = work_.bonds.kinds[i] == ConeKind::Push;
-    if (!limit && !isBent(row)) continue;
+    if (!limit && !isBent(row.a, row.b)) continue;
     double rate = 0.0;
     for (const std::vector<Vec6>* v : {&work_.before, &work_.after})
       rate += 0.5 * rowSpeed(row, (*v)[row.a], (*v)[row.b]);
@@ -147,19 +147,15 @@ double Stepping::missedStretch(Island& island, const SpringRow& spring, const Ro
   return (end(made.a, made.anchorA_B) - end(made.b, made.anchorB_B)).norm() - made.rest - has;
 }
 
-bool Stepping::isBent(const Row& row) const {
-  return model_.bends(row.a) || (row.b < model_.count() && model_.bends(row.b));
-}
-
-bool Stepping::holdsBent(const Joint& joint) const {
-  return model_.bends(joint.a) || (joint.b < model_.count() && model_.bends(joint.b));
+bool Stepping::isBent(int a, int b) const {
+  return model_.bends(a) || (b < model_.count() && model_.bends(b));
 }
 
 /// Half the power of λ on what bends [J], at the velocities of the bodies.
 double Stepping::halfGivenToBent() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < work_.bonds.rows.size(); ++i)
-    if (const Row& row = work_.bonds.rows[i]; isBent(row))
+    if (const Row& row = work_.bonds.rows[i]; isBent(row.a, row.b))
       sum += 0.5 * work_.bonds.lambda[i] * bondVelocity(row, state_.bodies);
   return sum;
 }
@@ -189,7 +185,7 @@ void Stepping::divideFirst(double h) {
   if (model_.joints.empty()) return;
   std::vector<Joint> rigid;  // points of what bends yield, and may be thousands
   for (const Joint& joint : model_.joints)
-    if (!holdsBent(joint)) rigid.push_back(joint);
+    if (!isBent(joint.a, joint.b)) rigid.push_back(joint);
   std::vector<RigidBody> bodies = state_.bodies;
   sumForces(model_.def.gravity, model_.def.forces, bodies);
   Bonds bonds;
@@ -197,8 +193,9 @@ void Stepping::divideFirst(double h) {
   RestForces().apply(bodies, {}, &bonds);
   std::vector<JointForce> known, forces;
   jointForces(state_.bodies, rigid, bonds, 1.0, known);
-  for (std::size_t k = 0, next = 0; k < model_.joints.size(); ++k)
-    forces.push_back(holdsBent(model_.joints[k]) ? JointForce{} : known[next++]);
+  std::size_t next = 0;
+  for (const Joint& joint : model_.joints)
+    forces.push_back(isBent(joint.a, joint.b) ? JointForce{} : known[next++]);
   divide(h, forces);
 }
 

@@ -379,8 +379,8 @@ class Stepping {
 
   // joined.cpp
   void bookJoints(double h);
-  bool isBent(const Row& row) const;
-  bool holdsBent(const Joint& joint) const;
+  /// Whether one of two bodies is a point of what bends; the second may be the world.
+  bool isBent(int a, int b) const;
   double halfGivenToBent() const;
   /// What the rows of joints as they stand take from the world and from fixed bodies.
   void bookOuter();
