@@ -12,13 +12,20 @@
 namespace tumble {
 namespace {
 
-constexpr double kCoarse = 1e-3;           // of the size: from this tolerance on, cuts are anywhere
-constexpr double kSnap = 2e-6;             // of the size: corners no further from a cut are on it
-constexpr double kRoughSnap = 2.0;         // of the grain: the same, if corners are rounded
-constexpr long kMostWork = 50'000'000;     // triangles looked at
-constexpr long kTrialWork = 16'000'000;    // to see which of two ways makes fewer
-constexpr long kMostCoarse = 200'000'000;  // where cuts may be anywhere
+constexpr double kCoarse = 1e-3;         // of the size: from this tolerance on, cuts are anywhere
+constexpr double kSnap = 2e-6;           // of the size: corners no further from a cut are on it
+constexpr double kRoughSnap = 2.0;       // of the grain: the same, if corners are rounded
+constexpr long kFewWork = 20'000'000;    // triangles looked at, whatever the mesh,
+constexpr long kFaceWork = 10'000;       // and for each of its faces
+constexpr long kMostWork = 50'000'000;   // where cuts are at notches alone
+constexpr long kTrialWork = 16'000'000;  // to see which of two ways makes fewer
 constexpr std::size_t kMostFaces = 20'000;  // of a mesh: each is looked at for every cut
+
+/// What may be spent on a solid. One of few faces that asks for more touches itself, and cuts would
+/// go on for ever.
+long mostWork(const Polyhedron& solid) {
+  return kFewWork + kFaceWork * static_cast<long>(solid.faces.size());
+}
 
 /// By cuts at notches alone. What a wide tolerance takes for on a cut may leave a piece that no
 /// plane parts, as where faces meet that lean little; a closer one does not.
@@ -47,7 +54,7 @@ Pieces fewest(const Polyhedron& solid, double tolerance, double snap) {
   try {
     Pieces pieces = decompose(
         solid, tolerance,
-        {true, few ? kTrialWork : kMostCoarse, snap, few ? few->hulls.size() : kMostPieces});
+        {true, few ? kTrialWork : mostWork(solid), snap, few ? few->hulls.size() : kMostPieces});
     if (!few || pieces.hulls.size() < few->hulls.size()) return pieces;
   } catch (const NoPieces&) {
     if (!few) throw;
@@ -66,8 +73,9 @@ Pieces piecesOfFlat(const Polyhedron& solid, PieceKind kind, double tolerance, d
   const double size = sizeOf(solid);
   const bool coarse = tolerance >= kCoarse * size;
   if (kind == PieceKind::Good && coarse) return fewest(solid, tolerance, snap);
-  Pieces pieces = coarse ? decompose(solid, tolerance, {true, kMostCoarse, snap})
-                         : atNotches(solid, tolerance, {false, kMostWork, snap});
+  Pieces pieces =
+      coarse ? decompose(solid, tolerance, {true, mostWork(solid), snap})
+             : atNotches(solid, tolerance, {false, std::min(kMostWork, mostWork(solid)), snap});
   if (kind == PieceKind::Slivers) pieces.hulls = slivered(pieces.hulls, solid);
   if (pieces.hulls.size() > kMostPieces)
     throw NoPieces("the mesh makes " + std::to_string(pieces.hulls.size()) +

@@ -24,13 +24,13 @@ bits() {
   tests/house/bits.sh "$clang/tumble"
 }
 
-# fuzzed NAME CORPUS options…: a minute of it. Of one that finds something, the end of its log: where, and
+# fuzzed NAME CORPUS options and further corpora…: a minute of it. Of one that finds something, the end of its log: where, and
 # the finding in base64.
 fuzzed() {
   local found=$root/found-$1 log=$root/fuzz-$1.log
   mkdir -p "$found"
   "$clang/tests/fuzz/$1_fuzz" -seed=1 -max_total_time=60 -timeout=20 -error_exitcode=1 -rss_limit_mb=2048 -max_len=8192 \
-    "${@:3}" -artifact_prefix="$found/" "$found" "$2" >"$log" 2>&1 && return
+    -artifact_prefix="$found/" "$found" "${@:2}" >"$log" 2>&1 && return
   echo "the $1 fuzzer, by its log $log:"
   tail -n 25 "$log"
   local finding
@@ -43,7 +43,7 @@ fuzzed() {
 fuzz() {
   local status=0
   fuzzed scene tests/fuzz/corpus -dict=tests/fuzz/scene.dict &
-  fuzzed mesh assets/meshes || status=1
+  fuzzed mesh assets/meshes tests/fuzz/meshes || status=1
   wait $! || status=1
   return $status
 }
