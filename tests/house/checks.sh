@@ -24,8 +24,8 @@ bits() {
   tests/house/bits.sh "$clang/tumble"
 }
 
-# fuzzed NAME CORPUS options and further corpora…: a minute of it. Of one that finds something, the end of its log: where, and
-# the finding in base64.
+# fuzzed NAME CORPUS options and further corpora…: a minute of it. Of one that finds something, the end
+# of its log: where, and the finding in base64.
 fuzzed() {
   local found=$root/found-$1 log=$root/fuzz-$1.log
   mkdir -p "$found"
