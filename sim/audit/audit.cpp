@@ -107,22 +107,11 @@ void Audit::see(double t, std::span<const RigidBody> bodies, bool many,
   ++seen_;
   ways_.set(pieces);
   addWays();
-  group(nearness_.see({t_, h_, many, struck_, last_, now_, ways_, net_, way_, reach_}));
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!moves(i)) continue;
-    Group& g = groups_[rootOf(i)];
-    ++g.count;
-    g.mass += bodies_[i].M;
-  }
+  const Nearness::Part part{t_, h_, many, struck_, last_, now_, ways_, net_, way_, reach_};
+  nearness_.see(part);
   addMotions();
-  addLoads();
-  if (turns_ && !many_) {
-    addPressed();
-    addBent();
-  }
-  addRubs();
-  addStates();
-  addTurns();
+  balance();
+  while (isOpen() && passBlowsOn(part)) balance();
   settle();
   for (const Bond& bond : bonds_) jointGap_ = std::max(jointGap_, bond.gap(now_));
   countCrossings();

@@ -71,6 +71,10 @@ class Audit {
 
   void addWays();
 
+  // blows.cpp
+  bool isOpen() const;
+  bool passBlowsOn(const Nearness::Part& part);
+
   // impulses.cpp
   double sameWorkOf(int body) const;
   void findSwings();
@@ -82,6 +86,7 @@ class Audit {
   void addElement(const Element& element, ElementTerms& start, ElementTerms& end);
 
   // balance.cpp
+  void balance();
   void group(const std::vector<Nearness::Pair>& touched);
   void join(int a, int b);
   bool rubs(int point, int body) const;
@@ -166,9 +171,10 @@ class Audit {
   std::vector<RigidBody> scratch_;
 
   long seen_ = 0, untold_ = 0, parts_ = 0;
-  bool coarse_ = false;  ///< any two bodies may have met between two looks
-  bool broken_ = false;  ///< the motion left the range of numbers
-  double unsure_ = 0.0;  ///< [J] of the work of who turns what bends, as much as may be wrong
+  bool coarse_ = false;     ///< any two bodies may have met between two looks
+  bool broken_ = false;     ///< the motion left the range of numbers
+  double unsureNow_ = 0.0;  ///< [J] of the work of who turns what bends, as much as may be wrong,
+  double unsure_ = 0.0;     ///< [J] and in all parts so far
   double energyStart_ = 0.0, workDone_ = 0.0, gain_ = 0.0;
   double kineticMax_ = 0.0, momentumMax_ = 0.0, spinMax_ = 0.0, driftMaxP_ = 0.0, driftMaxL_ = 0.0;
   double load_ = 0.0, loadPower_ = 0.0, size_ = 0.0, jointGap_ = 0.0;

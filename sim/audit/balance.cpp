@@ -56,6 +56,26 @@ void Audit::holdBy(int body, int fixed) {
   g.fixed = fixed;
 }
 
+/// What each group of those that may have touched has gained, less what loads explain.
+void Audit::balance() {
+  group(nearness_.touched());
+  unsureNow_ = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves(i)) continue;
+    Group& g = groups_[rootOf(i)];
+    ++g.count;
+    g.mass += bodies_[i].M;
+  }
+  addLoads();
+  if (turns_ && !many_) {
+    addPressed();
+    addBent();
+  }
+  addRubs();
+  addStates();
+  addTurns();
+}
+
 void Audit::group(const std::vector<Nearness::Pair>& touched) {
   for (std::size_t i = 0; i < root_.size(); ++i) root_[i] = static_cast<int>(i);
   for (const auto& [b, a] : touched)
@@ -408,6 +428,7 @@ double Audit::workOfSeveral(int root) const {
 void Audit::settle() {
   bool told = true;
   quiet_ = true;
+  unsure_ += unsureNow_;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves(i)) continue;
     const int root = rootOf(i);

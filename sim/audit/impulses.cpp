@@ -159,7 +159,7 @@ void Audit::addBent() {
       impulse_[i] += inside;
       if (moves(i) && !pushed_[i]) off += gainedBy(i).norm();
     }
-    unsure_ += unsureOf(*bending->body, off);
+    unsureNow_ += unsureOf(*bending->body, off);
   }
 }
 

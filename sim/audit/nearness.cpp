@@ -132,7 +132,7 @@ bool Nearness::glance(std::span<const RigidBody> end, std::span<const ClusterPar
   return true;
 }
 
-const std::vector<Nearness::Pair>& Nearness::see(const Part& part) {
+void Nearness::see(const Part& part) {
   touched_.clear();
   before_ = reach_;
   bool listed = !listed_.empty();
@@ -143,11 +143,26 @@ const std::vector<Nearness::Pair>& Nearness::see(const Part& part) {
     listed = listed && moved_[i] - listed_[i] + reach_[i] < fat_[i];
   }
   for (Known& pair : pairs_) see(pair, part);
-  if (listed) return touched_;
+  if (listed) return;
   list(part);
   for (Known& pair : pairs_)
     if (pair.fresh) see(pair, part);
-  return touched_;
+}
+
+void Nearness::touch(Known& pair) {
+  pair.touched = true;
+  touched_.emplace_back(pair.b, pair.a);
+}
+
+bool Nearness::seeFarther(const Part& part, std::span<const double> way) {
+  const std::size_t before = touched_.size();
+  for (Known& pair : pairs_) {
+    const double reach = way[pair.a] + way[pair.b] + part.net[pair.a] + part.net[pair.b];
+    if (pair.touched || pair.gap - (moved_[pair.a] + moved_[pair.b] - pair.moved) > reach) continue;
+    look(pair, part);
+    if (pair.gap <= reach) touch(pair);
+  }
+  return touched_.size() > before;
 }
 
 void Nearness::see(Known& pair, const Part& part) {
@@ -157,7 +172,7 @@ void Nearness::see(Known& pair, const Part& part) {
   // In many parts bodies may have been anywhere that they were not to leave unseen.
   if (part.many) way = std::max(way, before_[pair.a] + before_[pair.b]);
   double start = pair.fresh ? now - net : now + net;  // or more
-  pair.fresh = false;
+  pair.fresh = pair.touched = false;
   pair.close = now < reach_[pair.a] + reach_[pair.b];
   if (start > way + near && now > 0.0) return;  // apart all the way
   const double known = deepest_ + kRounding * smaller(pair);
@@ -166,7 +181,7 @@ void Nearness::see(Known& pair, const Part& part) {
     start = std::max(start, pair.gap - net);
   }
   if (std::min(start, pair.gap) > way + near) return;
-  touched_.emplace_back(pair.b, pair.a);
+  touch(pair);
   if (!part.many && way > kMidst * smaller(pair)) lookOnTheWay(pair, part);
 }
 

@@ -33,8 +33,14 @@ class Nearness {
 
   Nearness(const Model& model, std::span<const RigidBody> bodies);
 
-  /// All bodies have moved. @return pairs that may have touched on the way; b < a
-  const std::vector<Pair>& see(const Part& part);
+  /// All bodies have moved.
+  void see(const Part& part);
+
+  /// Adds pairs that ways [m] of any of their points, per body, could have brought together in the
+  /// part that was seen last. @return whether there are any
+  bool seeFarther(const Part& part, std::span<const double> way);
+  /// Pairs that may have touched on the way; b < a.
+  const std::vector<Pair>& touched() const { return touched_; }
 
   /// The end of a part that is not looked at otherwise: of pairs that were near, how deep they are.
   /// @return false if a body went farther than could be expected, by then or by the end of a part
@@ -52,11 +58,13 @@ class Nearness {
     double gap = 0.0;             ///< [m] when it was looked at,
     double moved = 0.0;           ///< [m] and how far both had moved until then
     bool fresh = true;            ///< not looked at before this part
+    bool touched = false;         ///< may have in this part
     bool close = false;           ///< a few more parts like the last one may bring them together
     double glanced = 0.0;         ///< [m] gap when it was last measured, at
     Pose poseA = {}, poseB = {};  ///< these poses
   };
   void see(Known& pair, const Part& part);
+  void touch(Known& pair);
   void list(const Part& part);
   void look(Known& pair, const Part& part);
   /// Measures the gap of a pair.
