@@ -45,6 +45,8 @@ Audit::Audit(const Model& model, std::span<const RigidBody> start)
   for (std::size_t i = 0; i < n; ++i) family_.push_back(static_cast<int>(i));
   root_ = family_;
   families_.resize(n);
+  carried_.resize(n);
+  blown_.resize(n);
   driftP_.assign(n, Vec3::Zero());
   driftL_ = driftP_;
   const bool stepping = model.runs == "stepping";

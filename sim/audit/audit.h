@@ -148,6 +148,7 @@ class Audit {
   std::vector<Recorded> last_, now_;
   Ways ways_;  ///< of bodies that have parts of their own between the two
   std::vector<double> net_, way_, reach_;  ///< [m] see Nearness
+  std::vector<double> carried_, blown_;    ///< [J] by root, and [m] per body; see passBlowsOn
   double soon_ = 0.0;                      ///< [s] until all bodies are looked at again, about
   std::vector<int> root_, family_;         ///< forests of groups, and of families
   std::vector<Group> groups_;              ///< by root

@@ -15,13 +15,15 @@ constexpr double kAccount = 1e-6;
 
 }  // namespace
 
-/// Whether a group has what nothing gave it.
+/// Whether a group has what nothing gave it. Energy that a moving body may have given is not asked
+/// for.
 bool Audit::isOpen() const {
   if (!struck_) return false;
   return std::any_of(groups_.begin(), groups_.end(), [&](const Group& g) {
     if (g.count == 0 || g.lost) return false;
+    const bool led = g.unlike || (g.fixed != kNoBody && !still(g.fixed));
     const bool spun = !g.vague && g.L.norm() > kAccount * spinMax_;
-    return g.gain > kAccount * kineticMax_ ||
+    return (!led && g.gain > kAccount * kineticMax_) ||
            (!g.held && !g.unseen && (spun || g.P.norm() > kAccount * momentumMax_));
   });
 }
@@ -30,17 +32,18 @@ bool Audit::isOpen() const {
 /// group allows: of any point within r of the origin v² ≤ 2 T (1/M + r²/I), by Cauchy and Schwarz.
 /// @return whether more bodies may have touched so
 bool Audit::passBlowsOn(const Nearness::Part& part) {
-  std::vector<double> energy(bodies_.size(), 0.0), way = way_;
+  carried_.assign(bodies_.size(), 0.0);
+  blown_ = way_;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (moves(i))
-      energy[rootOf(i)] += kineticOf(bodies_[i], last_[i]) + kineticOf(bodies_[i], now_[i]);
+      carried_[rootOf(i)] += kineticOf(bodies_[i], last_[i]) + kineticOf(bodies_[i], now_[i]);
   for (const int i : model_.solid) {
     if (!moves(i) || !pushed_[i]) continue;
     const double r = nearness_.radius(i);
     const double inverse = bodies_[i].invM + r * r * bodies_[i].IbodyInv.trace();
-    way[i] = std::max(way[i], h_ * std::sqrt(2.0 * energy[rootOf(i)] * inverse));
+    blown_[i] = std::max(way_[i], h_ * std::sqrt(2.0 * carried_[rootOf(i)] * inverse));
   }
-  return nearness_.seeFarther(part, way);
+  return nearness_.seeFarther(part, blown_);
 }
 
 }  // namespace tumble
