@@ -30,6 +30,14 @@ void delassus(const Problem& problem, Eigen::Ref<MatX> A, Eigen::Ref<VecX> b) {
   }
 }
 
+void delassus(const Problem& problem, std::span<const int> rows, Eigen::Ref<MatX> A) {
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j)
+      A(i, j) = A(j, i) = coupling(problem, problem.rows[rows[i]], problem.rows[rows[j]]);
+    A(i, i) += problem.rows[rows[i]].compliance;
+  }
+}
+
 Delassus delassus(const Problem& problem) {
   const auto n = static_cast<Eigen::Index>(problem.rows.size());
   Delassus result{MatX(n, n), VecX(n)};

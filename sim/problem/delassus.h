@@ -17,4 +17,7 @@ Delassus delassus(const Problem& problem);
 /// The same into A (n × n) and b (n), for n rows.
 void delassus(const Problem& problem, Eigen::Ref<MatX> A, Eigen::Ref<VecX> b);
 
+/// A alone (n × n), of n of the rows.
+void delassus(const Problem& problem, std::span<const int> rows, Eigen::Ref<MatX> A);
+
 }  // namespace tumble

@@ -1,15 +1,13 @@
 #include "sim/problem/direct.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "sim/math/least_squares.h"
 #include "sim/problem/cone.h"
-#include "sim/problem/delassus.h"
+#include "sim/problem/equalities.h"
 #include "sim/problem/friction_block.h"
 #include "sim/problem/row.h"
 
@@ -105,63 +103,14 @@ template <int kRows>
   return report;
 }
 
-constexpr std::size_t kMostDependent = 60;  ///< rows that depend on each other
-
-/// What solveEqualities works with; kept for the sake of its storage, which only grows.
-struct EqualityWork {
-  std::vector<double> A, L, u, arms;
-  std::vector<Vec6> v;
-  std::array<LeastSquares, kMostDependent + 1> dependent;  ///< per number of rows
-};
-
-/// λ of equalities: A λ + b = 0 by Cholesky, or the smallest λ by least squares where rows depend
-/// on each other; and what rounding left of it twice again. False where that would take too long.
+/// λ of equalities, and what rounding left of it twice again. False where that would take too long.
 /// @param share  SolveSettings::dependent
 bool solveEqualities(const Problem& problem, double share, std::vector<double>& found) {
   constexpr int kAgain = 2;
-  constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
-  thread_local EqualityWork work;
-  const std::size_t rows = problem.rows.size();
-  const auto n = static_cast<Eigen::Index>(rows);
-  work.A.resize(rows * rows);
-  work.L.resize(rows * rows);
-  work.u.resize(rows);
-  work.arms.resize(rows);
-  Eigen::Map<MatX> A(work.A.data(), n, n), L(work.L.data(), n, n);
-  Eigen::Map<VecX> u(work.u.data(), n), arms(work.arms.data(), n);
-  delassus(problem, A, u);
-  L = A;
-  const Eigen::LLT<Eigen::Ref<MatX>> factor(L);  // in its place
-  const auto pivots = L.diagonal().array();
-  const bool regular =
-      factor.info() == Eigen::Success &&
-      (pivots > std::max(kSingular, std::sqrt(share)) * A.diagonal().array().sqrt()).all();
-  if (!regular && rows > kMostDependent) return false;
-  LeastSquares* const dependent = regular ? nullptr : &work.dependent[rows];
-  if (dependent) {  // by forces, in whatever units torques are
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double arm = work.arms[i] = rowArm(problem, problem.rows[i]);
-      A.row(i) *= arm;
-      A.col(i) *= arm;
-    }
-    dependent->factor(A, share);
-  }
-
-  found.assign(rows, 0.0);
-  Eigen::Map<VecX> lambda(found.data(), n);
-  work.v.resize(problem.vStar.size());
-  for (int k = 0; k <= kAgain; ++k) {
-    if (dependent) {
-      u.array() *= arms.array();
-      lambda.array() -= arms.array() * dependent->solve(u).array();
-    } else {
-      factor.solveInPlace(u);
-      lambda -= u;
-    }
-    velocitiesFromLambda(problem, found, work.v);
-    rowVelocities(problem, work.v, work.u);
-    for (std::size_t i = 0; i < rows; ++i) work.u[i] += problem.rows[i].compliance * found[i];
-  }
+  thread_local Equalities equalities;
+  if (!equalities.factor(problem, share)) return false;
+  found.assign(problem.rows.size(), 0.0);
+  for (int k = 0; k <= kAgain; ++k) equalities.solve(problem, found);
   return true;
 }
 

@@ -1,9 +1,12 @@
-// Chapter 6, problem: projected Gauss–Seidel at velocity level.
+// Chapter 6, problem: projected Gauss–Seidel at velocity level. Its blocks are contacts, and all
+// that is held by equalities: a chain that is swept link by link takes as many sweeps as the square
+// of its links, and more by what hangs on it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sim/problem/anderson.h"
+#include "sim/problem/equalities.h"
 #include "sim/problem/solvers.h"
 #include "sim/problem/sweep.h"
 
@@ -22,10 +25,13 @@ class Sweeper {
   double ask(const Problem& problem, const VecX& lambda, Solution& solution,
              double most = std::numeric_limits<double>::infinity()) const;
   bool spent(double residual, bool stands);
-  double thereAndBack();
+  bool findEqualities(const Problem& problem, double dependent);
+  double thereAndBack(const Problem& problem);
   void accelerate();
 
   ConeSweeps sweep_;
+  Equalities equalities_;
+  bool holds_ = false;  ///< they are a block
   VecX lambda_, before_, best_, rounded_;
   double leastChange_ = 0.0, leastRounded_ = 0.0;
   int timesRounded_ = 0;
@@ -60,10 +66,23 @@ bool Sweeper::spent(double residual, bool stands) {
   return stands || timesRounded_ == kRounded;
 }
 
+/// Whether equalities are a block: more than one row, and fewer than cost more than the sweeps.
+bool Sweeper::findEqualities(const Problem& problem, double dependent) {
+  constexpr int kMost = 300;  // rows
+  const auto rows = std::count_if(problem.cones.begin(), problem.cones.end(),
+                                  [](const Cone& cone) { return cone.kind == ConeKind::Equality; });
+  return rows > 1 && rows <= kMost && equalities_.factor(problem, dependent);
+}
+
 /// A sweep there and one back: a symmetric iteration. Returns the largest change.
-double Sweeper::thereAndBack() {
+double Sweeper::thereAndBack(const Problem& problem) {
   const double there = sweep_.pass(true, lambda_);
-  return std::max(there, sweep_.pass(false, lambda_));
+  const double change = std::max(there, sweep_.pass(false, lambda_));
+  if (holds_) {
+    equalities_.solve(problem, {lambda_.data(), static_cast<std::size_t>(lambda_.size())});
+    sweep_.take(lambda_);
+  }
+  return change;
 }
 
 /// Puts a mixture of these sweeps and earlier ones in their place.
@@ -81,6 +100,7 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
   if (report.residual <= settings.tolerance) return report;
 
   sweep_.prepare(problem);
+  holds_ = findEqualities(problem, std::max(settings.dependent, LeastSquares::kDependent));
   sweep_.take(lambda_);
   before_ = best_ = lambda_;
   mixer_.reset(sweep_.mobility());
@@ -88,7 +108,7 @@ SolveReport Sweeper::solve(const Problem& problem, const SolveSettings& settings
   double target = settings.tolerance * scale_;
   timesRounded_ = 0;
   while (report.iterations < settings.maxIterations) {
-    const double change = thereAndBack();
+    const double change = thereAndBack(problem);
     report.iterations += 2;
     if (!std::isfinite(lambda_.sum())) break;  // what has no answer is pushed harder for ever
     if (change < leastChange_) {

@@ -126,3 +126,34 @@ TEST_CASE("two contacts that slide side by side slide as each alone") {
   }
   CHECK(found > 2000);
 }
+
+// Oracle: closed form. Twenty links hang in a row, with a weight of a thousand of them at the end
+// that a wall presses: the topmost pin bears all, and nothing moves. Measured 7e-14 after 4 sweeps;
+// link by link 0.05 after 20, and 42 to the end.
+TEST_CASE("sweeps take what equalities hold as one block") {
+  constexpr int kLinks = 20;
+  constexpr double kWeight = 1000.0, kFall = 0.04, kPress = 0.1;
+  Problem problem;
+  for (int k = 0; k <= kLinks; ++k) {  // the last is the world
+    const double mass = k + 1 == kLinks ? kWeight : 1.0;
+    problem.invM.push_back(k == kLinks ? 0.0 : 1.0 / mass);
+    problem.Iinv.push_back(Mat3::Zero());
+    problem.vStar.push_back(Vec6::Zero());
+    if (k < kLinks) problem.vStar.back().y() = -kFall;
+  }
+  for (int k = 0; k < kLinks; ++k) {
+    problem.cones.push_back({ConeKind::Equality, k});
+    problem.rows.push_back({.a = k, .b = k == 0 ? kLinks : k - 1, .linear = Vec3::UnitY()});
+  }
+  problem.vStar[kLinks - 1].x() = -kPress;
+  problem.cones.push_back({ConeKind::Push, kLinks});
+  problem.rows.push_back({.a = kLinks - 1, .b = kLinks, .linear = Vec3::UnitX()});
+  Solution solution;
+  const SolveReport report =
+      findSolver("pgs")->solve(problem, {.tolerance = 1e-12, .maxIterations = 20}, solution);
+  CAPTURE(report.iterations, report.residual);
+  CHECK(report.status == SolveStatus::Solved);
+  for (const Vec6& v : solution.v) CHECK(v.norm() < 1e-12);
+  CHECK(solution.lambda[0] == Approx(kFall * (kWeight + kLinks - 1)).epsilon(1e-12));
+  CHECK(solution.lambda[kLinks] == Approx(kPress * kWeight).epsilon(1e-12));
+}

@@ -9,6 +9,7 @@
 #include "sim/contact/impact.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
+#include "sim/problem/row.h"
 
 namespace tumble {
 namespace {
@@ -81,7 +82,9 @@ bool Stepping::strikesAsCrowd() const {
 
 bool Stepping::isManyContacts(const Island& island) const {
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
-  return island.problem.cones.size() > kFew && !isBonded(island);
+  const auto yields = [&](Link link) { return !isPair(link) && springOf(link); };
+  return island.problem.cones.size() > kFew &&
+         std::none_of(island.links.begin(), island.links.end(), yields);
 }
 
 double Stepping::roughTolerance(const Island& island, double scale) const {
@@ -107,8 +110,9 @@ void Stepping::takeBack(const Island& island) {
 
 void Stepping::setAside(Island& island, double scale, double h) {
   constexpr double kFar = 0.1, kAside = -1.0;  // of the scale: few that part so fast are pushed
-  if (!again_ || !isHasty()) takeBack(island);
-  if (!isHasty()) return;
+  const bool sets = isHasty() && !isBonded(island);
+  if (!again_ || !sets) takeBack(island);
+  if (!sets) return;
   Problem& problem = island.problem;
   std::size_t cone = 0, kept = 0;
   int rows = 0;
@@ -275,14 +279,28 @@ SolveReport Stepping::solveRough(Island& island, double tolerance, double h) {
           ->solve(island.problem,
                   {.tolerance = tolerance, .maxIterations = stepping.crowdIterations},
                   island.solution);
-  if (solved.status != SolveStatus::Solved &&
-      (isLed(island) || isFarOff(island, solved, tolerance))) {
+  const auto anew = [&] {
     island.solution.lambda.clear();
     return solveFine(island);
-  }
-  if (keepFromGaining(island, h))
+  };
+  if (solved.status != SolveStatus::Solved &&
+      (isLed(island) || isFarOff(island, solved, tolerance) || isOpened(island, tolerance)))
+    return anew();
+  if (keepFromGaining(island, h)) {
+    // Less of all forces is not what joints need.
+    if (isBonded(island)) return anew();
     solved.residual = naturalResidual(island.problem, island.solution, solved.scale);
+  }
   return solved;
+}
+
+bool Stepping::isOpened(const Island& island, double tolerance) const {
+  const Problem& problem = island.problem;
+  const double most = tolerance * velocityScale(problem);
+  return std::any_of(problem.cones.begin(), problem.cones.end(), [&](const Cone& cone) {
+    return cone.kind == ConeKind::Equality &&
+           std::abs(rowVelocity(problem.rows[cone.row], island.solution.v)) > most;
+  });
 }
 
 double Stepping::leastRebound(const Touch& touch, double least) const {

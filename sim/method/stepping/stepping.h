@@ -229,7 +229,7 @@ class Stepping {
   bool isDrafted() const { return crowd_ && isHasty() && !model_.def.stepping.divides; }
   /// Whether the contact problem of a step takes in what hits.
   bool reboundsInStep() const { return isDrafted() && strikesAsCrowd(); }
-  /// Whether its problem is that of many contacts, and of nothing else.
+  /// Whether its problem is that of many contacts; joints may be among them, springs not.
   bool isManyContacts(const Island& island) const;
   /// What may be left of its problem, if it is that of many contacts that move: of what
   /// moves, the part that is planned for crowds. 0 for any other problem.
@@ -259,6 +259,8 @@ class Stepping {
   double lightness(const Island& island) const;
   /// Whether sweeps left a small island far from what was planned for it.
   bool isFarOff(const Island& island, const SolveReport& solved, double tolerance) const;
+  /// Whether they left joints open.
+  bool isOpened(const Island& island, double tolerance) const;
   SolveReport solveRough(Island& island, double tolerance, double h);
   /// The λ that the contacts had in the step before.
   void startFromBefore(Island& island, double h);
