@@ -66,11 +66,16 @@ bool Sweeper::spent(double residual, bool stands) {
   return stands || timesRounded_ == kRounded;
 }
 
-/// Whether equalities are a block: more than one row, and fewer than cost more than the sweeps.
+/// Whether equalities are a block: more than one row, and fewer than cost more than the sweeps;
+/// none that yields, as sweeps suit those.
 bool Sweeper::findEqualities(const Problem& problem, double dependent) {
   constexpr int kMost = 300;  // rows
-  const auto rows = std::count_if(problem.cones.begin(), problem.cones.end(),
-                                  [](const Cone& cone) { return cone.kind == ConeKind::Equality; });
+  int rows = 0;
+  for (const Cone& cone : problem.cones) {
+    if (cone.kind != ConeKind::Equality) continue;
+    if (problem.rows[cone.row].compliance > 0.0) return false;
+    ++rows;
+  }
   return rows > 1 && rows <= kMost && equalities_.factor(problem, dependent);
 }
 
