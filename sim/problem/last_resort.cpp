@@ -120,25 +120,42 @@ double fastestApproach(const Problem& problem) {
   return fastest;
 }
 
-void sweep(const Problem& problem, const SolveSettings& settings, Best& best) {
-  constexpr int kFar = 100'000, kClose = 10'000, kLeast = 20,
-                kMost = 4000;    // cones times sweeps; sweeps
+/// Goes on from the best answer.
+void sweep(const Problem& problem, int most, const SolveSettings& settings, Best& best) {
   constexpr int kOfFactor = 20;  // sweeps in the time of a factorization
-  const int work = best.report.residual <= kNear ? kClose : kFar;
-  const int cones = static_cast<int>(problem.cones.size());
   Solution swept = finite(problem, best.solution);
-  const int most = std::min(std::clamp(work / cones, kLeast, kMost), settings.maxIterations);
+  most = std::min(most, settings.maxIterations);
   const SolveReport report = solvePgs(problem, {settings.tolerance, most}, swept);
   best.report.iterations += 1 + report.iterations / kOfFactor;
   best.take(report, std::move(swept));
+}
+
+/// As many sweeps as the time is worth that is spent already.
+int sweepsAtLast(const Problem& problem, double residual) {
+  constexpr int kFar = 100'000, kClose = 10'000;  // cones times sweeps
+  constexpr int kLeast = 20, kMost = 4000;
+  const int work = residual <= kNear ? kClose : kFar;
+  return std::clamp(work / static_cast<int>(problem.cones.size()), kLeast, kMost);
+}
+
+/// Whether joints hold bodies of the problem.
+bool isJoined(const Problem& problem) {
+  return std::any_of(problem.cones.begin(), problem.cones.end(), [&](const Cone& cone) {
+    return cone.kind == ConeKind::Equality && problem.rows[cone.row].compliance == 0.0;
+  });
 }
 
 }  // namespace
 
 SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
                        const NewtonAlone& newton, const SolveReport& report, Solution& solution) {
+  constexpr int kFewSweeps = 100;  // those that come to an end mostly do so in fewer
   Best best{report, solution};
-  if (problem.rows.size() <= kDense && !(report.residual <= kNear)) {
+  const auto asksDense = [&] {
+    return problem.rows.size() <= kDense && !(best.report.residual <= kNear);
+  };
+  if (asksDense() && isJoined(problem)) sweep(problem, kFewSweeps, settings, best);
+  if (asksDense() && !best.solved()) {
     Solution polished = finite(problem, solution);
     const SolveReport last = polish(problem, settings, polished);
     best.report.iterations += last.iterations;
@@ -148,7 +165,7 @@ SolveReport lastResort(const Problem& problem, const SolveSettings& settings,
       for (const double room : rooms)
         if (!best.solved()) Path(problem, room).follow(longest, settings, newton, best);
   }
-  if (!best.solved()) sweep(problem, settings, best);
+  if (!best.solved()) sweep(problem, sweepsAtLast(problem, best.report.residual), settings, best);
   solution = best.solution;
   return best.report;
 }

@@ -12,10 +12,12 @@ using NewtonAlone =
     std::function<SolveReport(const Problem&, const SolveSettings&, Solution& solution)>;
 
 /// Tries in turn, until one solves the problem:
-///   polish        from the forces that Newton's method ended with
+///   a few sweeps  of projected Gauss–Seidel, which suit joints, if there are any, from the forces
+///                 that Newton's method ended with
+///   polish        from the best forces so far
 ///   more friction a path of problems from none to mu, each started from the one before
 ///   less room     a path from contacts that all part and do not rub to those that are asked for
-///   sweeps        of projected Gauss–Seidel
+///   many sweeps   from the best forces so far
 /// All but the last are O(n³) a step and left out of problems of more than a few dozen contacts.
 /// @param report  of Newton's method on `solution`
 /// @return of the best answer met, which is left in the solution; never worse than the start

@@ -76,4 +76,30 @@ inline WorldDef careful(const std::string& method) {
   return def;
 }
 
+/// A car on four wheels that rolls along x on a floor, and turns about the vertical besides [m/s,
+/// rad/s]. Its wheels lie on lines, so that what pushes them sideways is not determined.
+inline WorldDef carOf(double speed, double yaw) {
+  constexpr double kRadius = 0.12, kDensity = 500.0;
+  WorldDef def = worldOf("stepping", 0.4, {ground(0.2, 0.6)});
+  const auto add = [&](const char* name, const Shape& shape, const Vec3& at, double spin) {
+    BodyDef body{.name = name, .shape = shape, .density = kDensity, .restitution = 0.2};
+    body.friction = 0.6;
+    body.position = at;
+    body.velocity = Vec3(speed, 0.0, 0.0) + Vec3(0.0, yaw, 0.0).cross(at);
+    body.angularVelocity = {0.0, yaw, spin};
+    def.bodies.push_back(body);
+  };
+  add("chassis", Box{{0.4, 0.075, 0.2}}, {0.0, kRadius + 0.1, 0.0}, 0.0);
+  for (const double x : {0.3, -0.3})
+    for (const double z : {0.28, -0.28}) {
+      const Vec3 at(x, kRadius, z);
+      const int wheel = static_cast<int>(def.bodies.size());
+      add("wheel", Cylinder{kRadius, 0.03}, at, -speed / kRadius);
+      def.bodies.back().name += std::to_string(wheel);
+      def.bodies.back().orientation = Quat(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+      def.joints.push_back(hinge(wheel, 1, at, "axle" + std::to_string(wheel)));
+    }
+  return def;
+}
+
 }  // namespace tumble::scenes

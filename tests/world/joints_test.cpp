@@ -361,3 +361,26 @@ TEST_CASE("a slider-crank, one row of which is redundant, goes as its lengths sa
   CHECK(books.energy_balance_error < (exact ? 1e-12 : 1e-6));
   CHECK(books.max_complementarity < 1e-8);
 }
+
+// Oracle: closed form and mirror. A car rolls on at its speed, and one that turns to the left as it
+// rolls does what one does that turns to the right, though what its wheels push sideways with is
+// not determined. MEASURED
+TEST_CASE("stepping: a car on four wheels rolls on, and turns alike to either side") {
+  constexpr double kSpeed = 5.0;
+  const double yaw = GENERATE(0.0, 0.2);
+  World left(carOf(kSpeed, yaw)), right(carOf(kSpeed, -yaw));
+  run(left);
+  run(right);
+  const BodySample a = left.sample(0.4).bodies[1], b = right.sample(0.4).bodies[1];
+  const double mirrored = (a.x - Vec3(b.x.x(), b.x.y(), -b.x.z())).norm(),
+               slower = kSpeed - a.v.norm();
+  const Certificate& books = left.report().certificate;
+  CAPTURE(yaw, mirrored, slower, books.max_complementarity, books.energy_balance_error,
+          books.max_joint_gap, books.max_energy_gain);
+  CHECK_FALSE(left.report().stopped);
+  CHECK(left.report().disagreements.empty());
+  CHECK(mirrored < 1e-10);
+  CHECK(slower < (yaw == 0.0 ? 1e-13 : 1e-5));
+  CHECK(books.max_complementarity < 3e-8);
+  CHECK(books.energy_balance_error < 1e-5);
+}
