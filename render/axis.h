@@ -20,6 +20,13 @@ struct Tick {
   bool labelled = true;  ///< else only a fainter line
 };
 
+/// Power of ten that numbers of such a size and difference are told in; 0 if seven digits hold
+/// them.
+int powerOf(double size, double step);
+
+/// How a number comes of what stands along an axis: "(× 10⁻⁶ + 1234.5)"; "" if it stands there.
+std::string factorText(int power, double offset);
+
 /// The range of an axis, rounded outwards to ticks, and the pixels that it covers.
 class Scale {
  public:
@@ -35,15 +42,21 @@ class Scale {
   const std::vector<Tick>& ticks() const { return ticks_; }
   /// Difference of labelled ticks, to know how many digits they need; 1 on a logarithmic axis.
   double step() const { return step_; }
-  /// Power of ten that the axis' numbers are told in: 0 unless they would take too many digits.
+  /// What the axis' numbers are told from: 0, or where six digits or more are common to all of them
+  /// a number within the range, of as few digits as there is one.
+  double offset() const { return offset_; }
+  /// Power of ten that what is left of the numbers is told in: 0 unless they would take too many
+  /// digits.
   int power() const;
+  /// What stands at a tick of a linear axis, but for the power of ten.
+  double told(const Tick& tick) const;
   bool logarithmic() const { return logarithmic_; }
   bool aboveZero() const { return !logarithmic_ && low_ > 0.0; }
 
  private:
   bool logarithmic_;
   double low_ = 0.0, high_ = 1.0;  // of the value, or of its logarithm
-  double from_, to_, step_ = 1.0;
+  double from_, to_, step_ = 1.0, offset_ = 0.0;
   std::vector<Tick> ticks_;
 };
 

@@ -14,6 +14,9 @@ using Eigen::Vector2d;
 
 constexpr Colour kGrid = {0.886f, 0.894f, 0.910f}, kFaintGrid = {0.935f, 0.940f, 0.948f};
 constexpr double kMargin = 32.0;      // to the right of everything [px]
+constexpr double kLeft = 64.0;        // of the plot, or more [px]
+constexpr double kEdge = 4.0;         // of the page, that no number comes nearer to [px]
+constexpr double kTickGap = 10.0;     // from an upright axis to its numbers [px]
 constexpr double kLegendGap = 28.0;   // from the axes to the middle of a key's stroke [px]
 constexpr double kLegendText = 18.0;  // from there to its name [px]
 constexpr double kLegendStep = 42.0, kMark = 4.2;
@@ -38,7 +41,7 @@ class TickText {
   TickText(const Tick& tick, const Scale& scale) {
     const double unit = std::pow(10.0, scale.power());
     if (!scale.logarithmic())
-      base_ = formatTick(tick.value / unit, scale.step() / unit);
+      base_ = formatTick(scale.told(tick) / unit, scale.step() / unit);
     else if (tick.value == 0.0 || tick.value == 1.0)
       base_ = tick.value == 0.0 ? "1" : "10";
     else {
@@ -62,13 +65,10 @@ class TickText {
   std::string base_, exponent_;
 };
 
-/// The caption, and the power of ten that the numbers are told in: "contact force / N  (× 10⁻¹⁶)".
+/// The caption, and what the numbers are told in: "contact force / N  (× 10⁻¹⁶)".
 std::string captionOf(const ChartAxis& axis, const Scale& scale) {
-  constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  if (scale.power() == 0) return axis.caption;
-  std::string power;
-  for (const char c : std::to_string(scale.power())) power += c == '-' ? "⁻" : kRaised[c - '0'];
-  return axis.caption + "  (× 10" + power + ")";
+  const std::string factor = factorText(scale.power(), scale.offset());
+  return axis.caption + (factor.empty() ? "" : "  " + factor);
 }
 
 /// The value that a tick stands for.
@@ -152,13 +152,13 @@ class Plot {
       : chart_(chart),
         canvas_(canvas),
         legend_(legendWidth()),
-        left_(64.0),
         right_(canvas.width() - kMargin -
                (legend_ > 0.0 ? kLegendGap + kLegendText + legend_ : 0.0)),
         top_(chart.title.empty() ? 48.0 : 120.0),
         bottom_(canvas.height() - 58.0),
-        x_(chart.x, valuesOf(0), left_, right_, 64.0),
-        y_(chart.y, valuesOf(1), bottom_, top_, 40.0) {}
+        y_(chart.y, valuesOf(1), bottom_, top_, 40.0),
+        left_(leftOf(y_)),
+        x_(chart.x, valuesOf(0), left_, right_, 64.0) {}
 
   void draw() {
     canvas_.fill({0.0, 0.0}, {canvas_.width(), canvas_.height()}, ink::page);
@@ -189,6 +189,15 @@ class Plot {
     return width;
   }
 
+  // As far in as the widest number asks.
+  double leftOf(const Scale& upright) {
+    double left = kLeft;
+    for (const Tick& tick : upright.ticks())
+      if (tick.labelled)
+        left = std::max(left, kEdge + TickText(tick, upright).width(canvas_) + kTickGap);
+    return left;
+  }
+
   void drawGrid() {
     for (const Tick& tick : x_.ticks()) {
       const double x = x_.at(valueOf(tick, x_));
@@ -211,7 +220,7 @@ class Plot {
       const double y = y_.at(valueOf(tick, y_));
       canvas_.stroke({left_ - (tick.labelled ? 5.0 : 3.0), y}, {left_, y}, 1.2, ink::secondary);
       const TickText text(tick, y_);
-      if (tick.labelled) text.draw({left_ - 10.0 - text.width(canvas_), y + 4.5}, canvas_);
+      if (tick.labelled) text.draw({left_ - kTickGap - text.width(canvas_), y + 4.5}, canvas_);
     }
     canvas_.text({left_ - 32.0, top_ - 16.0}, captionOf(chart_.y, y_), kCaption);
     canvas_.text({right_, bottom_ + 42.0}, captionOf(chart_.x, x_),
@@ -315,8 +324,10 @@ class Plot {
 
   const Chart& chart_;
   Drawing& canvas_;
-  double legend_, left_, right_, top_, bottom_;
-  Scale x_, y_;
+  double legend_, right_, top_, bottom_;
+  Scale y_;
+  double left_;
+  Scale x_;
 };
 
 }  // namespace

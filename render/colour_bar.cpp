@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "render/axis.h"
 #include "render/overlay.h"
 
 namespace tumble {
@@ -16,6 +17,23 @@ std::string formatTick(double value, double step) {
   std::snprintf(text, sizeof text, "%.*f", digits, size);
   return (value < 0.0 && size > 0.0 ? "\u2212" : "") + std::string(text);
 }
+
+namespace {
+
+/// Power of ten that the numbers below a bar are told in: 0 unless they would touch each other or
+/// take too many digits.
+int powerFor(const ColourBar& bar, double step, double width, const Canvas::TextStyle& style,
+             Canvas& canvas) {
+  constexpr double kApart = 6.0;  // [px]
+  const double size = std::max(std::abs(bar.from), std::abs(bar.to));
+  double widest = 0.0;
+  for (const double value : bar.ticks)
+    widest = std::max(widest, canvas.textWidth(formatTick(value, step), style));
+  if (widest + kApart > width * step / std::abs(bar.to - bar.from)) return powerOf(size, 0.0);
+  return powerOf(size, step);
+}
+
+}  // namespace
 
 void drawColourBar(const ColourBar& bar, Canvas& canvas) {
   if (bar.stops.empty() || !(bar.to != bar.from)) return;
@@ -34,13 +52,16 @@ void drawColourBar(const ColourBar& bar, Canvas& canvas) {
                 {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
   }
   const double step = bar.ticks.size() > 1 ? std::abs(bar.ticks[1] - bar.ticks[0]) : 1.0;
+  const Canvas::TextStyle style{13.0, Face::Regular, Align::Centre, ink::secondary};
+  const int power = powerFor(bar, step, width, style, canvas);
+  const double unit = std::pow(10.0, power);
   for (const double value : bar.ticks) {
     const double x = left + width * (value - bar.from) / (bar.to - bar.from);
     canvas.stroke({x, top + height}, {x, top + height + 4.0}, 1.0, ink::secondary);
-    canvas.text({x, top + height + 18.0}, formatTick(value, step),
-                {13.0, Face::Regular, Align::Centre, ink::secondary});
+    canvas.text({x, top + height + 18.0}, formatTick(value / unit, step / unit), style);
   }
-  canvas.text({left - 9.0, top + height - 1.0}, bar.caption,
+  const std::string factor = factorText(power, 0.0);
+  canvas.text({left - 9.0, top + height - 1.0}, bar.caption + (factor.empty() ? "" : "  " + factor),
               {13.0, Face::Regular, Align::Right, ink::secondary});
 }
 

@@ -186,6 +186,20 @@ Unit unitOf(double step) {
   return step < 1e3 ? Unit{1.0, "m"} : Unit{1e3, "km"};
 }
 
+const Canvas::TextStyle kNumberStyle{13.0, Face::Regular, Align::Centre, ink::secondary};
+
+/// Pixels from tick to tick that the numbers need.
+double roomOf(const Ticks& ticks, double step, Canvas& canvas) {
+  constexpr double kApart = 8.0;  // [px]
+  const Unit unit = unitOf(step);
+  double room = kNumber;
+  for (const Tick& tick : ticks)
+    room = std::max(
+        room, kApart + canvas.textWidth(formatTick(tick.value / unit.length, step / unit.length),
+                                        kNumberStyle));
+  return room;
+}
+
 void drawTicks(const Ticks& ticks, double step, Canvas& canvas) {
   const Unit unit = unitOf(step);
   canvas.stroke(ticks.front().place, ticks.back().place, 1.8, ink::secondary);
@@ -196,8 +210,7 @@ void drawTicks(const Ticks& ticks, double step, Canvas& canvas) {
                   ink::secondary);
     const std::string text = formatTick(tick.value / unit.length, step / unit.length) +
                              (tick.value == unitAt ? std::string(" ") + unit.name : "");
-    canvas.text(tick.place + Vector2d(2.0, 21.0), text,
-                {13.0, Face::Regular, Align::Centre, ink::secondary});
+    canvas.text(tick.place + Vector2d(2.0, 21.0), text, kNumberStyle);
   }
 }
 
@@ -210,7 +223,7 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
   const Boxes boxes = writtenBoxes(picture, projection, canvas);
   double nearest = 0.12 * picture.radius;
   Ticks chosen = ticksAt(*rail, nearest, picture, projection, canvas);
-  while (chosen.size() > kLeast && spacing(chosen) <= kNumber) {
+  while (chosen.size() > kLeast && spacing(chosen) <= roomOf(chosen, rail->step, canvas)) {
     rail->step = coarser(rail->step);
     chosen = ticksAt(*rail, nearest, picture, projection, canvas);
   }
@@ -233,7 +246,8 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
     chosen = ticks;
     break;
   }
-  if (chosen.size() >= kLeast && spacing(chosen) > kNumber) drawTicks(chosen, rail->step, canvas);
+  if (chosen.size() >= kLeast && spacing(chosen) > roomOf(chosen, rail->step, canvas))
+    drawTicks(chosen, rail->step, canvas);
 }
 
 }  // namespace tumble

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "render/canvas.h"
+#include "render/overlay.h"
+#include "render/svg.h"
 #include "tests/render/studio.h"
 
 using namespace tumble;
@@ -95,6 +97,84 @@ TEST_CASE("numbers of more digits than find room are told in a power of ten, wit
   CHECK(svg.find("force / N  (× 10⁻¹⁶)") != std::string::npos);
   CHECK(svg.find(">4<") != std::string::npos);
   CHECK(svg.find("0.000000") == std::string::npos);
+}
+
+namespace {
+
+// What stands along an axis of such values, from the foot up, and below its caption "y" what it is
+// told in.
+std::vector<std::string> writtenAlong(const std::vector<double>& values) {
+  Chart chart;
+  chart.y = {"y", false};
+  chart.curves.resize(1);
+  chart.curves[0].marked = false;
+  for (const double value : values)
+    chart.curves[0].points.emplace_back(chart.curves[0].points.size(), value);
+  const std::string svg = svgOf(chart, 640.0, 360.0, fonts());
+  std::vector<std::string> words;
+  bool upright =
+      false;  // its texts follow those of the level one, whose last is as high as the plot
+  for (std::size_t at = svg.find("<text"); at != std::string::npos;
+       at = svg.find("<text", at + 1)) {
+    const std::size_t y = svg.find("y=\"", at) + 3, from = svg.find('>', at) + 1;
+    upright = upright || std::stod(svg.substr(y)) < 310.0;
+    if (upright) words.push_back(svg.substr(from, svg.find("</text>", from) - from));
+    if (upright && words.back().starts_with("y")) break;
+  }
+  return words;
+}
+
+using Words = std::vector<std::string>;
+
+}  // namespace
+
+// Oracle: decimal arithmetic. What stands at a tick, times the power, plus what is taken off, is
+// its value.
+TEST_CASE("numbers that have six digits in common are told from a round one among them") {
+  CHECK(writtenAlong({9.80665 - 1e-9, 9.80665 + 1e-9}) ==
+        Words{"−1.0", "−0.5", "0.0", "0.5", "1.0", "y  (× 10⁻⁹ + 9.80665)"});
+  CHECK(writtenAlong({-1234.5678 - 1e-6, -1234.5678 + 1e-6}) ==
+        Words{"−1.0", "−0.5", "0.0", "0.5", "1.0", "y  (× 10⁻⁶ − 1234.5678)"});
+  CHECK(writtenAlong({3e9 - 1.0, 3e9 + 1.0}) ==
+        Words{"−1.0", "−0.5", "0.0", "0.5", "1.0", "y  (+ 3 × 10⁹)"});
+  CHECK(writtenAlong({1.234491e-4, 1.234509e-4}) ==
+        Words{"−1.0", "−0.5", "0.0", "0.5", "1.0", "y  (× 10⁻⁹ + 0.00012345)"});
+  // Fewer are told as they are.
+  CHECK(writtenAlong({2345.0, 2347.0}) ==
+        Words{"2345.0", "2345.5", "2346.0", "2346.5", "2347.0", "y"});
+}
+
+TEST_CASE("an axis moves in as far as its widest number asks, and no further than that") {
+  const auto foot = [](double size) {
+    Chart chart;
+    chart.curves.resize(1);
+    chart.curves[0].points = {{0.0, -size}, {1.0, size}};
+    chart.curves[0].colour = {0.0f, 0.0f, 1.0f};
+    const std::string svg = svgOf(chart, 640.0, 360.0, fonts());
+    const std::size_t end = svg.find(" stroke=\"#0000ff\"");
+    return std::stod(svg.substr(svg.rfind("d=\"M", end) + 4));
+  };
+  const double widest =
+      SvgDrawing(1.0, 1.0, fonts()).textWidth("−5000000", {13.0, Face::Regular, Align::Left, {}});
+  CHECK(foot(5.0) == 64.0);
+  CHECK(foot(5e6) == Approx(widest + 10.0 + 4.0).margin(0.01));
+}
+
+// Of a bar of 220 px up to 5 million: as they are, six numbers of 52 px would touch.
+TEST_CASE("numbers below a colour bar stand apart, and differ") {
+  const auto numbersOf = [](double top, std::vector<double> ticks) {
+    Image page{400, 100, std::vector<std::uint8_t>(120'000, 255)};
+    Canvas canvas(page, fonts(), 1.0);
+    canvas.setPaper({1.0f, 1.0f, 1.0f});
+    drawColourBar({"", {{1.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}}, 0.0, top, std::move(ticks)},
+                  canvas);
+    std::vector<std::uint8_t> below(page.rgb.begin() + 3 * 400 * 68, page.rgb.end());
+    return below;
+  };
+  const auto plain = numbersOf(5.0, {0.0, 1.0, 2.0, 3.0, 4.0, 5.0});
+  CHECK(numbersOf(5e6, {0.0, 1e6, 2e6, 3e6, 4e6, 5e6}) == plain);
+  CHECK(numbersOf(5e-7, {0.0, 1e-7, 2e-7, 3e-7, 4e-7, 5e-7}) == plain);
+  CHECK(numbersOf(5e3, {0.0, 5e3}) != plain);
 }
 
 TEST_CASE("an axis that begins at zero shows a value as its share of the length") {

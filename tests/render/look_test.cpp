@@ -515,6 +515,43 @@ TEST_CASE("a rule takes longer steps where its numbers would touch") {
   CHECK_FALSE(compare(without, studio().draw(picture, kFull)).exact);
 }
 
+// Oracle: the width of the widest number. The same rule 100 km away, where a number is twice as
+// wide as 32 px, and steps of 0.2 m stand 50 px apart.
+TEST_CASE("a rule takes longer steps where its numbers are wide") {
+  const double far = 1e5;
+  Picture picture = stage();
+  picture.camera = {{far, 1.7, 5.0}, {far, 0.3, 0.0}, 30.0};
+  picture.centre.x() += far;
+  picture.instances = {box({far, 0.3, 0.0}, Finish::Solid)};
+  picture.floor.motion = {Vector3d(far - 0.95, 0.0, -0.7), Vector3d(far + 0.95, 0.6, 0.7)};
+  const Image without = studio().draw(picture, kFull);
+  picture.floor.rule = true;
+  const Image ruled = studio().draw(picture, kFull);
+  // Below the line of the rule, which is level: the longest row of columns without a gap of 6 px.
+  const auto changed = [&](int x, int y0) {
+    for (int y = y0; y < 720; ++y)
+      if (pixel(without, x, y) != pixel(ruled, x, y)) return true;
+    return false;
+  };
+  int line = 0, most = 0;
+  for (int y = 0; y < 720; ++y) {
+    int count = 0;
+    for (int x = 0; x < 1280; ++x) count += pixel(without, x, y) != pixel(ruled, x, y);
+    if (count > most) most = count, line = y;
+  }
+  REQUIRE(most > 100);
+  int longest = 0, from = 0, last = -10;
+  for (int x = 0; x < 1280; ++x) {
+    if (!changed(x, line + 8)) continue;
+    if (x - last > 6) from = x;
+    last = x;
+    longest = std::max(longest, x - from + 1);
+  }
+  const double widest = fonts().set("100000.5 m", Face::Regular, 13.0, 0.0).advance;
+  CHECK(longest > 0.5 * widest);
+  CHECK(longest < widest + 10.0);
+}
+
 TEST_CASE("a rule of which the image shows but a stump is left out") {
   Picture picture = stage();
   picture.instances = {box({-0.5, 0.3, 0.0}, Finish::Solid)};
