@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "render/page.h"
 
@@ -24,34 +23,6 @@ double distanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b
 double beside(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d along = (b - a).normalized();
   return along.y() * (p.x() - a.x()) - along.x() * (p.y() - a.y());
-}
-
-/// The words on both sides of a blank.
-std::string_view wordBefore(std::string_view text, std::size_t blank) {
-  text = text.substr(0, blank);
-  return text.substr(text.rfind(' ') + 1);
-}
-std::string_view wordAfter(std::string_view text, std::size_t blank) {
-  text.remove_prefix(std::min(blank + 1, text.size()));
-  return text.substr(0, text.find(' '));
-}
-
-bool isOperator(std::string_view word) {
-  constexpr std::string_view kOperators[] = {"=", "<", ">", "≤", "≥", "≈",
-                                             "+", "−", "±", "·", "×", "/"};
-  return std::find(std::begin(kOperators), std::end(kOperators), word) != std::end(kOperators);
-}
-
-bool isNumber(std::string_view word) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (word.starts_with("−")) word.remove_prefix(std::string_view("−").size());
-  return word == "½" || (!word.empty() && digit(word.front()) && digit(word.back()));
-}
-
-/// Whether a line is not to end between two words: at the sign of a formula, or between a number
-/// and what it counts or measures.
-bool belongTogether(std::string_view before, std::string_view after) {
-  return isOperator(before) || isOperator(after) || isNumber(before);
 }
 
 }  // namespace
@@ -135,25 +106,6 @@ void Canvas::frame(const Vector2d& topLeft, const Vector2d& size, double stroke,
 
 double Canvas::textWidth(std::string_view utf8, const TextStyle& style) {
   return fonts_.set(utf8, style.face, style.size * scale_, kHaloWidth * scale_).advance / scale_;
-}
-
-std::vector<std::string> Canvas::lines(std::string_view utf8, double width,
-                                       const TextStyle& style) {
-  constexpr const char* kBlanks = " \t\n\r";
-  std::vector<std::string> lines;
-  std::size_t begin = 0, blank = 0, good = 0;  // of the line, and its last blanks that fit
-  for (std::size_t end = 0; end < utf8.size();) {
-    end = std::min(utf8.find_first_of(kBlanks, end + 1), utf8.size());
-    while (blank > begin && textWidth(utf8.substr(begin, end - begin), style) > width) {
-      const std::size_t at = good > begin ? good : blank;
-      lines.emplace_back(utf8.substr(begin, at - begin));
-      begin = std::min(utf8.find_first_not_of(kBlanks, at), utf8.size());
-    }
-    blank = end;
-    if (!belongTogether(wordBefore(utf8, end), wordAfter(utf8, end))) good = end;
-  }
-  if (begin < utf8.size()) lines.emplace_back(utf8.substr(begin));
-  return lines;
 }
 
 void Canvas::text(const Vector2d& pen, std::string_view utf8, const TextStyle& style) {

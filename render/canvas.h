@@ -51,6 +51,34 @@ class Drawing {
   virtual void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style) = 0;
   /// Width of the text [px].
   virtual double textWidth(std::string_view utf8, const TextStyle& style) = 0;
+
+  /// The text in lines that are at most as wide as asked [px], if no word is wider; broken at
+  /// blanks, and within a formula or between a number and its unit only where nothing else fits.
+  /// @param most  lines; what is left when they are full is one more
+  std::vector<std::string> lines(std::string_view utf8, double width, const TextStyle& style,
+                                 std::size_t most = 1000);
+
+  /// Lines of one size.
+  struct Words {
+    std::vector<std::string> lines;
+    double size = 0.0;  ///< [px]
+    /// How far the last line is below the first, if each is so far below the one before [px].
+    double below(double step) const {
+      return lines.empty() ? 0.0 : step * static_cast<double>(lines.size() - 1);
+    }
+  };
+  /// The text as it can be read where there is room for so much: as large as its style has it, else
+  /// smaller, else cut behind a letter, where it ends in "…".
+  /// @param width  [px] of the room
+  /// @param most   lines
+  /// @param least  [px] of a size that can still be read
+  Words fitted(std::string_view utf8, double width, std::size_t most, const TextStyle& style,
+               double least);
+  /// Lines below each other. @param step  [px] from one to the next
+  void text(const Eigen::Vector2d& pen, const Words& words, double step, TextStyle style);
+
+ private:
+  std::string shortened(std::string text, double width, const TextStyle& style);
 };
 
 /// Draws in pixels of a page 720 high, scaled to the image; whole numbers at corners.
@@ -79,11 +107,9 @@ class Canvas : public Drawing {
                 const Colour& colour) override;
   void frame(const Eigen::Vector2d& topLeft, const Eigen::Vector2d& size, double stroke,
              const Colour& colour);
+  using Drawing::text;
   void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style) override;
   double textWidth(std::string_view utf8, const TextStyle& style) override;
-  /// The text in lines that are at most as wide as asked [px], if no word is wider; broken at
-  /// blanks, and within a formula or between a number and its unit only where nothing else fits.
-  std::vector<std::string> lines(std::string_view utf8, double width, const TextStyle& style);
 
  private:
   /// Blends the colour over pixels near a shape given by its signed distance [px of the image], < 0

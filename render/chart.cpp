@@ -20,7 +20,10 @@ constexpr double kTickGap = 10.0;     // from an upright axis to its numbers [px
 constexpr double kLegendGap = 28.0;   // from the axes to the middle of a key's stroke [px]
 constexpr double kLegendText = 18.0;  // from there to its name [px]
 constexpr double kLegendStep = 42.0, kMark = 4.2;
-constexpr double kStroke = 2.0;    // of a curve [px]
+constexpr double kLegendMost = 0.38, kPlotLeast = 0.35;  // of the page, that each may take
+constexpr double kLegendLeast = 40.0;                    // [px] of names, on a narrow page
+constexpr double kLabelLine = 16.0;                      // from line to line of a name [px]
+constexpr double kStroke = 2.0;                          // of a curve [px]
 constexpr double kSeenGap = 2.0;   // between two strokes that are told apart [px]
 constexpr double kCrowded = 10.0;  // guides nearer than that hide what they cross [px]
 
@@ -29,6 +32,11 @@ const Drawing::TextStyle kPower{9.5, Face::Regular, Align::Left, ink::secondary}
 const Drawing::TextStyle kCaption{14.0, Face::Regular, Align::Left, ink::text};
 const Drawing::TextStyle kLabel{14.0, Face::Bold, Align::Left, ink::text};
 const Drawing::TextStyle kNote{12.5, Face::Regular, Align::Left, ink::secondary};
+
+const Drawing::TextStyle kTitle{22.0, Face::Bold, Align::Left, ink::text};
+const Drawing::TextStyle kSubtitle{15.0, Face::Regular, Align::Left, ink::secondary};
+// [px] from line to line of each, and the least type that is read.
+constexpr double kTitleLine = 26.0, kSubtitleLine = 19.0, kCaptionLine = 17.0, kLegible = 10.0;
 
 Drawing::TextStyle aligned(Drawing::TextStyle style, Align align) {
   style.align = align;
@@ -151,14 +159,28 @@ class Plot {
   Plot(const Chart& chart, Drawing& canvas)
       : chart_(chart),
         canvas_(canvas),
+        title_(canvas.fitted(chart.title, canvas.width() - 2.0 * kMargin, headLines(), kTitle,
+                             kLegible)),
+        subtitle_(canvas.fitted(chart.subtitle, canvas.width() - 2.0 * kMargin, headLines(),
+                                kSubtitle, kLegible)),
         legend_(legendWidth()),
         right_(canvas.width() - kMargin -
                (legend_ > 0.0 ? kLegendGap + kLegendText + legend_ : 0.0)),
-        top_(chart.title.empty() ? 48.0 : 120.0),
-        bottom_(canvas.height() - 58.0),
+        head_(chart.title.empty()
+                  ? 48.0
+                  : 120.0 + title_.below(kTitleLine) + subtitle_.below(kSubtitleLine)),
+        foot_(canvas.height() - 58.0),
+        xCaption_(xCaption(Scale(chart.x, valuesOf(0), kLeft, right_, 64.0), captionLines())),
+        yCaption_(yCaption(Scale(chart.y, valuesOf(1), foot_, head_, 40.0), captionLines())),
+        top_(head_ + yCaption_.below(kCaptionLine)),
+        bottom_(foot_ - xCaption_.below(kCaptionLine)),
         y_(chart.y, valuesOf(1), bottom_, top_, 40.0),
         left_(leftOf(y_)),
-        x_(chart.x, valuesOf(0), left_, right_, 64.0) {}
+        x_(chart.x, valuesOf(0), left_, right_, 64.0) {
+    // On as many lines as there is room for, with the powers that the numbers now have.
+    xCaption_ = xCaption(x_, xCaption_.lines.size());
+    yCaption_ = yCaption(y_, yCaption_.lines.size());
+  }
 
   void draw() {
     canvas_.fill({0.0, 0.0}, {canvas_.width(), canvas_.height()}, ink::page);
@@ -167,8 +189,8 @@ class Plot {
     for (const ChartCurve& curve : chart_.curves) drawLine(curve);
     for (std::size_t i = 0; i < chart_.curves.size(); ++i) drawMarks(i);
     drawLegend();
-    canvas_.text({32.0, 46.0}, chart_.title, {22.0, Face::Bold, Align::Left, ink::text});
-    canvas_.text({32.0, 70.0}, chart_.subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
+    canvas_.text({kMargin, 46.0}, title_, kTitleLine, kTitle);
+    canvas_.text({kMargin, 70.0 + title_.below(kTitleLine)}, subtitle_, kSubtitleLine, kSubtitle);
   }
 
  private:
@@ -181,12 +203,32 @@ class Plot {
     return values;
   }
 
+  // Of the title and of the subtitle, and of a caption: as the height of the page allows.
+  std::size_t headLines() const {
+    return canvas_.height() < 400.0 ? 1 : canvas_.height() < 600.0 ? 2 : 3;
+  }
+  std::size_t captionLines() const { return canvas_.height() < 300.0 ? 1 : 2; }
+
+  // As wide as its widest words, but no wider than leaves the plot about half of the page.
   double legendWidth() {
     double width = 0.0;
     for (const ChartCurve& curve : chart_.curves)
       width = std::max(
           {width, canvas_.textWidth(curve.label, kLabel), canvas_.textWidth(curve.note, kNote)});
-    return width;
+    const double beside = kLeft + kMargin + kLegendGap + kLegendText;
+    const double plot = kPlotLeast * canvas_.width();
+    return std::min({width, kLegendMost * canvas_.width(),
+                     std::max(kLegendLeast, canvas_.width() - plot - beside)});
+  }
+
+  Drawing::Words xCaption(const Scale& scale, std::size_t most) {
+    return canvas_.fitted(captionOf(chart_.x, scale), right_ - 2.0 * kEdge, most, kCaption,
+                          kLegible);
+  }
+
+  Drawing::Words yCaption(const Scale& scale, std::size_t most) {
+    return canvas_.fitted(captionOf(chart_.y, scale), canvas_.width() - kMargin - kLeft, most,
+                          kCaption, kLegible);
   }
 
   // As far in as the widest number asks.
@@ -222,8 +264,9 @@ class Plot {
       const TickText text(tick, y_);
       if (tick.labelled) text.draw({left_ - kTickGap - text.width(canvas_), y + 4.5}, canvas_);
     }
-    canvas_.text({left_ - 32.0, top_ - 16.0}, captionOf(chart_.y, y_), kCaption);
-    canvas_.text({right_, bottom_ + 42.0}, captionOf(chart_.x, x_),
+    canvas_.text({left_ - 32.0, top_ - 16.0 - yCaption_.below(kCaptionLine)}, yCaption_,
+                 kCaptionLine, kCaption);
+    canvas_.text({right_, bottom_ + 42.0}, xCaption_, kCaptionLine,
                  aligned(kCaption, Align::Right));
   }
 
@@ -266,10 +309,17 @@ class Plot {
     const double at = scale.at(guide.at);
     if (guide.upright) {
       drawDashed({at, bottom_}, {at, top_}, ink::secondary, canvas_);
-      canvas_.text({at + 7.0, bottom_ - 8.0}, guide.label, kNote);
+      const bool before =
+          at + 7.0 + canvas_.textWidth(guide.label, kNote) > canvas_.width() - kEdge;
+      const double room = before ? at - 7.0 - kEdge : canvas_.width();
+      canvas_.text({before ? at - 7.0 : at + 7.0, bottom_ - 8.0},
+                   canvas_.fitted(guide.label, room, 1, kNote, kLegible), 0.0,
+                   aligned(kNote, before ? Align::Right : Align::Left));
     } else {
       drawDashed({left_, at}, {right_, at}, ink::secondary, canvas_);
-      canvas_.text({right_ - 4.0, at - 6.0}, guide.label, aligned(kNote, Align::Right));
+      canvas_.text({right_ - 4.0, at - 6.0},
+                   canvas_.fitted(guide.label, right_ - left_ - 8.0, 1, kNote, kLegible), 0.0,
+                   aligned(kNote, Align::Right));
     }
   }
 
@@ -308,23 +358,49 @@ class Plot {
       for (const Vector2d& point : points) drawMark(index, point, curve.colour, canvas_);
   }
 
+  // What stands beside the keys.
+  struct Entry {
+    Drawing::Words label, note;
+    double below() const { return label.below(kLabelLine) + note.below(kLabelLine); }
+  };
+
+  std::vector<Entry> entries(std::size_t most) {
+    std::vector<Entry> all;
+    for (const ChartCurve& curve : chart_.curves)
+      all.push_back({canvas_.fitted(curve.label, legend_, most, kLabel, kLegible),
+                     canvas_.fitted(curve.note, legend_, most, kNote, kLegible)});
+    return all;
+  }
+
+  // On as many lines as leave room for all.
   void drawLegend() {
     const double x = right_ + kLegendGap, count = static_cast<double>(chart_.curves.size());
-    double y = top_ + 10.0;
-    const double step = std::min(kLegendStep, (canvas_.height() - y - 12.0) / count);
-    for (std::size_t i = 0; i < chart_.curves.size(); ++i, y += step) {
+    double y = top_ + 10.0, step = 0.0;
+    std::vector<Entry> all;
+    for (std::size_t most = 4; most > 0 && step < kLabelLine; --most) {
+      all = entries(most);
+      double room = canvas_.height() - y - 12.0;
+      for (const Entry& entry : all) room -= entry.below();
+      step = std::min(kLegendStep, room / count);
+    }
+    for (std::size_t i = 0; i < all.size(); y += step + all[i].below(), ++i) {
       const ChartCurve& curve = chart_.curves[i];
       if (curve.label.empty()) continue;
       canvas_.stroke({x - 12.0, y}, {x + 10.0, y}, kStroke, curve.colour);
       if (curve.marked) drawMark(i, {x - 1.0, y}, curve.colour, canvas_);
-      canvas_.text({x + kLegendText, y + 5.0}, curve.label, kLabel);
-      canvas_.text({x + kLegendText, y + std::min(22.0, 0.5 * step + 4.0)}, curve.note, kNote);
+      canvas_.text({x + kLegendText, y + 5.0}, all[i].label, kLabelLine, kLabel);
+      const double below = all[i].label.below(kLabelLine) + std::min(22.0, 0.5 * step + 4.0);
+      canvas_.text({x + kLegendText, y + below}, all[i].note, kLabelLine, kNote);
     }
   }
 
   const Chart& chart_;
   Drawing& canvas_;
-  double legend_, right_, top_, bottom_;
+  Drawing::Words title_, subtitle_;
+  double legend_, right_;
+  double head_, foot_;  // of the plot, if each caption is one line [px]
+  Drawing::Words xCaption_, yCaption_;
+  double top_, bottom_;
   Scale y_;
   double left_;
   Scale x_;

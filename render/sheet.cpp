@@ -16,6 +16,11 @@ constexpr int kMargin = 32, kGutter = 16;  // [px]
 // [px] of type: above the panels, of the first line below one, of each further line and below all.
 constexpr double kTop = 100.0, kFirst = 30.0, kLine = 20.0, kGap = 2.0, kFoot = 16.0;
 constexpr double kLetter = 20.0;  // [px] of type, room for the letter
+// [px] of type: from line to line of the title and of what is below it, and the least that is read.
+constexpr double kTitleLine = 26.0, kSubtitleLine = 19.0, kLegible = 10.0;
+constexpr std::size_t kMostLines = 4;
+const Canvas::TextStyle kTitle{22.0, Face::Bold, Align::Left, ink::text};
+const Canvas::TextStyle kSubtitle{15.0, Face::Regular, Align::Left, ink::secondary};
 const Canvas::TextStyle kName{16.0, Face::Bold, Align::Left, ink::text};
 const Canvas::TextStyle kCaption{16.0, Face::Regular, Align::Left, ink::text};
 const Canvas::TextStyle kFinding{14.0, Face::Regular, Align::Left, ink::secondary};
@@ -95,8 +100,12 @@ Image drawSheet(std::span<const Panel> panels, int columns, const std::string& t
 
   // Words on as many lines as they take, rows as high as the longest words in them.
   Canvas rule(page, fonts, type);
+  const double room = (page.width - 2.0 * kMargin) / type;
+  const Drawing::Words head = rule.fitted(title, room, kMostLines, kTitle, kLegible),
+                       under = rule.fitted(subtitle, room, kMostLines, kSubtitle, kLegible);
   std::vector<Words> words;
-  std::vector<int> tops = {static_cast<int>(std::lround(type * kTop))};
+  const double more = head.below(kTitleLine) + under.below(kSubtitleLine);
+  std::vector<int> tops = {static_cast<int>(std::lround(type * (kTop + more)))};
   for (int first = 0; first < count; first += across) {
     double below = 0.0;
     for (int i = first; i < std::min(count, first + across); ++i) {
@@ -120,8 +129,8 @@ Image drawSheet(std::span<const Panel> panels, int columns, const std::string& t
     pixels.frame({left, top}, {image.width, image.height}, 1.0, ink::frame);
     drawWords(words[i], letter(i), Vector2d(left, top + height) / type, canvas);
   }
-  canvas.text({kMargin / type, 46.0}, title, {22.0, Face::Bold, Align::Left, ink::text});
-  canvas.text({kMargin / type, 70.0}, subtitle, {15.0, Face::Regular, Align::Left, ink::secondary});
+  canvas.text({kMargin / type, 46.0}, head, kTitleLine, kTitle);
+  canvas.text({kMargin / type, 70.0 + head.below(kTitleLine)}, under, kSubtitleLine, kSubtitle);
   return page;
 }
 

@@ -25,6 +25,7 @@ class SvgDrawing : public Drawing {
               const Colour& colour, double alpha = 1.0) override;
   void triangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                 const Colour& colour) override;
+  using Drawing::text;
   void text(const Eigen::Vector2d& pen, std::string_view utf8, const TextStyle& style) override;
   double textWidth(std::string_view utf8, const TextStyle& style) override;
 
