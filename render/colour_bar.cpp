@@ -37,8 +37,8 @@ int powerFor(const ColourBar& bar, double step, double width, const Canvas::Text
 
 void drawColourBar(const ColourBar& bar, Canvas& canvas) {
   if (bar.stops.empty() || !(bar.to != bar.from)) return;
-  const double width = 220.0, height = 10.0, left = canvas.width() - 32.0 - width,
-               top = canvas.height() - 46.0;
+  const double width = std::min(220.0, canvas.width() - 64.0), height = 10.0,
+               left = canvas.width() - 32.0 - width, top = canvas.height() - 46.0;
   const int columns = 110;
   for (int i = 0; i < columns; ++i) {
     const double u = (i + 0.5) / columns * static_cast<double>(bar.stops.size() - 1);
@@ -60,9 +60,14 @@ void drawColourBar(const ColourBar& bar, Canvas& canvas) {
     canvas.stroke({x, top + height}, {x, top + height + 4.0}, 1.0, ink::secondary);
     canvas.text({x, top + height + 18.0}, formatTick(value / unit, step / unit), style);
   }
+  // Left of the bar, or above it where the page is too narrow.
   const std::string factor = factorText(power, 0.0);
-  canvas.text({left - 9.0, top + height - 1.0}, bar.caption + (factor.empty() ? "" : "  " + factor),
-              {13.0, Face::Regular, Align::Right, ink::secondary});
+  const std::string caption = bar.caption + (factor.empty() ? "" : "  " + factor);
+  const Canvas::TextStyle captionStyle{13.0, Face::Regular, Align::Right, ink::secondary};
+  const bool beside = canvas.textWidth(caption, captionStyle) < left - 15.0;
+  const Eigen::Vector2d pen = beside ? Eigen::Vector2d(left - 9.0, top + height - 1.0)
+                                     : Eigen::Vector2d(left + width, top - 8.0);
+  canvas.text(pen, canvas.fitted(caption, pen.x() - 6.0, 1, captionStyle, 10.0), 0.0, captionStyle);
 }
 
 }  // namespace tumble

@@ -9,9 +9,11 @@ namespace tumble {
 
 using Eigen::Vector2d;
 
-Eigen::AlignedBox2d inkOf(const Vector2d& pen, double width, double size, Align align) {
+Eigen::AlignedBox2d inkOf(const Vector2d& pen, const LabelPlaces::Extent& text, double size,
+                          Align align) {
+  const double width = text.width;
   const double left = align == Align::Left ? 0.0 : align == Align::Centre ? -0.5 * width : -width;
-  return {pen + Vector2d(left, -0.7 * size), pen + Vector2d(left + width, 0.1 * size)};
+  return {pen + Vector2d(left, -0.7 * size), pen + Vector2d(left + width, 0.1 * size + text.below)};
 }
 
 void LabelPlaces::cover(const Silhouette& body) {
@@ -51,30 +53,30 @@ bool LabelPlaces::isHidden(const Silhouette& body) const {
 }
 
 std::optional<LabelPlaces::Standing> LabelPlaces::place(const Label& label, const Vector2d& anchor,
-                                                        double width) {
+                                                        const Extent& text) {
   std::optional<Standing> standing;
   if (const Silhouette* body = own(label, bodies_); body && isHidden(*body)) return {};
-  if (label.apart) standing = apart(label, anchor, width);
+  if (label.apart) standing = apart(label, anchor, text);
   if (standing || label.names) return standing;
   const Off off = label.apart || label.clear ? Off::Arrows : Off::Texts;
-  standing = beside(label, anchor, width, off);
-  if (!standing) standing = onRings(label, anchor, width, off);
+  standing = beside(label, anchor, text, off);
+  if (!standing) standing = onRings(label, anchor, text, off);
   return standing.value_or(Standing{anchor + label.offset});
 }
 
 std::optional<LabelPlaces::Standing> LabelPlaces::apart(const Label& label, const Vector2d& anchor,
-                                                        double width) {
+                                                        const Extent& text) {
   const Silhouette *body = own(label, bodies_), *ground = own(label, grounds_);
-  std::optional<Standing> standing = beside(label, anchor, width, Off::Outlines);
-  if (!standing && !ground) standing = beside(label, anchor, width, Off::Bodies);
-  if (!standing && (body || ground)) standing = onBody(label, body ? *body : *ground, width);
-  if (!standing) standing = onRings(label, anchor, width, Off::Outlines);
-  if (!standing && !ground) standing = onRings(label, anchor, width, Off::Bodies);
+  std::optional<Standing> standing = beside(label, anchor, text, Off::Outlines);
+  if (!standing && !ground) standing = beside(label, anchor, text, Off::Bodies);
+  if (!standing && (body || ground)) standing = onBody(label, body ? *body : *ground, text);
+  if (!standing) standing = onRings(label, anchor, text, Off::Outlines);
+  if (!standing && !ground) standing = onRings(label, anchor, text, Off::Bodies);
   return standing;
 }
 
 std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, const Vector2d& anchor,
-                                                         double width, Off off) {
+                                                         const Extent& text, Off off) {
   const Box page(Vector2d::Zero(), page_);
   // Off bodies a little further out first, on the same line: there nobody takes it for another's.
   const double out = label.align == Align::Left ? 0.7 : label.align == Align::Right ? -0.7 : 0.0;
@@ -84,7 +86,7 @@ std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, con
   for (const double lines : {-1.0, 1.0, -2.0, 2.0}) shifts.emplace_back(0.0, lines * label.size);
   for (const Vector2d& shift : shifts) {
     const Vector2d pen = anchor + label.offset + shift;
-    const Box ink = inkOf(pen, width, label.size, label.align);
+    const Box ink = inkOf(pen, text, label.size, label.align);
     const bool anywhere = shift.isZero(0.0) && off < Off::Bodies;
     if (!isFree(ink, off) || (!anywhere && !page.contains(ink))) continue;
     take(ink);
@@ -95,24 +97,25 @@ std::optional<LabelPlaces::Standing> LabelPlaces::beside(const Label& label, con
 
 // In the middle of the body, if it has room for it there and nothing stands before it.
 std::optional<LabelPlaces::Standing> LabelPlaces::onBody(const Label& label, const Silhouette& body,
-                                                         double width) {
-  const Vector2d start = body.box.center() + Vector2d(-0.5 * width, 0.3 * label.size);
-  const Box ink = inkOf(start, width, label.size, Align::Left);
+                                                         const Extent& text) {
+  const Vector2d start =
+      body.box.center() + Vector2d(-0.5 * text.width, 0.3 * label.size - 0.5 * text.below);
+  const Box ink = inkOf(start, text, label.size, Align::Left);
   const bool covered = std::any_of(bodies_.begin(), bodies_.end(), [&](const Silhouette& other) {
     return other.solid && other.depth < body.depth && other.meets(ink);
   });
   if (covered || !body.contains(ink) || !isFree(ink, Off::Arrows)) return {};
   take(ink);
   const double shift = label.align == Align::Left     ? 0.0
-                       : label.align == Align::Centre ? 0.5 * width
-                                                      : width;
+                       : label.align == Align::Centre ? 0.5 * text.width
+                                                      : text.width;
   return Standing{start + Vector2d(shift, 0.0)};
 }
 
 // To the right of the anchor first, then alternately above and below.
 std::optional<LabelPlaces::Standing> LabelPlaces::onRings(const Label& label,
-                                                          const Vector2d& anchor, double width,
-                                                          Off off) {
+                                                          const Vector2d& anchor,
+                                                          const Extent& text, Off off) {
   constexpr int kDirections = 32;
   const int rings = off >= Off::Bodies ? 3 : 16;  // further off a leader crosses too much
   constexpr double kEdge = 6.0, kRoom = 3.0;      // [px] of the page's edge, between labels
@@ -125,16 +128,18 @@ std::optional<LabelPlaces::Standing> LabelPlaces::onRings(const Label& label,
       const Vector2d way(std::cos(angle), -std::sin(angle));
       const Vector2d side = anchor + 2.2 * ring * label.size * way;
       // The edge of the text that looks at the anchor.
-      const double left = way.x() > 0.2 ? 0.0 : way.x() < -0.2 ? -width : -0.5 * width;
-      const Vector2d pen = side + Vector2d(left, 0.35 * label.size);
-      Box ink = inkOf(pen, width, label.size, Align::Left);
+      const double left = way.x() > 0.2 ? 0.0 : way.x() < -0.2 ? -text.width : -0.5 * text.width;
+      // Above the anchor further lines go up, below it down.
+      const double up = 0.5 * (1.0 - way.y()) * text.below;
+      const Vector2d pen = side + Vector2d(left, 0.35 * label.size - up);
+      Box ink = inkOf(pen, text, label.size, Align::Left);
       if (!page.contains(ink)) continue;
       ink.min() -= Vector2d::Constant(kRoom), ink.max() += Vector2d::Constant(kRoom);
       if (!isFree(ink, off)) continue;
       take(ink);
       const double shift = label.align == Align::Left     ? 0.0
-                           : label.align == Align::Centre ? 0.5 * width
-                                                          : width;
+                           : label.align == Align::Centre ? 0.5 * text.width
+                                                          : text.width;
       const Vector2d end = anchor.cwiseMax(ink.min()).cwiseMin(ink.max());
       return Standing{pen + Vector2d(shift, 0.0), end};
     }

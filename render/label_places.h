@@ -24,6 +24,12 @@ class LabelPlaces {
   /// page is ground, which they may stand on, but not across its outline: its own name never.
   void cover(const Silhouette& body);
 
+  /// What a label covers: a line of text, and how far others go on below it [px].
+  struct Extent {
+    double width, below;
+    Extent(double wide, double further = 0.0) : width(wide), below(further) {}
+  };
+
   struct Standing {
     Eigen::Vector2d pen;  ///< [px] of the text
     /// Where a line from the anchor meets a label that had to go further away from it.
@@ -34,20 +40,22 @@ class LabelPlaces {
   /// place off bodies near by first, and a name for one on its body. Where all is taken it stands
   /// where it wants to; a name does not stand.
   /// @param anchor  [px], from which label.offset counts
-  /// @param width   [px] of its text
-  std::optional<Standing> place(const Label& label, const Eigen::Vector2d& anchor, double width);
+  /// @param text    [px] that it covers
+  std::optional<Standing> place(const Label& label, const Eigen::Vector2d& anchor,
+                                const Extent& text);
 
  private:
   using Box = Eigen::AlignedBox2d;
   /// What a label has to keep off.
   enum class Off { Texts, Arrows, Bodies, Outlines };
   bool isFree(const Box& ink, Off off) const;
-  std::optional<Standing> apart(const Label& label, const Eigen::Vector2d& anchor, double width);
-  std::optional<Standing> beside(const Label& label, const Eigen::Vector2d& anchor, double width,
-                                 Off off);
-  std::optional<Standing> onBody(const Label& label, const Silhouette& body, double width);
-  std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor, double width,
-                                  Off off);
+  std::optional<Standing> apart(const Label& label, const Eigen::Vector2d& anchor,
+                                const Extent& text);
+  std::optional<Standing> beside(const Label& label, const Eigen::Vector2d& anchor,
+                                 const Extent& text, Off off);
+  std::optional<Standing> onBody(const Label& label, const Silhouette& body, const Extent& text);
+  std::optional<Standing> onRings(const Label& label, const Eigen::Vector2d& anchor,
+                                  const Extent& text, Off off);
   /// The body among those that the label names.
   static const Silhouette* own(const Label& label, const std::vector<Silhouette>& bodies);
   bool isHidden(const Silhouette& body) const;
@@ -58,6 +66,8 @@ class LabelPlaces {
 };
 
 /// What the ink of a line of text covers, about [px].
-Eigen::AlignedBox2d inkOf(const Eigen::Vector2d& pen, double width, double size, Align align);
+/// @param text  [px] width of the first line, and how far others go on below it
+Eigen::AlignedBox2d inkOf(const Eigen::Vector2d& pen, const LabelPlaces::Extent& text, double size,
+                          Align align);
 
 }  // namespace tumble

@@ -152,3 +152,111 @@ TEST_CASE("a page of panels has its title on as many lines as it takes") {
   CHECK(inkIn(page, 32, page.width - 31) > 3 * inkIn(brief, 32, page.width - 31));
   CHECK(page.height > brief.height + 26 + 19);
 }
+
+namespace {
+
+// A picture with nothing on it. In the plane z = 0 a metre is 180 px, (0, 0, 0) is in the middle.
+Picture empty() {
+  Picture picture;
+  picture.camera = straight(0.0);
+  picture.floor.visible = false;
+  return picture;
+}
+
+// Pixels of ink in a picture of nothing, on a page that is brighter further down.
+double inkOn(const Picture& picture, const RenderOptions& options = kFull) {
+  const Image page = studio().draw(empty(), options), image = studio().draw(picture, options);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < page.rgb.size(); i += 3)
+    sum += std::max(0.0, (page.rgb[i] - image.rgb[i]) / (page.rgb[i] - 255.0 * ink::text[0]));
+  return sum;
+}
+
+Label textAt(double x, double y, const std::string& text, Align align = Align::Left) {
+  Label label;
+  label.offset = {x, y};
+  label.text = text;
+  label.size = 16.0f;
+  label.align = align;
+  return label;
+}
+
+// The same at a pixel of the plane z = 0.
+Label textBeside(double x, double y, const std::string& text) {
+  Label label = textAt(8.0, 5.0, text);
+  label.anchor = Eigen::Vector3d((x - 640.0) / 180.0, (360.0 - y) / 180.0, 0.0);
+  return label;
+}
+
+}  // namespace
+
+// Oracle: the same words have the same ink wherever they stand, but for where letters fall between
+// pixels. Measured within 1 %; a letter of the shorter is 5 %.
+TEST_CASE("a text that the edge of the page would cut moves in, or takes more lines") {
+  Picture picture = empty();
+  for (const std::string& text : {std::string("the edge of the page"), kSentence}) {
+    CAPTURE(text);
+    picture.labels = {textAt(100.0, 300.0, text)};
+    const double whole = inkOn(picture);
+    for (const Label& label :
+         {textAt(1270.0, 300.0, text), textAt(900.0, 300.0, text), textAt(100.0, 719.0, text),
+          textAt(100.0, 0.0, text), textAt(1270.0, 719.0, text),
+          textAt(20.0, 300.0, text, Align::Right), textAt(1250.0, 300.0, text, Align::Centre),
+          textBeside(1260.0, 300.0, text), textBeside(900.0, 715.0, text)}) {
+      CAPTURE(label.offset.x(), label.offset.y(), label.anchor.has_value());
+      picture.labels = {label};
+      CHECK(inkOn(picture) == Approx(whole).epsilon(0.03));
+      picture.labels[0].apart = true;
+      CHECK((!label.anchor || inkOn(picture) > 0.97 * whole));
+    }
+  }
+  // What goes with a point that leaves the page leaves it, too.
+  picture.labels = {textBeside(-60.0, 300.0, "the edge of the page")};
+  const double part = inkOn(picture);
+  picture.labels = {textBeside(100.0, 300.0, "the edge of the page")};
+  CHECK(part > 0.0);
+  CHECK(part < 0.8 * inkOn(picture));
+}
+
+TEST_CASE("lines of a text on the page keep others off") {
+  Picture picture = empty();
+  picture.labels = {textAt(900.0, 300.0, kSentence)};
+  const double one = inkOn(picture);
+  picture.labels.push_back(textBeside(892.0, 317.0, "at a point"));
+  const double both = inkOn(picture);
+  picture.labels.erase(picture.labels.begin());
+  CHECK(both == Approx(one + inkOn(picture)).epsilon(0.03));
+}
+
+TEST_CASE("the words of a mark near an edge of the page are all there") {
+  Picture picture = empty();
+  const auto mark = [](double x, double y) {
+    return Mark{{(x - 640.0) / 180.0, (360.0 - y) / 180.0, 0.0}, {"t = 0.2345 s", "j = 1.234 N s"}};
+  };
+  picture.marks = {mark(640.0, 360.0)};
+  const double whole = inkOn(picture);
+  for (const auto& [x, y] :
+       {std::pair(12.0, 360.0), {1268.0, 360.0}, {640.0, 700.0}, {1268.0, 700.0}}) {
+    CAPTURE(x, y);
+    picture.marks = {mark(x, y)};
+    CHECK(inkOn(picture) == Approx(whole).epsilon(0.08));
+  }
+}
+
+TEST_CASE("a colour bar has its words on a page that is narrower than they are with it") {
+  Picture picture = empty();
+  picture.bar = {
+      "speed / m/s", {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}, 0.0, 2.0, {0.0, 1.0, 2.0}};
+  const RenderOptions narrow{.width = 240, .height = 720};
+  const Image page = studio().draw(empty(), narrow), image = studio().draw(picture, narrow);
+  int left = 240, right = 0, above = 0;
+  for (int y = 0; y < 720; ++y)
+    for (int x = 0; x < 240; ++x) {
+      if (brightness(image, x, y) > brightness(page, x, y) - 30.0) continue;
+      left = std::min(left, x), right = std::max(right, x);
+      above += y < 670;
+    }
+  CHECK(left > 20);
+  CHECK(right < 220);
+  CHECK(above > 100);
+}
