@@ -111,6 +111,12 @@ bool Fonts::has(Face face, char32_t letter) const {
                               static_cast<int>(letter)) != 0;
 }
 
+bool Fonts::knows(char32_t letter) const {
+  for (const Face face : {Face::Regular, Face::Bold, Face::Italic})
+    if (find(face, letter).index == 0) return false;
+  return true;
+}
+
 /// A glyph at its place in a line; the box is its ink on the image [px].
 struct Fonts::Placed {
   Glyph glyph;

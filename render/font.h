@@ -37,6 +37,8 @@ class Fonts {
 
   /// Whether the glyph comes from a face itself, and not from the fallback.
   bool has(Face face, char32_t letter) const;
+  /// Whether no face draws a box for it.
+  bool knows(char32_t letter) const;
 
  private:
   struct Font;

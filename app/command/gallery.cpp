@@ -8,6 +8,7 @@
 
 #include "app/command/command.h"
 #include "app/command/gallery_page.h"
+#include "app/command/letters.h"
 #include "app/command/options.h"
 #include "app/command/progress.h"
 #include "app/command/run.h"
@@ -50,6 +51,7 @@ int exhibit(const Options& options, const std::string& asked, Studio& studio,
             std::vector<Exhibit>& exhibits) {
   Exhibit& shown = exhibits.emplace_back();
   shown.scene = load({asked, options.overrides});
+  noteLackingLetters(shown.scene);
   const Scene& scene = shown.scene;
   const std::string& name = scene.name;
   makeFolder(options.folder);  // a scene that is refused, or given up meanwhile, leaves none

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/command/command.h"
+#include "app/command/letters.h"
 #include "app/command/options.h"
 #include "app/command/progress.h"
 #include "app/file/data.h"
@@ -79,6 +80,7 @@ std::vector<Subject> scenesOf(const std::vector<std::string>& asked) {
   std::map<std::string, std::string> files;
   for (const std::string& name : asked) {
     Scene scene = load({name, {}});
+    noteLackingLetters(scene);
     const auto [other, isNew] = files.emplace(scene.name, scene.file);
     if (!isNew)
       throw UsageError(fmt::format("'{}' and '{}' would both keep goldens as '{}'", other->second,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/command/command.h"
+#include "app/command/letters.h"
 #include "app/command/options.h"
 #include "app/command/progress.h"
 #include "app/command/run.h"
@@ -138,6 +139,7 @@ int render(int argc, char** argv) {
                          !options.sheet && !options.panels && !options.events &&
                          options.video.empty();
   if (options.jobs == 1 && !pageAlone) studio.open();
+  if (!pageAlone) noteLackingLetters(scene);
   Shoot shoot(scene, options.folder, studio);
   if (options.masks) shoot.withMasks();
   std::vector<std::string> written;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/command/command.h"
+#include "app/command/letters.h"
 #include "app/command/options.h"
 #include "app/command/progress.h"
 #include "app/command/run.h"
@@ -34,6 +35,7 @@ int sweep(int argc, char** argv) {
   if (folder.empty()) folder = "out/" + scene.name;
   makeFolder(folder);
 
+  noteLackingLetters(scene);
   Studio studio;
   studio.open();
   const SweepResult result = runSweep(scene, folder, part, studio);

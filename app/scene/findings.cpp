@@ -1,6 +1,7 @@
 #include "app/scene/findings.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -68,6 +69,14 @@ void Findings::complain(Spot spot, const std::string& key, const std::string& wh
   if (!key.empty()) faulty_.emplace_back(at, key);
   diagnostics_.push_back({at, key.empty() ? what : key + ": " + what});
   if (diagnostics_.size() >= kMostComplaints) raise();
+}
+
+void Findings::noteWording(Spot spot, const std::string& key, const std::string& text) {
+  constexpr std::string_view kShown[] = {"title", "subtitle", "text", "label", "axis", "across"};
+  const std::string last = key.substr(key.rfind('.') + 1);
+  if (std::find(std::begin(kShown), std::end(kShown), last) == std::end(kShown)) return;
+  if (std::any_of(text.begin(), text.end(), [](char c) { return (c & 0x80) != 0; }))
+    wordings_.push_back({place(spot), key, text});
 }
 
 void Findings::raise() {

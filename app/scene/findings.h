@@ -24,6 +24,9 @@ class Findings {
   /// Remembers the first place of a path into the world ("bodies[3].mass").
   void note(const std::string& where, Spot spot) { places_.emplace(where, place(spot)); }
 
+  /// Remembers a text that pictures show, if a font may lack letters of it.
+  void noteWording(Spot spot, const std::string& key, const std::string& text);
+
   /// The key of the first mesh that was asked for in these words and refused; "" if none was.
   std::string& refusedMesh(const std::string& words) { return refusedMeshes_[words]; }
 
@@ -32,6 +35,7 @@ class Findings {
 
   std::size_t count() const { return diagnostics_.size(); }
   std::map<std::string, Place> takePlaces() { return std::move(places_); }
+  std::vector<Wording> takeWordings() { return std::move(wordings_); }
 
   /// @throws SceneError with all complaints in the order of their places, if there are any.
   void raise();
@@ -43,6 +47,7 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::pair<Place, std::string>> faulty_;  // keys, each with where it stands
   std::map<std::string, Place> places_;
+  std::vector<Wording> wordings_;
   std::map<std::string, std::string> refusedMeshes_;  // keys, by the words that asked for them
 };
 

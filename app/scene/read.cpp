@@ -73,6 +73,7 @@ Scene readTree(const Node& tree, Findings& findings) {
   root.finish();
   findings.raise();
   scene.places = findings.takePlaces();
+  scene.wordings = findings.takeWordings();
   if (!scene.expects.empty() || !scene.graphs.empty()) scene.numbers = numbersOf(tree);
   return scene;
 }

@@ -22,6 +22,12 @@ struct Place {
   int line = 0, column = 0;
 };
 
+/// A text for pictures, as it was written. The fonts may lack some of its letters.
+struct Wording {
+  Place place;
+  std::string key, text;
+};
+
 /// One complaint: where, what was expected, what to do.
 struct Diagnostic {
   Place place;
@@ -179,6 +185,7 @@ struct Scene {
   std::vector<PanelDef> panels;
   std::vector<GraphDef> graphs;
   std::vector<ChartDef> charts;
+  std::vector<Wording> wordings;  ///< texts of pictures with letters beyond ASCII
   std::map<std::string, double>
       numbers;  ///< of the text, by key; kept where formulas may read them
   std::map<std::string, Place>

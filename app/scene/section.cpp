@@ -46,6 +46,7 @@ bool readNumber(const Node& node, const std::string& key, const Range& range, Fi
 bool readText(const Node& node, const std::string& key, Findings& findings, std::string& out) {
   if (const std::string* text = node.as<std::string>()) {
     out = *text;
+    findings.noteWording(node.spot, key, *text);
     return true;
   }
   findings.complain(node.spot, key, "expected a string in quotes, found " + describe(node));
