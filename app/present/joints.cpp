@@ -310,8 +310,9 @@ void addJointForces(const Scene& scene, const Sample& sample, double metresPerNe
         none ? base : Vec3(base + metresPerNewton * std::min(1.0, most / size) * force);
     if (!none) picture.arrows.push_back({base, tip, colour, 2.6f});
     const double shown = none ? 0.0 : up ? size : -size;
-    // At its foot: where it ends may be another body.
+    // At its foot: where it ends may be another body. Off bodies, if near by there is room.
     addLabel(base, {-16.0, 5.0}, Align::Right, newtons(shown), colour, picture);
+    picture.labels.back().apart = true;
   }
   if (scene.show.contact_forces) addPairForces(sample, metresPerNewton, picture);
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "app/present/present.h"
+#include "render/label_places.h"
+#include "render/silhouette.h"
 #include "tests/catch.h"
 
 using namespace tumble;
@@ -107,4 +109,47 @@ kind = "distance"
   REQUIRE(picture.arrows.size() == 1);
   CHECK((picture.arrows[0].base - Vec3(0, 1, 0)).norm() < 1e-6);
   CHECK(picture.arrows[0].tip.y() > 1.05);
+}
+
+// Oracle: the silhouette of the rod. Left of its right end, where the number wants to be, is the
+// rod.
+TEST_CASE("the number of a joint at the end of a flat rod stands off the rod") {
+  const Scene scene = parseScene(R"([world]
+duration = 0.1
+[[body]]
+name = "rod"
+shape = { box = [2, 0.08, 0.3] }
+mass = 2.0
+position = [0, 1, 0]
+[[body]]
+name = "post"
+shape = { box = [0.1, 1.0, 0.1] }
+fixed = true
+position = [0, 0, 0]
+[show]
+joint_forces = true
+[[joint]]
+a = "rod"
+kind = "ball"
+anchor = [-1, 1, 0]
+[[joint]]
+a = "rod"
+kind = "ball"
+anchor = [1, 1, 0]
+)",
+                                 "rod");
+  const Recording recording = record(scene, 60.0);
+  const Picture picture = Presenter(scene, recording).image(2);
+  const Projection projection(picture.camera, 1280.0, 720.0);
+  LabelPlaces places({1280.0, 720.0});
+  for (const Instance& body : picture.instances) places.cover(*silhouetteOf(body, projection));
+  const Silhouette rod = *silhouetteOf(picture.instances.at(0), projection);
+  REQUIRE(picture.labels.size() == 2);
+  for (const Label& label : picture.labels) {
+    CHECK(label.text == "9.810 N");
+    const Eigen::Vector2d anchor = projection.project(*label.anchor)->head<2>();
+    const auto place = places.place(label, anchor, 55.0);
+    REQUIRE(place);
+    CHECK_FALSE(rod.meets(inkOf(place->pen, 55.0, label.size, label.align)));
+  }
 }
