@@ -32,13 +32,6 @@ double roundest(double low, double high) {
   }
 }
 
-std::string raised(int power) {
-  constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text;
-  for (const char c : std::to_string(power)) text += c == '-' ? "⁻" : kRaised[c - '0'];
-  return text;
-}
-
 /// All digits of a number > 0 of at most 15: "1234.5678", "3 × 10⁹".
 std::string allDigits(double value) {
   const int power = powerOf(value, value);
@@ -48,6 +41,13 @@ std::string allDigits(double value) {
 }
 
 }  // namespace
+
+std::string raised(int power) {
+  constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char c : std::to_string(power)) text += c == '-' ? "⁻" : kRaised[c - '0'];
+  return text;
+}
 
 int powerOf(double size, double step) {
   constexpr double kLargest = 1e7, kFinest = 0.99e-5;  // of numbers and steps: seven digits

@@ -24,6 +24,9 @@ struct Tick {
 /// them.
 int powerOf(double size, double step);
 
+/// A whole number as an exponent: "⁻⁶".
+std::string raised(int power);
+
 /// How a number comes of what stands along an axis: "(× 10⁻⁶ + 1234.5)"; "" if it stands there.
 std::string factorText(int power, double offset);
 

@@ -289,6 +289,8 @@ TEST_CASE("numbers have four digits, zeros too") {
   CHECK(fourDigits(-245.25) == "−245.2");
   CHECK(fourDigits(1177.2) == "1177");
   CHECK(fourDigits(25184.0) == "25180");
+  CHECK(fourDigits(2.4525e9) == "2.452 × 10⁹");
+  CHECK(fourDigits(-9.81e-7) == "−9.810 × 10⁻⁷");
 }
 
 TEST_CASE("numbers of claims are written as they are printed") {
