@@ -15,7 +15,7 @@ namespace {
 constexpr double kCoarse = 1e-3;         // of the size: from this tolerance on, cuts are anywhere
 constexpr double kSnap = 2e-6;           // of the size: corners no further from a cut are on it
 constexpr double kRoughSnap = 2.0;       // of the grain: the same, if corners are rounded
-constexpr long kFewWork = 20'000'000;    // triangles looked at, whatever the mesh,
+constexpr long kFewWork = 8'000'000;     // triangles looked at, whatever the mesh,
 constexpr long kFaceWork = 10'000;       // and for each of its faces
 constexpr long kMostWork = 50'000'000;   // where cuts are at notches alone
 constexpr long kTrialWork = 16'000'000;  // to see which of two ways makes fewer
