@@ -200,13 +200,14 @@ TEST_CASE("stepping: a crowd is one, whatever joints there are elsewhere") {
 }
 
 // Oracle: the plan of the preset, and the certificate. A ball on a chain swings into a wall of
-// bricks: their island is swept as that of any crowd, and its joints hold. Measured 155 to 255
-// islands, gaps of 1e-12 m, balances of 1e-5.
+// bricks: their island is swept as that of any crowd, and its joints hold. Measured 66 to 82
+// islands, gaps of 1e-10 m, balances of 5e-4, and 4 mJ of 1,157 J that chains gain as they swing;
+// 15 mJ where what sweeps leave to contacts may be more than there was.
 TEST_CASE("stepping: a crowd that joints hold a part of is swept, and the joints hold") {
   constexpr int kLinks = 3, kRows = 5, kColumns = 3;
   constexpr double kLink = 0.3, kRadius = 0.2;
   const std::string preset = GENERATE("auto", "fast", "draft");
-  WorldDef def = worldOf("stepping", 0.6, {ground(0.2, 0.5)});
+  WorldDef def = worldOf("stepping", 0.8, {ground(0.2, 0.5)});
   const Vec3 top(0.0, 1.5, 0.0);
   for (int k = 0; k <= kLinks; ++k) {
     BodyDef body = ball("link." + std::to_string(k), k < kLinks ? 0.04 : kRadius,
@@ -221,9 +222,12 @@ TEST_CASE("stepping: a crowd that joints hold a part of is swept, and the joints
     def.bodies.push_back(body);
   }
   for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kColumns; ++column)
-      def.bodies.push_back(box("brick." + std::to_string(def.bodies.size()), {0.1, 0.1, 0.15},
-                               {0.35, 0.1 + 0.2 * row, 0.3 * column - 0.3}, 0.2, 0.5));
+    for (int column = 0; column < kColumns; ++column) {
+      const double shift = row % 2 == 1 ? 0.07 : -0.07;
+      def.bodies.push_back(box("brick." + std::to_string(def.bodies.size()), {0.2, 0.2, 0.3},
+                               {0.35, 0.1 + 0.2 * row, 0.3 * column - 0.3 + shift}, 0.2, 0.5));
+      def.bodies.back().mass = 9.6;
+    }
   def.stepping.take(*findSolverPreset(preset));
   World world(def);
   run(world);
@@ -233,8 +237,9 @@ TEST_CASE("stepping: a crowd that joints hold a part of is swept, and the joints
   CHECK_FALSE(world.report().stopped);
   CHECK(world.report().disagreements.empty());
   CHECK(books.islands_rough > 30);
-  CHECK(books.max_joint_gap < 1e-10);
-  CHECK(books.energy_balance_error < 1e-4);
+  CHECK(books.max_joint_gap < 1e-9);
+  CHECK(books.max_energy_gain < 6e-3);
+  CHECK(books.energy_balance_error < 2e-3);
 }
 
 // Oracle: what has nowhere to go stands, and nothing is asked anew where nothing changes. Bricks in

@@ -9,12 +9,19 @@
 #include "sim/contact/impact.h"
 #include "sim/method/stepping/stepping.h"
 #include "sim/problem/cone.h"
+#include "sim/problem/equalities.h"
 #include "sim/problem/row.h"
 
 namespace tumble {
 namespace {
 
 constexpr std::size_t kSmall = 128;  ///< contacts that cost little to be solved to the end
+
+/// The largest s from 0 to 1 with  s slope + ½ s² curvature ≤ most.
+double mostAlong(double slope, double curvature, double most) {
+  return std::clamp((std::sqrt(slope * slope + 2.0 * curvature * most) - slope) / curvature, 0.0,
+                    1.0);
+}
 
 }  // namespace
 
@@ -183,10 +190,43 @@ bool Stepping::keepFromGaining(Island& island, double h) {
             (body.invM * body.force.squaredNorm() + body.torque.dot(body.Iinv * body.torque));
   }
   if (slope + 0.5 * curvature <= fall) return false;
-  const double part =
-      std::clamp((std::sqrt(slope * slope + 2.0 * curvature * fall) - slope) / curvature, 0.0, 1.0);
+  if (isBonded(island)) return pushLess(island, fall);
+  const double part = mostAlong(slope, curvature, fall);
   for (double& lambda : solution.lambda) lambda *= part;
   velocitiesFromLambda(problem, solution.lambda, solution.v);
+  return true;
+}
+
+/// The same between λ₀, which joints need where nothing pushes, and the λ found: joints hold all
+/// the way, as their u is linear in λ.
+bool Stepping::pushLess(Island& island, double fall) {
+  constexpr int kAgain = 2;
+  thread_local Equalities joints;
+  Solution &found = island.solution, &alone = island.alone;
+  const Problem& problem = island.problem;
+  if (!joints.factor(problem, LeastSquares::kDependent)) return false;
+  alone.lambda.assign(problem.rows.size(), 0.0);
+  alone.v.resize(problem.vStar.size());
+  for (int k = 0; k < kAgain; ++k) joints.solve(problem, alone.lambda);
+  velocitiesFromLambda(problem, alone.lambda, alone.v);
+  double slope = 0.0, curvature = 0.0;
+  for (std::size_t r = 0; r < problem.rows.size(); ++r) {
+    const Row& row = problem.rows[r];
+    const auto speed = [&](std::span<const Vec6> v) { return rowSpeed(row, v[row.a], v[row.b]); };
+    const double before =
+        rowSpeed(row, work_.before[island.bodies[row.a]], work_.before[island.bodies[row.b]]);
+    const double given = speed(alone.v) - speed(problem.vStar),
+                 more = found.lambda[r] - alone.lambda[r];
+    fall -= alone.lambda[r] * (before + 0.5 * given);
+    slope += more * (before + given);
+    curvature += more * (speed(found.v) - speed(alone.v));
+  }
+  fall = std::max(fall, 0.0);
+  if (slope + 0.5 * curvature <= fall) return false;
+  const double part = mostAlong(slope, curvature, fall);
+  for (std::size_t r = 0; r < problem.rows.size(); ++r)
+    found.lambda[r] = alone.lambda[r] + part * (found.lambda[r] - alone.lambda[r]);
+  velocitiesFromLambda(problem, found.lambda, found.v);
   return true;
 }
 
@@ -279,18 +319,13 @@ SolveReport Stepping::solveRough(Island& island, double tolerance, double h) {
           ->solve(island.problem,
                   {.tolerance = tolerance, .maxIterations = stepping.crowdIterations},
                   island.solution);
-  const auto anew = [&] {
+  if (solved.status != SolveStatus::Solved &&
+      (isLed(island) || isFarOff(island, solved, tolerance) || isOpened(island, tolerance))) {
     island.solution.lambda.clear();
     return solveFine(island);
-  };
-  if (solved.status != SolveStatus::Solved &&
-      (isLed(island) || isFarOff(island, solved, tolerance) || isOpened(island, tolerance)))
-    return anew();
-  if (keepFromGaining(island, h)) {
-    // Less of all forces is not what joints need.
-    if (isBonded(island)) return anew();
-    solved.residual = naturalResidual(island.problem, island.solution, solved.scale);
   }
+  if (keepFromGaining(island, h))
+    solved.residual = naturalResidual(island.problem, island.solution, solved.scale);
   return solved;
 }
 

@@ -87,6 +87,7 @@ struct Island {
   std::vector<double> pull;        ///< as SolveSettings::pull
   std::vector<Vec3> side;          ///< [N s] per body of a problem of what bends
   Solution solution, before;       ///< and that of the round before
+  Solution alone;                  ///< what joints need without contacts
 
   std::vector<Stance> stances;       ///< of a pair, point by point
   std::vector<const Stance*> faces;  ///< the nearest of each normal

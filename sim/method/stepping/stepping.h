@@ -269,6 +269,7 @@ class Stepping {
   /// The part of λ that takes most energy, where the whole of it would add some.
   /// @return whether that was so
   bool keepFromGaining(Island& island, double h);
+  bool pushLess(Island& island, double fall);
   /// The rebound [m/s] up to which a touch is a contact that lasts: what a solver leaves is none.
   double leastRebound(const Touch& touch, double least) const;
 
