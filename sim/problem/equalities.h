@@ -18,7 +18,7 @@ class Equalities {
   /// @param dependent  SolveSettings::dependent
   /// @return whether λ can be found; not where too many depend on each other
   bool factor(const Problem& problem, double dependent);
-  std::size_t count() const { return places_.size(); }  ///< of their rows
+  bool depend() const { return dependent_; }  ///< whether some follow from others
 
   /// Changes the λ of the equalities such that their u = 0, to what rounding leaves: again it is
   /// less. @param lambda  per row of the problem that was factored

@@ -76,7 +76,8 @@ bool Sweeper::findEqualities(const Problem& problem, double dependent) {
     if (problem.rows[cone.row].compliance > 0.0) return false;
     ++rows;
   }
-  return rows > 1 && rows <= kMost && equalities_.factor(problem, dependent);
+  return rows > 1 && rows <= kMost && equalities_.factor(problem, dependent) &&
+         !equalities_.depend();
 }
 
 /// A sweep there and one back: a symmetric iteration. Returns the largest change.
