@@ -104,6 +104,9 @@ class Audit {
   void addTurns();
   double workOfFixed(int root) const;
   double workOfSeveral(int root) const;
+  bool isLed(const Group& group) const {
+    return group.unlike || (group.fixed != kNoBody && !still(group.fixed));
+  }
   void settle();
   void book(int root, double given);
   int rootOf(int body);

@@ -433,7 +433,7 @@ void Audit::settle() {
     if (!moves(i)) continue;
     const int root = rootOf(i);
     const Group& g = groups_[root];
-    const bool led = g.unlike || (g.fixed != kNoBody && !still(g.fixed));
+    const bool led = isLed(g);
     bool known = !g.lost && !(g.unlike && g.torn) && !g.springy && !(led && g.vague);
     if (many_) known = known && stored_ && (winds_ || !led);
     quiet_ = quiet_ && g.held && !led && known;

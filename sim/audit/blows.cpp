@@ -21,9 +21,8 @@ bool Audit::isOpen() const {
   if (!struck_) return false;
   return std::any_of(groups_.begin(), groups_.end(), [&](const Group& g) {
     if (g.count == 0 || g.lost) return false;
-    const bool led = g.unlike || (g.fixed != kNoBody && !still(g.fixed));
     const bool spun = !g.vague && g.L.norm() > kAccount * spinMax_;
-    return (!led && g.gain > kAccount * kineticMax_) ||
+    return (!isLed(g) && g.gain > kAccount * kineticMax_) ||
            (!g.held && !g.unseen && (spun || g.P.norm() > kAccount * momentumMax_));
   });
 }

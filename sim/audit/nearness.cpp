@@ -158,7 +158,7 @@ bool Nearness::seeFarther(const Part& part, std::span<const double> way) {
   const std::size_t before = touched_.size();
   for (Known& pair : pairs_) {
     const double reach = way[pair.a] + way[pair.b] + part.net[pair.a] + part.net[pair.b];
-    if (pair.touched || pair.gap - (moved_[pair.a] + moved_[pair.b] - pair.moved) > reach) continue;
+    if (pair.touched || gapNow(pair) > reach) continue;
     look(pair, part);
     if (pair.gap <= reach) touch(pair);
   }
@@ -166,7 +166,7 @@ bool Nearness::seeFarther(const Part& part, std::span<const double> way) {
 }
 
 void Nearness::see(Known& pair, const Part& part) {
-  const double now = pair.gap - (moved_[pair.a] + moved_[pair.b] - pair.moved);
+  const double now = gapNow(pair);
   const double net = part.net[pair.a] + part.net[pair.b], near = kTouch * smaller(pair);
   double way = part.way[pair.a] + part.way[pair.b];
   // In many parts bodies may have been anywhere that they were not to leave unseen.

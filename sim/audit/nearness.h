@@ -71,6 +71,10 @@ class Nearness {
   double gapOf(Known& pair, const Pose& a, const Pose& b);
   void lookOnTheWay(Known& pair, const Part& part);
   double smaller(const Known& pair) const;
+  /// Gap [m] at the end of the part at hand, or less.
+  double gapNow(const Known& pair) const {
+    return pair.gap - (moved_[pair.a] + moved_[pair.b] - pair.moved);
+  }
 
   double depthAt(double t, Known& pair, const Part& part);
   /// A pose, and how far [m] points of the body may be from where it has them.
