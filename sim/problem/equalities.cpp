@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-bool Equalities::factor(const Problem& problem, double dependent) {
+bool Equalities::factorRegular(const Problem& problem, double dependent) {
   constexpr double kSingular = 1e-7;  // of the root of a diagonal entry
   places_.clear();
   for (const Cone& cone : problem.cones)
@@ -25,12 +25,18 @@ bool Equalities::factor(const Problem& problem, double dependent) {
   L = A;
   const Eigen::LLT<Eigen::Ref<MatX>> factor(L);  // in its place
   const auto pivots = L.diagonal().array();
-  const bool regular =
-      factor.info() == Eigen::Success &&
-      (pivots > std::max(kSingular, std::sqrt(dependent)) * A.diagonal().array().sqrt()).all();
-  if (!regular && rows > kMostDependent) return false;
-  dependent_ = regular ? nullptr : &leastOfSize_[rows];
-  if (!dependent_) return true;
+  dependent_ = nullptr;
+  return factor.info() == Eigen::Success &&
+         (pivots > std::max(kSingular, std::sqrt(dependent)) * A.diagonal().array().sqrt()).all();
+}
+
+bool Equalities::factor(const Problem& problem, double dependent) {
+  if (factorRegular(problem, dependent)) return true;
+  const std::size_t rows = places_.size();
+  const auto n = static_cast<Eigen::Index>(rows);
+  if (rows > kMostDependent) return false;
+  Eigen::Map<MatX> A(A_.data(), n, n);
+  dependent_ = &leastOfSize_[rows];
   for (Eigen::Index i = 0; i < n; ++i) {  // by forces, in whatever units torques are
     const double arm = arms_[i] = rowArm(problem, problem.rows[places_[i]]);
     A.row(i) *= arm;

@@ -18,7 +18,8 @@ class Equalities {
   /// @param dependent  SolveSettings::dependent
   /// @return whether λ can be found; not where too many depend on each other
   bool factor(const Problem& problem, double dependent);
-  bool depend() const { return dependent_; }  ///< whether some follow from others
+  /// The same, only if no row depends on others.
+  bool factorRegular(const Problem& problem, double dependent);
 
   /// Changes the λ of the equalities such that their u = 0, to what rounding leaves: again it is
   /// less. @param lambda  per row of the problem that was factored

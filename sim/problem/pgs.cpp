@@ -76,8 +76,7 @@ bool Sweeper::findEqualities(const Problem& problem, double dependent) {
     if (problem.rows[cone.row].compliance > 0.0) return false;
     ++rows;
   }
-  return rows > 1 && rows <= kMost && equalities_.factor(problem, dependent) &&
-         !equalities_.depend();
+  return rows > 1 && rows <= kMost && equalities_.factorRegular(problem, dependent);
 }
 
 /// A sweep there and one back: a symmetric iteration. Returns the largest change.
