@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/canvas.h"
+#include "render/heading.h"
 #include "render/overlay.h"
 #include "render/svg.h"
 
@@ -33,10 +34,7 @@ const Drawing::TextStyle kCaption{14.0, Face::Regular, Align::Left, ink::text};
 const Drawing::TextStyle kLabel{14.0, Face::Bold, Align::Left, ink::text};
 const Drawing::TextStyle kNote{12.5, Face::Regular, Align::Left, ink::secondary};
 
-const Drawing::TextStyle kTitle{22.0, Face::Bold, Align::Left, ink::text};
-const Drawing::TextStyle kSubtitle{15.0, Face::Regular, Align::Left, ink::secondary};
-// [px] from line to line of each, and the least type that is read.
-constexpr double kTitleLine = 26.0, kSubtitleLine = 19.0, kCaptionLine = 17.0, kLegible = 10.0;
+constexpr double kCaptionLine = 17.0;  // from line to line of a caption [px]
 
 Drawing::TextStyle aligned(Drawing::TextStyle style, Align align) {
   style.align = align;
@@ -159,16 +157,11 @@ class Plot {
   Plot(const Chart& chart, Drawing& canvas)
       : chart_(chart),
         canvas_(canvas),
-        title_(canvas.fitted(chart.title, canvas.width() - 2.0 * kMargin, headLines(), kTitle,
-                             kLegible)),
-        subtitle_(canvas.fitted(chart.subtitle, canvas.width() - 2.0 * kMargin, headLines(),
-                                kSubtitle, kLegible)),
+        heading_(canvas, chart.title, chart.subtitle, canvas.width() - 2.0 * kMargin, headLines()),
         legend_(legendWidth()),
         right_(canvas.width() - kMargin -
                (legend_ > 0.0 ? kLegendGap + kLegendText + legend_ : 0.0)),
-        head_(chart.title.empty()
-                  ? 48.0
-                  : 120.0 + title_.below(kTitleLine) + subtitle_.below(kSubtitleLine)),
+        head_(chart.title.empty() ? 48.0 : 120.0 + heading_.below()),
         foot_(canvas.height() - 58.0),
         xCaption_(xCaption(Scale(chart.x, valuesOf(0), kLeft, right_, 64.0), captionLines())),
         yCaption_(yCaption(Scale(chart.y, valuesOf(1), foot_, head_, 40.0), captionLines())),
@@ -189,8 +182,7 @@ class Plot {
     for (const ChartCurve& curve : chart_.curves) drawLine(curve);
     for (std::size_t i = 0; i < chart_.curves.size(); ++i) drawMarks(i);
     drawLegend();
-    canvas_.text({kMargin, 46.0}, title_, kTitleLine, kTitle);
-    canvas_.text({kMargin, 70.0 + title_.below(kTitleLine)}, subtitle_, kSubtitleLine, kSubtitle);
+    heading_.draw(kMargin, canvas_);
   }
 
  private:
@@ -396,7 +388,7 @@ class Plot {
 
   const Chart& chart_;
   Drawing& canvas_;
-  Drawing::Words title_, subtitle_;
+  Heading heading_;
   double legend_, right_;
   double head_, foot_;  // of the plot, if each caption is one line [px]
   Drawing::Words xCaption_, yCaption_;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "render/axis.h"
+#include "render/heading.h"
 #include "render/overlay.h"
 
 namespace tumble {
@@ -67,7 +68,8 @@ void drawColourBar(const ColourBar& bar, Canvas& canvas) {
   const bool beside = canvas.textWidth(caption, captionStyle) < left - 15.0;
   const Eigen::Vector2d pen = beside ? Eigen::Vector2d(left - 9.0, top + height - 1.0)
                                      : Eigen::Vector2d(left + width, top - 8.0);
-  canvas.text(pen, canvas.fitted(caption, pen.x() - 6.0, 1, captionStyle, 10.0), 0.0, captionStyle);
+  canvas.text(pen, canvas.fitted(caption, pen.x() - 6.0, 1, captionStyle, kLegible), 0.0,
+              captionStyle);
 }
 
 }  // namespace tumble

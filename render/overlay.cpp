@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/heading.h"
 #include "render/label_places.h"
 #include "render/lines.h"
 
@@ -49,8 +50,7 @@ void drawDots(const Polyline& line, double size, const Projection& projection, C
   for (const Vector2d& bead : beads) canvas.disc(bead, kDotRadius * grow, line.colour);
 }
 
-constexpr double kEdge = 6.0;      // [px] of the page, that no words come nearer to
-constexpr double kLegible = 10.0;  // [px] of type
+constexpr double kEdge = 6.0;  // [px] of the page, that no words come nearer to
 
 bool isOn(const Vector2d& point, const Canvas& canvas) {
   return point.x() >= 0.0 && point.y() >= 0.0 && point.x() <= canvas.width() &&

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/canvas.h"
+#include "render/heading.h"
 
 namespace tumble {
 namespace {
@@ -15,12 +16,8 @@ using Eigen::Vector2d;
 constexpr int kMargin = 32, kGutter = 16;  // [px]
 // [px] of type: above the panels, of the first line below one, of each further line and below all.
 constexpr double kTop = 100.0, kFirst = 30.0, kLine = 20.0, kGap = 2.0, kFoot = 16.0;
-constexpr double kLetter = 20.0;  // [px] of type, room for the letter
-// [px] of type: from line to line of the title and of what is below it, and the least that is read.
-constexpr double kTitleLine = 26.0, kSubtitleLine = 19.0, kLegible = 10.0;
-constexpr std::size_t kMostLines = 4;
-const Canvas::TextStyle kTitle{22.0, Face::Bold, Align::Left, ink::text};
-const Canvas::TextStyle kSubtitle{15.0, Face::Regular, Align::Left, ink::secondary};
+constexpr double kLetter = 20.0;       // [px] of type, room for the letter
+constexpr std::size_t kMostLines = 4;  // of the title, and of the subtitle
 const Canvas::TextStyle kName{16.0, Face::Bold, Align::Left, ink::text};
 const Canvas::TextStyle kCaption{16.0, Face::Regular, Align::Left, ink::text};
 const Canvas::TextStyle kFinding{14.0, Face::Regular, Align::Left, ink::secondary};
@@ -100,12 +97,9 @@ Image drawSheet(std::span<const Panel> panels, int columns, const std::string& t
 
   // Words on as many lines as they take, rows as high as the longest words in them.
   Canvas rule(page, fonts, type);
-  const double room = (page.width - 2.0 * kMargin) / type;
-  const Drawing::Words head = rule.fitted(title, room, kMostLines, kTitle, kLegible),
-                       under = rule.fitted(subtitle, room, kMostLines, kSubtitle, kLegible);
+  const Heading heading(rule, title, subtitle, (page.width - 2.0 * kMargin) / type, kMostLines);
   std::vector<Words> words;
-  const double more = head.below(kTitleLine) + under.below(kSubtitleLine);
-  std::vector<int> tops = {static_cast<int>(std::lround(type * (kTop + more)))};
+  std::vector<int> tops = {static_cast<int>(std::lround(type * (kTop + heading.below())))};
   for (int first = 0; first < count; first += across) {
     double below = 0.0;
     for (int i = first; i < std::min(count, first + across); ++i) {
@@ -129,8 +123,7 @@ Image drawSheet(std::span<const Panel> panels, int columns, const std::string& t
     pixels.frame({left, top}, {image.width, image.height}, 1.0, ink::frame);
     drawWords(words[i], letter(i), Vector2d(left, top + height) / type, canvas);
   }
-  canvas.text({kMargin / type, 46.0}, head, kTitleLine, kTitle);
-  canvas.text({kMargin / type, 70.0 + head.below(kTitleLine)}, under, kSubtitleLine, kSubtitle);
+  heading.draw(kMargin / type, canvas);
   return page;
 }
 
