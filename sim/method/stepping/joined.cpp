@@ -71,6 +71,7 @@ bool Stepping::closeGaps(Island& island, bool crowd, double h, SolveReport& solv
   }
   for (int round = 0; round < kRounds && missed.way > kClosed * tolerance_.drift; ++round) {
     island.before = island.solution;
+    if (!island.solution.pull.empty()) island.pull = island.solution.pull;
     island.solution.lambda.clear();
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
       island.solution.v[i] = work_.before[island.bodies[i]];
