@@ -101,7 +101,7 @@ template <int N>
 void NewtonSystem<N>::guessPieces() {
   constexpr double kNearly = 1e-6;  // of the scale
   const double nearly = kNearly * scale;
-  forRows(&Mover::star, [&](Point& point, const Vec3& star) {
+  forRows(&Mover::star, [&](Point& point, const Three& star) {
     const bool holds = std::min(star[0] + point.bias[0], point.u[0]) < nearly;
     const bool slips = point.piece == Piece::Edge && std::hypot(point.u[1], point.u[2]) >= nearly;
     point.factored = holds && !slips ? Piece::Whole : point.piece;

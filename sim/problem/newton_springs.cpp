@@ -20,18 +20,33 @@ constexpr double kNoSlip = 1e-10;  ///< of the scale: slower slips are those of 
 }  // namespace
 
 template <int N>
-Vec3 NewtonSystem<N>::ofSpring(const Point& point, const Vec3& z, Piece& piece) const {
+Piece NewtonSystem<N>::ofSpring(const Point& point, const Vec3& z, Vec3& force) const {
   const double push = std::max(z[0], 0.0), limit = point.muTrue * push;
-  piece = Piece::Whole;
-  if (point.kind == ConeKind::Equality) return {yielding(point) * z[0], 0.0, 0.0};
-  if (z[0] < 0.0) piece = Piece::Zero;
-  if (point.kind == ConeKind::Push) return {push, 0.0, 0.0};
-  if (point.kind == ConeKind::Slide) return {push, -limit, 0.0};
-  if (piece == Piece::Zero) return Vec3::Zero();
+  const auto give = [&](double normal, double along, double across) {
+    force[0] = normal;
+    force[1] = along;
+    force[2] = across;
+  };
+  if (point.kind == ConeKind::Equality) {
+    give(yielding(point) * z[0], 0.0, 0.0);
+    return Piece::Whole;
+  }
+  const Piece piece = z[0] < 0.0 ? Piece::Zero : Piece::Whole;
+  if (point.kind != ConeKind::Friction) {
+    give(push, point.kind == ConeKind::Slide ? -limit : 0.0, 0.0);
+    return piece;
+  }
+  if (piece == Piece::Zero) {
+    give(0.0, 0.0, 0.0);
+    return piece;
+  }
   const double tangential = std::sqrt(z[1] * z[1] + z[2] * z[2]);
-  if (tangential <= limit) return z;
-  piece = Piece::Edge;
-  return {push, limit * z[1] / tangential, limit * z[2] / tangential};
+  if (tangential <= limit) {
+    give(z[0], z[1], z[2]);
+    return piece;
+  }
+  give(push, limit * z[1] / tangential, limit * z[2] / tangential);
+  return Piece::Edge;
 }
 
 /// ∂λ/∂z of a spring that holds.
@@ -56,8 +71,8 @@ bool NewtonSystem<N>::areOfSprings() const {
   double largest = 0.0, off = 0.0;
   for (const Point& point : points) {
     if (point.kind == ConeKind::Equality) continue;
-    Piece piece = Piece::Zero;
-    const Vec3 force = ofSpring(point, point.sum - rho * point.u, piece);
+    Vec3 force;
+    ofSpring(point, point.sum - rho * point.u, force);
     largest = std::max(largest, point.force.template lpNorm<Eigen::Infinity>());
     off = std::max(off, (force - point.force).template lpNorm<Eigen::Infinity>());
   }
@@ -250,7 +265,8 @@ double NewtonSystem<N>::expectSprings(double tolerance) {
   constexpr int kAtOnce = 2;  // factors: where more are needed, the usual way costs no more
   if (!expects_) return kInfinity;
   rho = kStiff * weight;
-  for (Point& point : points) ofSpring(point, point.pull, point.piece);
+  Vec3 force;
+  for (Point& point : points) point.piece = ofSpring(point, point.pull, force);
   startPressed();
   return endSprings(press(kAtOnce), tolerance);
 }

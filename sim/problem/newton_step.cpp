@@ -13,20 +13,24 @@ namespace tumble {
 template <int N>
 void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
   const double mu = point.mu;
+  const auto give = [&](double normal, double along, double across) {
+    point.force[0] = normal;
+    point.force[1] = along;
+    point.force[2] = across;
+  };
   if (springs_) {
-    point.force = ofSpring(point, z, point.piece);
+    point.piece = ofSpring(point, z, point.force);
     return;
   }
   switch (point.kind) {
     case ConeKind::Equality:
-      point.force = {yielding(point) * z[0], 0.0, 0.0};
+      give(yielding(point) * z[0], 0.0, 0.0);
       point.piece = Piece::Whole;
       return;
     case ConeKind::Slide:
     case ConeKind::Push:
       point.piece = z[0] >= 0.0 ? Piece::Whole : Piece::Zero;
-      point.force = {std::max(z[0], 0.0), 0.0, 0.0};
-      if (point.kind == ConeKind::Slide) point.force[1] = -mu * point.lambda[0];
+      give(std::max(z[0], 0.0), point.kind == ConeKind::Slide ? -mu * point.lambda[0] : 0.0, 0.0);
       return;
     case ConeKind::Friction:
       break;
@@ -34,21 +38,29 @@ void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
   const double tangential = std::sqrt(z[1] * z[1] + z[2] * z[2]);
   if (tangential <= mu * z[0]) {
     point.piece = Piece::Whole;
-    point.force = z;
+    give(z[0], z[1], z[2]);
   } else if (mu * tangential <= -z[0]) {
     point.piece = Piece::Zero;
-    point.force.setZero();
+    give(0.0, 0.0, 0.0);
   } else {
     point.piece = Piece::Edge;
     const double along = (z[0] + mu * tangential) / (1.0 + mu * mu);
     const double part = mu * along / tangential;
-    point.force = {along, part * z[1], part * z[2]};
+    give(along, part * z[1], part * z[2]);
   }
+}
+
+/// u at v.
+template <int N>
+void NewtonSystem<N>::takeRows() {
+  forRows(&Mover::v, [](Point& point, const Three& rows) {
+    for (int k = 0; k < 3; ++k) point.u[k] = rows[k] + point.bias[k];
+  });
 }
 
 template <int N>
 [[gnu::flatten]] void NewtonSystem<N>::look(bool slipFollows) {
-  forRows(&Mover::v, [](Point& point, const Vec3& rows) { point.u = rows + point.bias; });
+  takeRows();
   if (slipFollows) takeSlip(1.0);
   evaluate();
 }
@@ -64,15 +76,18 @@ void NewtonSystem<N>::gather(const Find& find) {
     Twist wrench = Twist::Zero(), back = Twist::Zero();
     for (int p = patch.begin; p < patch.end; ++p) {
       Point& point = points[p];
-      Vec3 z = point.lambda - rho * point.u;
-      z[0] -= rho * point.saxce;
-      find(point, z);
+      find(point, {point.lambda[0] - rho * point.u[0] - rho * point.saxce,
+                   point.lambda[1] - rho * point.u[1], point.lambda[2] - rho * point.u[2]});
       if (point.piece == Piece::Zero && point.kind != ConeKind::Slide) continue;
       wrench += timesForce(point, point.J);
       if (!patch.shares) back -= timesForce(point, others_[patch.other]);
     }
     if (patch.a >= 0) movers[patch.a].gradient -= wrench;
-    if (patch.b >= 0) movers[patch.b].gradient += patch.shares ? atCentreOfB(patch, wrench) : back;
+    if (patch.b < 0) continue;
+    if (patch.shares)
+      addAtCentreOfB(patch, wrench, movers[patch.b].gradient);
+    else
+      movers[patch.b].gradient += back;
   }
 }
 
@@ -97,7 +112,7 @@ void NewtonSystem<N>::obey() {
   ++factorizations;
   direction(H_);
   for (Mover& mover : movers) mover.v += mover.step;
-  forRows(&Mover::v, [](Point& point, const Vec3& rows) { point.u = rows + point.bias; });
+  takeRows();
   evaluateAsIs();
 }
 
@@ -117,7 +132,7 @@ template <int N>
   });
   direction(H_);
   for (Mover& mover : movers) mover.v += mover.step;
-  forRows(&Mover::v, [](Point& point, const Vec3& rows) { point.u = rows + point.bias; });
+  takeRows();
 }
 
 /// Where no contact sits between two pieces, the problem is linear, and what is left is rounding.
@@ -154,9 +169,11 @@ template <class Factor>
   factor.solve(work_);
   for (std::size_t i = 0; i < movers.size(); ++i) movers[i].step = work_[i];
   double largest = 0.0;
-  forRows(&Mover::step, [&](Point& point, const Vec3& rows) {
-    point.du = rows;
-    largest = std::max(largest, rows.lpNorm<Eigen::Infinity>());
+  forRows(&Mover::step, [&](Point& point, const Three& rows) {
+    for (int k = 0; k < 3; ++k) {
+      point.du[k] = rows[k];
+      largest = std::max(largest, std::abs(rows[k]));
+    }
   });
   return largest;
 }

@@ -333,8 +333,11 @@ template <int N>
       const Twist wrench = timesForce(points[p], points[p].J);
       work_[patch.a] += wrench.cwiseAbs();
       if (patch.b < 0) continue;
-      const Twist back =
-          patch.shares ? atCentreOfB(patch, wrench) : timesForce(points[p], others_[patch.other]);
+      Twist back = Twist::Zero();
+      if (patch.shares)
+        addAtCentreOfB(patch, wrench, back);
+      else
+        back = timesForce(points[p], others_[patch.other]);
       work_[patch.b] += back.cwiseAbs();
     }
   }

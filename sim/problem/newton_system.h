@@ -2,6 +2,7 @@
 // steps. Used by newton.cpp alone.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -117,6 +118,8 @@ class NewtonSystem {
   std::vector<Point> points;
 
  private:
+  using Three = std::array<double, 3>;
+
   /// Points, one after the other, between the same two bodies. Where rows act on b as on a but for
   /// the arm, they share the relative twist  w = va − X vb  of the bodies at the centre of a, by
   /// which  u = Jᵀ w + bias.
@@ -170,6 +173,7 @@ class NewtonSystem {
 
   // newton_step.cpp
   void takeSlip(double part);
+  void takeRows();
   void project(Point& point, const Vec3& z) const;
   template <class Find>
   void gather(const Find& find);
@@ -186,7 +190,7 @@ class NewtonSystem {
   bool shorten();
 
   // newton_springs.cpp
-  Vec3 ofSpring(const Point& point, const Vec3& z, Piece& piece) const;
+  Piece ofSpring(const Point& point, const Vec3& z, Vec3& force) const;
   Mat3 slopeOfSpring(const Point& point, const Vec3& z) const;
   void loosen();
   void startPressed();
@@ -199,17 +203,22 @@ class NewtonSystem {
   void assemblePressed();
   bool springsFit() const;
 
+  // What follows goes number by number: numbers that are written so and read in pairs, as vectors
+  // are, would be waited for.
+
   /// Gives `take` each point with Jᵀ of the twists of its bodies.
   template <class Take>
   void forRows(Twist Mover::*twist, const Take& take) {
     for (const Patch& patch : patches_) {
       Twist w = Twist::Zero();
       if (patch.a >= 0) w = movers[patch.a].*twist;
-      if (patch.b >= 0 && patch.shares) w -= atCentreOfA(patch, movers[patch.b].*twist);
+      if (patch.b >= 0 && patch.shares) subtractAtCentreOfA(patch, movers[patch.b].*twist, w);
       for (int p = patch.begin; p < patch.end; ++p) {
-        Vec3 rows = timesRows(points[p], points[p].J, w);
-        if (!patch.shares)
-          rows += timesRows(points[p], others_[patch.other], movers[patch.b].*twist);
+        Three rows = timesRows(points[p], points[p].J, w);
+        if (!patch.shares) {
+          const Three more = timesRows(points[p], others_[patch.other], movers[patch.b].*twist);
+          for (int k = 0; k < 3; ++k) rows[k] += more[k];
+        }
         take(points[p], rows);
       }
     }
@@ -218,25 +227,44 @@ class NewtonSystem {
   /// Part of λ − ρ u that a compliant row takes:  λ⁺ = (λ − ρ u)/(1 + ρ C).
   double yielding(const Point& point) const { return 1.0 / (1.0 + rho * point.compliance); }
   /// Jᵀ v.
-  static Vec3 timesRows(const Point& point, const Rows& J, const Twist& v) {
-    if (point.rows == 1) return {J.col(0).dot(v), 0.0, 0.0};
-    return {J.col(0).dot(v), J.col(1).dot(v), J.col(2).dot(v)};
+  static Three timesRows(const Point& point, const Rows& J, const Twist& v) {
+    const auto dot = [&](int k) {
+      const double* row = J.data() + k * N;
+      if constexpr (N == 3) return row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
+      return (row[0] * v[0] + (row[2] * v[2] + row[4] * v[4])) +
+             (row[1] * v[1] + (row[3] * v[3] + row[5] * v[5]));
+    };
+    if (point.rows == 1) return {dot(0), 0.0, 0.0};
+    return {dot(0), dot(1), dot(2)};
   }
   /// J times the force.
   static Twist timesForce(const Point& point, const Rows& J) {
     if (point.rows == 1) return J.col(0) * point.force[0];
     return J.lazyProduct(point.force);
   }
-  /// X vb.
-  static Twist atCentreOfA(const Patch& patch, Twist v) {
-    if constexpr (N == 6) v.template head<3>() += Vec3(v.template tail<3>()).cross(patch.arm);
-    return v;
+  /// w −= X vb.
+  static void subtractAtCentreOfA(const Patch& patch, const Twist& v, Twist& w) {
+    if constexpr (N == 6) {
+      const Vec3& arm = patch.arm;
+      w[0] -= v[0] + (v[4] * arm[2] - v[5] * arm[1]);
+      w[1] -= v[1] + (v[5] * arm[0] - v[3] * arm[2]);
+      w[2] -= v[2] + (v[3] * arm[1] - v[4] * arm[0]);
+      for (int i = 3; i < 6; ++i) w[i] -= v[i];
+    } else {
+      w -= v;
+    }
   }
-  /// Xᵀ times a wrench at the centre of a: the same about the centre of b.
-  static Twist atCentreOfB(const Patch& patch, Twist wrench) {
-    if constexpr (N == 6)
-      wrench.template tail<3>() += patch.arm.cross(Vec3(wrench.template head<3>()));
-    return wrench;
+  /// sum += Xᵀ times a wrench at the centre of a, the same about the centre of b.
+  static void addAtCentreOfB(const Patch& patch, const Twist& wrench, Twist& sum) {
+    if constexpr (N == 6) {
+      const Vec3& arm = patch.arm;
+      for (int i = 0; i < 3; ++i) sum[i] += wrench[i];
+      sum[3] += wrench[3] + (arm[1] * wrench[2] - arm[2] * wrench[1]);
+      sum[4] += wrench[4] + (arm[2] * wrench[0] - arm[0] * wrench[2]);
+      sum[5] += wrench[5] + (arm[0] * wrench[1] - arm[1] * wrench[0]);
+    } else {
+      sum += wrench;
+    }
   }
 
   std::vector<int> moverOf_;
