@@ -229,7 +229,7 @@ void Stepping::fallAsOne(Island& island, double h) {
   if (pushed) fallAsOne(island, h);
   IslandMemory& memory = memory_.islands[answer.head];
   island.memory = &memory;
-  if (pushed && isAnswered(island, h)) return answerAgain(island, h);
+  if (!bent && isAnswered(island, h)) return answerAgain(island, h);
   const bool sprung = bonded && isSprung(island),
              notSmooth = again_ && memory.step == step_ && !memory.smooth;
   island.smooth = (pushed || sprung) && !notSmooth && foreseesSmooth(island, h);

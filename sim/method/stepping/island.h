@@ -33,10 +33,11 @@ struct IslandMemory {
     Vec6 push;      ///< what contacts gave when the island was solved
   };
   struct Seen {
-    long look = 0, form = 0;  ///< as of PairMemory; 0 of a joint
+    long look = 0, form = 0;  ///< as of PairMemory; 0 of a row of joints
+    double lambda = 0.0;      ///< of such a row
   };
   std::vector<Mover> movers;  ///< in order of their first contact
-  std::vector<Seen> seen;     ///< its pairs
+  std::vector<Seen> seen;     ///< its links
   double length = 0.0;        ///< [s] of the last step
   double solved = 0.0;        ///< [s] of the step that it was solved in
   double scale = 1.0;         ///< [m/s] velocityScale of the problem

@@ -25,14 +25,17 @@ bool Stepping::hasSameForm(const Island& island) const {
   return true;
 }
 
-/// Whether the links of an island are pairs with the levers that it was solved with, and as many of
-/// their points are in its problem.
+/// Whether the pairs of an island have the levers that it was solved with, and as many of their
+/// points are in its problem.
 bool Stepping::looksTheSame(const Island& island, double h) const {
   const IslandMemory& memory = *island.memory;
   if (!ofSame(island)) return false;
   std::size_t cones = 0;
   for (std::size_t k = 0; k < island.links.size(); ++k) {
-    if (!isPair(island.links[k])) return false;
+    if (!isPair(island.links[k])) {
+      ++cones;
+      continue;
+    }
     const PairMemory& pair = memory_.pairs[island.links[k]];
     if (memory.seen[k].look != pair.look) return false;
     for (const Touch& touch : pair.touches) cones += flies(touch, h) || isAside(touch) ? 0 : 1;
@@ -43,7 +46,7 @@ bool Stepping::looksTheSame(const Island& island, double h) const {
 /// Whether an island asks what it asked when it was solved, wherever it has gone: the same levers
 /// and inertias, and velocities that differ by far less than the tolerance on the residual.
 bool Stepping::keeps(const Island& island, double h) const {
-  if (!looksTheSame(island, h)) return false;
+  if (isBonded(island) || !looksTheSame(island, h)) return false;
   constexpr double kKept = 0.01;  // of the tolerance: what is kept errs the same way in every step
   const double part = kKept * model_.def.stepping.tolerance, allowed = part * island.memory->scale;
   for (const IslandMemory::Mover& mover : island.memory->movers) {
@@ -59,10 +62,12 @@ bool Stepping::keeps(const Island& island, double h) const {
 }
 
 /// Whether what was seen further in a step asks an island nothing: it was solved in this very step,
-/// and by that problem.
+/// and by that problem. Rows of joints are the same throughout a step.
 bool Stepping::isAnswered(const Island& island, double h) const {
   return again_ && island.memory->step == step_ && island.memory->length == h &&
          looksTheSame(island, h) &&
+         std::none_of(island.links.begin(), island.links.end(),
+                      [&](Link link) { return !isPair(link) && springOf(link); }) &&
          std::none_of(island.movers.begin(), island.movers.end(),
                       [&](int i) { return isDriven(i); });
 }
@@ -72,6 +77,10 @@ void Stepping::answerAgain(Island& island, double h) {
   island.answer.kept = false;
   tellRough(island, h);
   giveMotion(island);
+  for (std::size_t k = 0; k < island.links.size(); ++k)
+    if (!isPair(island.links[k]))
+      work_.bonds.lambda[island.links[k] - state_.near.size()] = island.memory->seen[k].lambda;
+  if (isBonded(island) && flyAsOne(island, h)) keepSpin(island, h);
   if (island.memory->smooth)
     for (const int i : island.movers) work_.smooth[i] = 1;
 }

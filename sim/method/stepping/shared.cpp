@@ -12,10 +12,11 @@ void Stepping::share(Island& island, double h) {
   for (const int i : island.movers) work_.after[i] = island.solution.v[island.local[i]];
   remember(island);
   std::size_t cone = 0;
-  for (const Link link : island.links) {
+  for (std::size_t k = 0; k < island.links.size(); ++k) {
+    const Link link = island.links[k];
     if (!isPair(link)) {
-      work_.bonds.lambda[link - state_.near.size()] =
-          island.solution.lambda[island.problem.cones[cone++].row];
+      const double lambda = island.solution.lambda[island.problem.cones[cone++].row];
+      work_.bonds.lambda[link - state_.near.size()] = island.memory->seen[k].lambda = lambda;
       continue;
     }
     for (Touch& touch : memory_.pairs[link].touches)
