@@ -104,8 +104,7 @@ bool Stepping::anyBends(const Island& island) const {
 /// Whether an island is the one that was solved in this step already: no part of it has other
 /// forces, and nothing else is met.
 bool Stepping::keepsBent(const Island& island, double h) {
-  bool same =
-      island.memory->step == step_ && !isBonded(island) && looksTheSame(island, h);
+  bool same = island.memory->step == step_ && !isBonded(island) && looksTheSame(island, h);
   forBent(island, [&](const BendingPart& part) { same = same && !part.anew; });
   return same;
 }
