@@ -73,6 +73,13 @@ void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolera
 /// ends of what these lines share, tied to lines. @return whether there are two
 bool lineEnds(const Core& a, const Core& b, const Plane& plane, double tolerance, Manifold& ends);
 
+/// Of capsules and sides of cylinders that cross: beside the point where they do, which runs along
+/// them as they turn, the ends of what their axes share, as far as they are no further apart than
+/// the margin.
+/// @param nearest  where they cross
+void endsBeside(const Core& a, const Core& b, const ContactPoint& nearest, double tolerance,
+                double margin, Manifold& out);
+
 /// Takes a contact point from the frame of b, which stands at xb turned by Rb, to the world.
 void toWorld(const Mat3& Rb, const Vec3& xb, ContactPoint& c);
 

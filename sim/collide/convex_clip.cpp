@@ -1,7 +1,6 @@
 // Chapter 5, collide: where two solids touch, seen along the contact normal.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "sim/collide/convex.h"
 #include "sim/collide/facet.h"
@@ -108,51 +107,6 @@ void shareOfSegments(const Facet& a, const Facet& b, const Vec3& n, double toler
   }
 }
 
-// Where a capsule's end is beside another capsule: the end, its foot on the other's axis.
-struct Beside {
-  ContactPoint c;
-  double along = 0.0;  // [m] on a's axis, from where the two are nearest
-};
-
-// Capsules that cross: beside the point where they do, which runs along them as they turn, the ends
-// of what their axes share.
-void endsBeside(const Core& a, const Core& b, const ContactPoint& nearest, double tolerance,
-                double margin, Manifold& out) {
-  const Vec3 alongA = (a.points[1] - a.points[0]).normalized();
-  std::optional<Beside> ends[2];  // before and behind
-  const auto offerEnd = [&](const Core& of, int end, const Core& other, double sign) {
-    const Vec3 &p = of.points[end], &from = other.points[0], way = other.points[1] - from;
-    const double length = way.norm();
-    const Vec3 e = way / length;
-    const double s = e.dot(p - from);
-    if (!(s > 0.0 && s < length)) return;
-    const Vec3 foot = from + s * e, apart = sign * (p - foot);
-    const double distance = apart.norm();
-    if (!(distance > 0.0)) return;
-    const bool ofA = sign > 0.0;
-    ContactPoint c = nearest;
-    c.n = apart / distance;
-    c.tie = ofA ? NormalTie::EdgeOfB : NormalTie::EdgeOfA;
-    (ofA ? c.eb : c.ea) = e;
-    c.pa = ofA ? p : foot;
-    c.pb = ofA ? foot : p;
-    c.separation = distance - c.ra - c.rb;
-    c.p = c.pb + (c.rb + 0.5 * c.separation) * c.n;
-    c.feature =
-        ofA ? featurePair(vertexCode(end), edgeCode(0)) : featurePair(edgeCode(0), vertexCode(end));
-    const double along = alongA.dot(c.pa - nearest.pa);
-    if (std::abs(along) <= tolerance) return;
-    std::optional<Beside>& known = ends[along > 0.0];
-    if (!known || std::abs(along) < std::abs(known->along)) known = {c, along};
-  };
-  for (const int end : {0, 1}) {
-    offerEnd(a, end, b, 1.0);
-    offerEnd(b, end, a, -1.0);
-  }
-  for (const std::optional<Beside>& end : ends)
-    if (end && end->c.separation <= margin) out.push_back(end->c);
-}
-
 // Something round along an edge: the faces beside that end where it crosses the edge, be it by a
 // little. @return whether there are such points
 bool clipOnEdge(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
@@ -231,8 +185,7 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
   const bool beside =
       plane.gap < -tolerance && !overlaps && (holds(a, deepest.pb) || holds(b, deepest.pa));
   if ((points.empty() || beside) && deepest.separation <= margin) out.push_back(deepest);
-  if (points.empty() && radii > 0.0 && a.points.size() == 2 && b.points.size() == 2)
-    endsBeside(a, b, deepest, tolerance, margin, out);
+  if (points.empty()) endsBeside(a, b, deepest, tolerance, margin, out);
   sortAndMerge(points, tolerance);
   for (const Placed& p : points) {
     ContactPoint c = deepest;

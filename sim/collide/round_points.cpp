@@ -3,6 +3,7 @@
 // of rims, and where boundaries cross.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "sim/collide/align.h"
@@ -340,6 +341,61 @@ bool lineEnds(const Core& a, const Core& b, const Plane& plane, double tolerance
 
 namespace {
 
+bool isRound(const Core& core) {
+  return core.isCylinder() || (core.points.size() == 2 && core.radius > 0.0);
+}
+
+// An end of `of` above its foot on the axis of `other`, which is b if `of` is a; none if it has no
+// foot there.
+std::optional<ContactPoint> endAbove(const Core& of, int end, const Core& other, bool ofA,
+                                     const ContactPoint& nearest) {
+  const Vec3 &p = of.points[end], &from = other.points[0], way = other.points[1] - from;
+  const double length = way.norm();
+  const Vec3 e = way / length;
+  const double s = e.dot(p - from);
+  if (!(s > 0.0 && s < length)) return std::nullopt;
+  ContactPoint c = nearest;
+  c.tie = ofA ? NormalTie::EdgeOfB : NormalTie::EdgeOfA;
+  c.ea = ofA ? of.axis() : e;
+  c.eb = ofA ? e : of.axis();
+  (ofA ? c.rimA : c.rimB) = of.disc;
+  (ofA ? c.ra : c.rb) = of.radius;
+  (ofA ? c.rb : c.ra) = other.radius + other.disc;
+  if (!alignNormal(c, ofA ? p : from, ofA ? from : p)) return std::nullopt;
+  const std::uint32_t corner =
+      of.isCylinder() ? vertexCode(20) + static_cast<std::uint32_t>(end) : vertexCode(end);
+  c.feature = ofA ? featurePair(corner, edgeCode(0)) : featurePair(edgeCode(0), corner);
+  c.p = c.pb + (c.rb + 0.5 * c.separation) * c.n;
+  return c;
+}
+
+}  // namespace
+
+void endsBeside(const Core& a, const Core& b, const ContactPoint& nearest, double tolerance,
+                double margin, Manifold& out) {
+  if (!isRound(a) || !isRound(b)) return;
+  const Vec3 way = (a.points[1] - a.points[0]).normalized();
+  // Of the two ends on either side of the crossing, before it and behind it, the nearer one.
+  std::optional<ContactPoint> ends[2];
+  double far[2] = {};  // [m]
+  const auto offer = [&](const std::optional<ContactPoint>& c) {
+    if (!c) return;
+    const double along = way.dot(c->pa - nearest.pa);
+    const int side = along > 0.0 ? 1 : 0;
+    if (std::abs(along) <= tolerance || (ends[side] && std::abs(along) >= far[side])) return;
+    ends[side] = c;
+    far[side] = std::abs(along);
+  };
+  for (const int end : {0, 1}) {
+    offer(endAbove(a, end, b, true, nearest));
+    offer(endAbove(b, end, a, false, nearest));
+  }
+  for (const std::optional<ContactPoint>& end : ends)
+    if (end && end->separation <= margin) out.push_back(*end);
+}
+
+namespace {
+
 // Where one end is nearer by a little, so that the plane tells of that one alone, the other end.
 void farEnd(const Core& a, const Core& b, const Plane& plane, double tolerance, double margin,
             Manifold& out) {
@@ -369,6 +425,8 @@ void roundPoints(const Core& a, const Core& b, const Plane& plane, double tolera
     linePoints(lineOf(a, plane.i), lineOf(b, plane.j), plane, close, out);
   const bool none = out.size() == first;
   if (!plane.alongside && (onLines || none)) out.push_back(pointOf(plane, a, b));
+  if (none && onLines && plane.rimA + plane.rimB == 0.0)
+    endsBeside(a, b, ContactPoint(out.back()), close, margin, out);
   if (none && !onLines) farEnd(a, b, plane, tolerance, margin, out);
   const auto far = [&](const ContactPoint& c) { return !(c.separation <= margin); };
   out.erase(std::remove_if(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(), far),

@@ -254,7 +254,7 @@ SolveReport Stepping::solveAsPlanned(Island& island, bool bent, bool crowd, doub
   if (scale > 0.0 && isDrafted() && isManyContacts(island) && island.problem.cones.size() > kSmall)
     return solveCalm(island, h);
   if (bent) startFromBefore(island, h);
-  SolveReport solved = solveFine(island);
+  SolveReport solved = solveFine(island, fineTolerance(island));
   if (reboundsInStep() && anyRebounds(island) && keepFromGaining(island, h))
     solved.residual = naturalResidual(island.problem, island.solution);
   return solved;
@@ -297,11 +297,14 @@ double Stepping::lightness(const Island& island) const {
   return std::min(1.0, heaviest > 0.0 ? lightest / heaviest : 1.0);
 }
 
-SolveReport Stepping::solveFine(Island& island) {
+double Stepping::fineTolerance(const Island& island) const {
   constexpr double kReach = 1e-12;  // what solvers reach
+  const double asked = model_.def.stepping.tolerance;
+  return std::min(asked, std::max(kReach, asked * lightness(island)));
+}
+
+SolveReport Stepping::solveFine(Island& island, double tolerance) {
   const SteppingSettings& stepping = model_.def.stepping;
-  const double tolerance =
-      std::min(stepping.tolerance, std::max(kReach, stepping.tolerance * lightness(island)));
   const SolveReport solved = solver_.solve(
       island.problem,
       {.tolerance = tolerance, .maxIterations = stepping.iterations, .pull = island.pull},
@@ -319,13 +322,16 @@ SolveReport Stepping::solveRough(Island& island, double tolerance, double h) {
           ->solve(island.problem,
                   {.tolerance = tolerance, .maxIterations = stepping.crowdIterations},
                   island.solution);
-  if (solved.status != SolveStatus::Solved &&
-      (isLed(island) || isFarOff(island, solved, tolerance) || isOpened(island, tolerance))) {
-    island.solution.lambda.clear();
-    return solveFine(island);
+  if (solved.status != SolveStatus::Solved) {
+    const bool wholly = isLed(island) || isOpened(island, tolerance);
+    if (wholly || isFarOff(island, solved, tolerance)) {
+      island.solution.lambda.clear();
+      solved = solveFine(island, wholly ? fineTolerance(island) : tolerance);
+      if (wholly) return solved;
+    }
   }
   if (keepFromGaining(island, h))
-    solved.residual = naturalResidual(island.problem, island.solution, solved.scale);
+    solved.residual = naturalResidual(island.problem, island.solution);
   return solved;
 }
 

@@ -248,7 +248,9 @@ class Stepping {
   /// Solves the island's problem to the last digits, or as far as is planned for crowds.
   /// @param bent, crowd  something in it bends; it is a crowd
   SolveReport solveAsPlanned(Island& island, bool bent, bool crowd, double h);
-  SolveReport solveFine(Island& island);
+  /// What is asked of an island that is not rough, or must not be.
+  double fineTolerance(const Island& island) const;
+  SolveReport solveFine(Island& island, double tolerance);
   /// Whether its problem gives back what restitution asks for.
   bool anyRebounds(const Island& island) const;
   /// Of a crowd that moves hardly any more, in a draft: to the last digits if that takes few
