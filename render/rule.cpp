@@ -122,20 +122,25 @@ void addLabelBoxes(const std::vector<Label>& labels, const Projection& projectio
   }
 }
 
+/// Where a colour bar stands, with its words.
+Eigen::AlignedBox2d barBox(const Canvas& canvas) {
+  const Vector2d corner(canvas.width(), canvas.height());
+  return {corner - Vector2d(340.0, 64.0), corner};
+}
+
 /// Where else something is written on the image, or on any of its run: marks, labels, colour bar,
 /// titles.
 Boxes writtenBoxes(const Picture& picture, const Projection& projection, Canvas& canvas) {
   Boxes boxes;
   const bool run = !picture.floor.motion.isEmpty();
   addLabelBoxes(run ? picture.floor.labels : picture.labels, projection, canvas, boxes);
-  const Vector2d corner(canvas.width(), canvas.height());
   for (const Mark& mark : run ? picture.floor.marks : picture.marks)
     if (const auto place = projection.project(mark.position))
       boxes.emplace_back(
           place->head<2>() - Vector2d(52.0, 8.0),
           place->head<2>() + Vector2d(52.0, 40.0 + 18.0 * static_cast<double>(mark.lines.size())));
-  if (picture.bar) boxes.emplace_back(corner - Vector2d(340.0, 64.0), corner);
-  boxes.emplace_back(Vector2d(0.0, 0.0), Vector2d(corner.x(), 90.0));
+  if (picture.bar) boxes.push_back(barBox(canvas));
+  boxes.emplace_back(Vector2d(0.0, 0.0), Vector2d(canvas.width(), 90.0));
   return boxes;
 }
 
@@ -171,6 +176,19 @@ bool collides(const Ticks& ticks, const Boxes& boxes) {
         return true;
   }
   return false;
+}
+
+/// Without the ticks at its ends that stand in one of the boxes, as long as a rule is left.
+Ticks trimmed(Ticks ticks, const Boxes& boxes) {
+  const auto stands = [&](const Tick& tick) {
+    const Eigen::AlignedBox2d room(tick.place + Vector2d(-20.0, -4.0),
+                                   tick.place + Vector2d(24.0, 24.0));
+    return std::any_of(boxes.begin(), boxes.end(),
+                       [&](const Eigen::AlignedBox2d& box) { return box.intersects(room); });
+  };
+  while (ticks.size() > kLeast && stands(ticks.back())) ticks.pop_back();
+  while (ticks.size() > kLeast && stands(ticks.front())) ticks.erase(ticks.begin());
+  return ticks;
 }
 
 struct Unit {
@@ -246,6 +264,7 @@ void drawRule(const Picture& picture, const Projection& projection, Canvas& canv
     chosen = ticks;
     break;
   }
+  if (picture.bar) chosen = trimmed(chosen, {barBox(canvas)});
   if (chosen.size() >= kLeast && spacing(chosen) > roomOf(chosen, rail->step, canvas))
     drawTicks(chosen, rail->step, canvas);
 }

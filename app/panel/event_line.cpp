@@ -31,16 +31,19 @@ const std::array<Lane, 5> kLanes = {{{EventKind::Impact, {0.835f, 0.251f, 0.102f
                                      {EventKind::Slip, {0.039f, 0.388f, 0.690f}}}};
 
 void drawAxis(const Scale& time, double bottom, Drawing& drawing) {
+  const double unit = std::pow(10.0, time.power());
   drawing.stroke({kLeft, bottom}, {kRight, bottom}, 1.4, ink::secondary);
   for (const Tick& tick : time.ticks()) {
     const double x = time.at(tick.value);
     if (x > kRight + 1.0) continue;
     drawing.stroke({x, kTop - 8.0}, {x, bottom}, 1.0, ink::frame);
     drawing.stroke({x, bottom}, {x, bottom + 5.0}, 1.2, ink::secondary);
-    drawing.text({x, bottom + 21.0}, formatTick(tick.value, time.step()),
+    drawing.text({x, bottom + 21.0}, formatTick(tick.value / unit, time.step() / unit),
                  {13.0, Face::Regular, Align::Centre, ink::secondary});
   }
-  drawing.text({kRight, bottom + 44.0}, "time / s", {14.0, Face::Regular, Align::Right, ink::text});
+  const std::string factor = factorText(time.power(), 0.0);
+  drawing.text({kRight, bottom + 44.0}, factor.empty() ? "time / s" : "time / s  " + factor,
+               {14.0, Face::Regular, Align::Right, ink::text});
 }
 
 void drawLane(const Lane& lane, const std::vector<Event>& events, const Scale& time, double foot,
@@ -81,7 +84,9 @@ std::string eventLineSvg(const Scene& scene, const Recording& recording, Fonts& 
   drawAxis(time, bottom, drawing);
   for (std::size_t i = 0; i < lanes.size(); ++i)
     drawLane(lanes[i], events, time, kTop + kLane * static_cast<double>(i + 1) - 14.0, drawing);
-  drawing.text({32.0, 46.0}, scene.title, {22.0, Face::Bold, Align::Left, ink::text});
+  const Drawing::TextStyle title{22.0, Face::Bold, Align::Left, ink::text};
+  drawing.text({32.0, 46.0}, drawing.fitted(scene.title, kWidth - 64.0, 1, title, 13.0), 0.0,
+               title);
   drawing.text({32.0, 70.0},
                events.empty() ? "Nothing touches."
                               : "All events; an impact is as high as the root of its impulse.",

@@ -552,6 +552,24 @@ TEST_CASE("a rule takes longer steps where its numbers are wide") {
   CHECK(longest < widest + 10.0);
 }
 
+// Oracle: the room of a colour bar, 340 by 64 px. No nearer and no further is the rule clear of it.
+TEST_CASE("a rule ends before a colour bar that it cannot pass") {
+  Picture picture = stage();
+  picture.instances = {box({0.0, 0.3, 0.0}, Finish::Solid)};
+  picture.floor.motion = {Vector3d(-1.6, 0.0, -0.5), Vector3d(2.3, 0.6, 3.2)};
+  picture.bar = {"speed / m/s", {{0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}}, 0.0, 1.0, {0.0, 1.0}};
+  const RenderOptions screen{.width = 960, .height = 720};
+  const Image without = studio().draw(picture, screen);
+  picture.floor.rule = true;
+  const Image ruled = studio().draw(picture, screen);
+  int outside = 0, inside = 0;
+  for (int y = 0; y < 720; ++y)
+    for (int x = 0; x < 960; ++x)
+      if (pixel(without, x, y) != pixel(ruled, x, y)) ++(x > 620 && y > 656 ? inside : outside);
+  CHECK(outside > 500);
+  CHECK(inside == 0);
+}
+
 TEST_CASE("a rule of which the image shows but a stump is left out") {
   Picture picture = stage();
   picture.instances = {box({-0.5, 0.3, 0.0}, Finish::Solid)};
