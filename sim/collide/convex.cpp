@@ -64,7 +64,8 @@ ContactPoint convexPlane(const Shape& a, const Pose& poseA, const Shape& b, cons
 void convexCollide(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
                    double margin, Manifold& out) {
   const SeenFromB seen(a, poseA, b, poseB);
-  const Plane plane = convex::widestPlane(seen.a, seen.b, seen.tolerance());
+  const Plane plane =
+      convex::widestPlane(seen.a, seen.b, seen.tolerance(), margin + seen.a.radius + seen.b.radius);
   if (seen.gap(plane) > margin) return;
   const std::size_t first = out.size();
   convex::clipFacets(seen.a, seen.b, plane, seen.tolerance(), margin, out);

@@ -49,8 +49,9 @@ void allAxes(const Core& a, const Core& b, std::vector<Plane>& planes);
 Plane nearestPlane(const Core& a, const Core& b);
 
 /// The widest plane where a or b is a cylinder or an ellipsoid, or that of a face that leans by no
-/// more than `level` [1] against it.
-Plane widestPlaneRound(const Core& a, const Core& b, double level);
+/// more than `level` [1] against it. Where they are further apart than `enough` [m], any that says
+/// so, and nothing but its gap.
+Plane widestPlaneRound(const Core& a, const Core& b, double level, double enough);
 
 /// Of the planes between features that a and b show along n, or nearly, the widest; where several
 /// are, that of faces first, then of edges. A face that leans by no more than `level` [1] against
@@ -58,7 +59,9 @@ Plane widestPlaneRound(const Core& a, const Core& b, double level);
 Plane planeOfFeatures(const Core& a, const Core& b, const Vec3& n, double level);
 
 /// The widest of all: between cores apart, that of their distance.
-Plane widestPlane(const Core& a, const Core& b, double bias);
+/// @param enough  [m] as of widestPlaneRound
+Plane widestPlane(const Core& a, const Core& b, double bias,
+                  double enough = std::numeric_limits<double>::infinity());
 
 /// The points of contact along a plane, separations at most `margin` [m].
 /// @param tolerance  [m] lying on a side counts as inside

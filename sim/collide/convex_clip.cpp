@@ -120,13 +120,6 @@ bool clipOnEdge(const Core& a, const Core& b, const Plane& plane, double toleran
   return out.size() > before;
 }
 
-// Whether a polyhedron holds a point.
-bool holds(const Core& core, const Vec3& p) {
-  for (std::size_t f = 0; f < core.normals.size(); ++f)
-    if (core.normals[f].dot(p - core.points[core.faces[f][0]]) > 0.0) return false;
-  return !core.normals.empty();
-}
-
 // Leaves one point of each group that lies within the tolerance, the lowest feature first.
 void sortAndMerge(PlacedList& points, double tolerance) {
   std::sort(points.begin(), points.end(),
@@ -182,8 +175,8 @@ void clipFacets(const Core& a, const Core& b, const Plane& plane, double toleran
   const ContactPoint deepest = pointOf(plane, a, b);
   const bool overlaps = std::any_of(points.begin(), points.end(),
                                     [&](const Placed& p) { return p.separation <= radii; });
-  const bool beside =
-      plane.gap < -tolerance && !overlaps && (holds(a, deepest.pb) || holds(b, deepest.pa));
+  const bool beside = plane.gap < -tolerance && !overlaps &&
+                      (holds(a, deepest.pb, 0.0) || holds(b, deepest.pa, 0.0));
   if ((points.empty() || beside) && deepest.separation <= margin) out.push_back(deepest);
   if (points.empty()) endsBeside(a, b, deepest, tolerance, margin, out);
   sortAndMerge(points, tolerance);

@@ -101,9 +101,9 @@ Plane nearestPlane(const Core& a, const Core& b) {
   return plane;
 }
 
-Plane widestPlane(const Core& a, const Core& b, double bias) {
+Plane widestPlane(const Core& a, const Core& b, double bias, double enough) {
   if (a.isCylinder() || b.isCylinder() || a.isEllipsoid() || b.isEllipsoid())
-    return widestPlaneRound(a, b, bias / std::max(a.size, b.size));
+    return widestPlaneRound(a, b, bias / std::max(a.size, b.size), enough);
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   Plane axis = widestOfFaces(a, b, bias);
   // Of cores that a face parts, the plane of their distance spares most pairs of edges.

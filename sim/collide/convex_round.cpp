@@ -2,13 +2,17 @@
 // holds the widest here, because the normals of a rim fill a surface: candidates are tried, the
 // best is turned until it is nearly the widest near it, and the features that it meets tell it to
 // the last digits.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collide/convex.h"
+#include "sim/collide/facet.h"
 
 namespace tumble::convex {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-15;
 // [part of the size] Nearest points this far apart tell their direction to all digits.
 constexpr double kClear = 1e-3;
@@ -19,9 +23,11 @@ constexpr double kLost = 1e-9;
 // [1] A plane that turns by less shows the same features.
 constexpr double kSame = 1e-6;
 constexpr double kSettled = 1e-13;  // [1] where an ellipsoid is met
+// [part of the size] What is nearer to a solid is on it.
+constexpr double kTouch = 1e-13;
 constexpr int kRounds = 3, kMostRounds = 12;
 
-gjk::Nearest search(const Core& a, const Core& b, const Vec3& shift) {
+gjk::Nearest search(const Core& a, const Core& b, const Vec3& shift, double enough = kInfinity) {
   const auto support = [&](const Vec3& n) {
     gjk::Outermost o;
     o.a = outermost(a, -n, o.ia) + shift;
@@ -30,7 +36,8 @@ gjk::Nearest search(const Core& a, const Core& b, const Vec3& shift) {
   };
   const Vec3 start = a.middle + shift - b.middle;
   const double size = a.size + b.size + 1e-3 * start.norm();
-  return gjk::nearest(support, start.isZero(0.0) ? Vec3(Vec3::UnitY()) : start, kRounding * size);
+  return gjk::nearest(support, start.isZero(0.0) ? Vec3(Vec3::UnitY()) : start, kRounding * size,
+                      enough);
 }
 
 void offer(const Core& a, const Core& b, const Vec3& direction, Plane& best) {
@@ -115,21 +122,39 @@ void startAround(const Core& a, const Core& b, Plane& best) {
   }
 }
 
-}  // namespace
-
-Plane widestPlaneRound(const Core& a, const Core& b, double level) {
-  Plane best;
-  const gjk::Nearest nearest = search(a, b, Vec3::Zero());
-  if (!nearest.inside) offer(a, b, nearest.v, best);
-  if (best.gap < kClear * (a.size + b.size)) {
-    if (a.isCylinder()) offerAll(a, b, a, b, 1.0, best);
-    if (b.isCylinder()) offerAll(a, b, b, a, -1.0, best);
-    if (a.isEllipsoid()) offerAround(a, b, a, b, 1.0, best);
-    if (b.isEllipsoid()) offerAround(a, b, b, a, -1.0, best);
-    turnToWidest(a, b, best);
-    if (best.gap < -kDeep * (a.size + b.size)) startAround(a, b, best);
+// The middle of what a core shows outermost along n.
+Vec3 middleShown(const Core& core, const Vec3& n) {
+  if (core.isCylinder()) {
+    const double up = n.dot(core.axis());
+    if (across(n, core.axis()).norm() < kSame) return core.points[up > 0.0 ? 1 : 0];
+    if (std::abs(up) < kSame) return core.middle + core.disc * across(n, core.axis()).normalized();
+  } else if (!core.normals.empty()) {
+    const Facet facet = outermostFacet(core, n);
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& corner : facet.corners) sum += corner;
+    return sum / static_cast<double>(facet.corners.size());
   }
-  // What the search leaves n off by may hide a feature from it.
+  int corner = -1;
+  return outermost(core, n, corner);
+}
+
+// Whether solids that overlap by next to nothing, or do not, have a point each that is as far from
+// the other's, along n, as the plane is wide. Then no plane is wider: moved apart along n until
+// they touch, that pair of points is their nearest.
+bool isMet(const Core& a, const Core& b, const Plane& plane) {
+  constexpr double kShallow = 1e-6;  // of the size
+  if (plane.gap < -kShallow * (a.size + b.size)) return false;
+  const Vec3 way = plane.gap * plane.n;
+  const auto meetAt = [&](const Vec3& pa) {
+    return holds(a, pa, kTouch * a.size) && holds(b, pa - way, kTouch * b.size);
+  };
+  return meetAt(plane.pa - plane.ra * plane.n) || meetAt(middleShown(a, -plane.n)) ||
+         meetAt(middleShown(b, plane.n) + way);
+}
+
+// The plane of the features that n shows, and those that it shows. What the search leaves n off by
+// may hide a feature from it. @return whether they carry one as wide
+bool tell(const Core& a, const Core& b, double level, Plane& best) {
   // A torus bends as an ellipsoid does at one point alone: each round is a step of Newton's method.
   const bool oval = a.isEllipsoid() || b.isEllipsoid();
   const int rounds = oval ? kMostRounds : kRounds;
@@ -142,7 +167,38 @@ Plane widestPlaneRound(const Core& a, const Core& b, double level) {
     still = (plane.n - best.n).squaredNorm() < same * same;
     best = plane;
   }
-  if (told) return best;
+  return told;
+}
+
+// The same where they meet.
+bool tellMet(const Core& a, const Core& b, double level, Plane& best) {
+  Plane plane = best;
+  if (!tell(a, b, level, plane) || !isMet(a, b, plane)) return false;
+  best = plane;
+  return true;
+}
+
+}  // namespace
+
+Plane widestPlaneRound(const Core& a, const Core& b, double level, double enough) {
+  Plane best;
+  const gjk::Nearest nearest = search(a, b, Vec3::Zero(), enough + kLost * (a.size + b.size));
+  if (nearest.lower > enough + kLost * (a.size + b.size)) {
+    best.gap = nearest.lower;
+    return best;
+  }
+  if (!nearest.inside) offer(a, b, nearest.v, best);
+  if (best.gap < kClear * (a.size + b.size)) {
+    if (!nearest.inside && tellMet(a, b, level, best)) return best;
+    if (a.isCylinder()) offerAll(a, b, a, b, 1.0, best);
+    if (b.isCylinder()) offerAll(a, b, b, a, -1.0, best);
+    if (a.isEllipsoid()) offerAround(a, b, a, b, 1.0, best);
+    if (b.isEllipsoid()) offerAround(a, b, b, a, -1.0, best);
+    if (tellMet(a, b, level, best)) return best;
+    turnToWidest(a, b, best);
+    if (best.gap < -kDeep * (a.size + b.size)) startAround(a, b, best);
+  }
+  if (tell(a, b, level, best)) return best;
   best.tie = NormalTie::FaceOfB;
   best.pa = outermost(a, -best.n, best.i);
   best.pb = best.pa - best.gap * best.n;

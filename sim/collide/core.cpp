@@ -1,5 +1,6 @@
 #include "sim/collide/core.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/collide/ellipsoid.h"
@@ -164,7 +165,28 @@ Vec3 outermost(const Core& core, const Vec3& n, int& vertex) {
   across -= across.dot(u) * u;  // what is left of n along u may be all rounding
   const double length = across.norm();
   const Vec3& cap = core.points[n.dot(u) < 0.0 ? 0 : 1];
-  return length > kAlong ? Vec3(cap + (core.disc / length) * across) : cap;
+  return length > kAlong * n.norm() ? Vec3(cap + (core.disc / length) * across) : cap;
+}
+
+bool holds(const Core& core, const Vec3& p, double off) {
+  const Vec3 d = p - core.middle;
+  if (core.isEllipsoid()) {
+    const Vec3 part = (core.axes.transpose() * d).cwiseQuotient(core.half);
+    return part.norm() <= 1.0 + off / core.half.minCoeff();
+  }
+  if (core.isCylinder()) {
+    const double along = d.dot(core.axis()), half = 0.5 * (core.points[1] - core.points[0]).norm();
+    return std::abs(along) <= half + off && (d - along * core.axis()).norm() <= core.disc + off;
+  }
+  if (core.normals.empty()) {  // a segment, or a point
+    const Vec3 &from = core.points.front(), way = core.points.back() - from;
+    const double square = way.squaredNorm();
+    const double t = square > 0.0 ? std::clamp(way.dot(p - from) / square, 0.0, 1.0) : 0.0;
+    return (p - from - t * way).norm() <= off;
+  }
+  for (std::size_t f = 0; f < core.normals.size(); ++f)
+    if (core.normals[f].dot(p - core.points[core.faces[f][0]]) > off) return false;
+  return true;
 }
 
 double coreGap(const Core& a, const Core& b, const Vec3& n) {

@@ -51,6 +51,9 @@ int outermostVertex(const Core& core, const Vec3& n);
 /// Outermost point of a core along n, and its number if it is a vertex, else −1.
 Vec3 outermost(const Core& core, const Vec3& n, int& vertex);
 
+/// Whether a point is in a core, or outside it by no more than `off` [m], about.
+bool holds(const Core& core, const Vec3& p, double off);
+
 /// Width [m] of the slab across the unit vector n between two cores, n out of b towards a:
 ///   gap(n) = min over a of n·p − max over b of n·p
 double coreGap(const Core& a, const Core& b, const Vec3& n);

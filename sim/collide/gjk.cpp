@@ -60,12 +60,11 @@ bool holdsOrigin(const Simplex& s) {
 Vec3 nearestOf(Simplex& simplex) {
   if (simplex.count == 4 && holdsOrigin(simplex)) return Vec3::Zero();
   Best best;
-  for (int i = 0; i < simplex.count; ++i) {
-    best.offer(simplex.corner[i].w, {i}, {1.0});
-    for (int j = 0; j < i; ++j) {
-      offerSegment(simplex, j, i, best);
-      for (int k = 0; k < j; ++k) offerTriangle(simplex, k, j, i, best);
-    }
+  const int last = simplex.count - 1;
+  best.offer(simplex.corner[last].w, {last}, {1.0});
+  for (int j = 0; j < last; ++j) {
+    offerSegment(simplex, j, last, best);
+    for (int k = 0; k < j; ++k) offerTriangle(simplex, k, j, last, best);
   }
   const Simplex before = simplex;
   simplex.count = best.count;

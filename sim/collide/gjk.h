@@ -26,8 +26,9 @@ struct Simplex {
   int count = 0;
 };
 
-/// The point of the simplex nearest to the origin [m]; drops the corners that do not carry it. Four
-/// corners are left if the origin is between them.
+/// The point of the simplex nearest to the origin [m], of those that its last corner carries: it
+/// lies beyond the point nearest so far. Drops the corners that do not carry it; four are left if
+/// the origin is between them.
 Vec3 nearestOf(Simplex& simplex);
 
 /// What the search leaves behind.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "sim/collide/collide.h"
+#include "sim/collide/core.h"
 #include "sim/math/frames.h"
 #include "sim/math/rotation.h"
 #include "tests/catch.h"
@@ -105,6 +106,45 @@ TEST_CASE("capsules end to end, their axes in one plane, are as far apart as the
   }
   CAPTURE(worst);
   CHECK(worst < 1e-14);
+}
+
+// Oracle: width by width. The plane between round solids that touch, or nearly, is no narrower than
+// one that is turned against it, by 1e-5 rad to 0.3: features that meet are not searched further.
+// Measured 5e-13 m wider at most.
+TEST_CASE("no plane between round solids that nearly touch is wider than the one that is found") {
+  Random random(72);
+  const Shape shapes[] = {Cylinder{0.1, 0.25},          Cylinder{0.15, 0.04},
+                          Ellipsoid{{0.15, 0.1, 0.08}}, Box{{0.1, 0.15, 0.08}},
+                          Capsule{0.08, 0.2},           Cylinder{0.02, 0.6}};
+  const Quat ways[] = {Quat::Identity(), turn(Vec3::UnitX(), 90.0), turn(Vec3::UnitZ(), 90.0)};
+  double worst = -1.0;
+  for (int k = 0; k < 4000; ++k) {
+    const Shape &a = shapes[random.below(3)], &b = shapes[random.below(6)];
+    const auto attitude = [&] {
+      const int way = random.below(5);
+      const Quat leans = fromAxisAngle(random.direction(), std::pow(10.0, random.uniform(-6, -2)));
+      return way < 3 ? ways[way] : way == 3 ? leans : random.rotation();
+    };
+    Pose poseA{0.5 * random.direction(), attitude()}, poseB{Vec3::Zero(), attitude()};
+    for (int round = 0; round < 3; ++round) {
+      const ContactPoint gap = separatingPlane(a, poseA, b, poseB);
+      poseA.x -= gap.separation * gap.n;
+    }
+    const int apart = random.below(3);
+    const double off = std::pow(10.0, random.uniform(-12.0, -3.0));
+    poseA.x += (apart == 0 ? 0.0 : apart == 1 ? off : -1e-3 * off) * random.direction();
+    const ContactPoint found = separatingPlane(a, poseA, b, poseB);
+    const convex::Core ofA = convex::coreOf(a, poseA.q.toRotationMatrix(), poseA.x),
+                       ofB = convex::coreOf(b, poseB.q.toRotationMatrix(), poseB.x);
+    for (int m = 0; m < 60; ++m) {
+      const double angle = std::pow(10.0, random.uniform(-5.0, -0.5));
+      const Vec3 n = (found.n + angle * random.direction()).normalized();
+      const double gap = convex::coreGap(ofA, ofB, n) - ofA.radius - ofB.radius;
+      worst = std::max(worst, gap - found.separation);
+    }
+  }
+  CAPTURE(1e12 * worst);
+  CHECK(worst < 1e-11);
 }
 
 }  // namespace tumble
