@@ -41,6 +41,8 @@ struct ContactPoint {
   /// a crosses one of b, along ea and eb, and wander along both. Of a rim, ea or eb is then the
   /// unit vector from its centre to the point.
   bool crosses = false;
+  /// It is an end of round bodies that cross, and are nearest, elsewhere.
+  bool beside = false;
 };
 
 /// The same contact seen with a and b exchanged.

@@ -355,6 +355,7 @@ std::optional<ContactPoint> endAbove(const Core& of, int end, const Core& other,
   const double s = e.dot(p - from);
   if (!(s > 0.0 && s < length)) return std::nullopt;
   ContactPoint c = nearest;
+  c.beside = true;
   c.tie = ofA ? NormalTie::EdgeOfB : NormalTie::EdgeOfA;
   c.ea = ofA ? of.axis() : e;
   c.eb = ofA ? e : of.axis();

@@ -148,9 +148,15 @@ void Stepping::addTouch(Island& island, const Stance& at, const Room& room, doub
 
   const double vrel = rowSpeed(normal, work_.before[contact.a], work_.before[contact.b]);
   touch.approach = std::max(touch.arrivalSpeed, -vrel);
-  normal.bias = gapRate(touch, room, h);
-  if (island.follows()) normal.bias += wanders(at) + at.closes;
-  if (reboundsInStep() && !isAside(touch)) rebound(touch, vrel, h, normal);
+  if (c.beside) {
+    const Vec6 &starA = work_.star[contact.a], &starB = work_.star[contact.b];
+    normal.bias =
+        gapBeside(c, {contact.b, contact.a}, starA, starB, h) / h - rowSpeed(normal, starA, starB);
+  } else {
+    normal.bias = gapRate(touch, room, h);
+    if (island.follows()) normal.bias += wanders(at) + at.closes;
+  }
+  if (reboundsInStep() && !isAside(touch) && !c.beside) rebound(touch, vrel, h, normal);
   const Vec3 lead = carried(contact, h);
   if (model_.fixed(contact.a) || model_.fixed(contact.b)) normal.bias += c.n.dot(lead);
   if (contact.friction <= 0.0) return;

@@ -116,6 +116,10 @@ class Stepping {
   bool growBoxes(double h, bool fall);
   Vec6 twistAhead(int body) const;
   double gapAhead(const ContactPoint& c, std::pair<int, int> pair, double h) const;
+  /// The same of an end beside what crosses, at these twists: what turns past the other, and is as
+  /// far from it then, does not meet it, though its gap shrinks at first.
+  double gapBeside(const ContactPoint& c, std::pair<int, int> pair, const Vec6& va, const Vec6& vb,
+                   double h) const;
   double marginAhead(std::size_t pair, double h) const;
   bool meetsUnknown(std::size_t pair, double h);
   bool lookFurther(std::size_t pair, double h);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/collide/collide.h"
+#include "sim/math/rotation.h"
 #include "sim/method/stepping/stepping.h"
 
 namespace tumble {
@@ -157,10 +158,27 @@ Vec6 Stepping::twistAhead(int i) const {
   return twist;
 }
 
+double Stepping::gapBeside(const ContactPoint& c, std::pair<int, int> pair, const Vec6& va,
+                           const Vec6& vb, double h) const {
+  const auto moved = [&](int i, const Vec6& v, const Vec3& p, Vec3& e) {
+    const Vec3 turn = h * v.tail<3>(), arm = p - state_.bodies[i].x;
+    const Quat by = rotated(Quat::Identity(), turn);
+    e = by * e;
+    return Vec3(p + h * v.head<3>() + (by * arm - arm));
+  };
+  const bool lineOfB = c.tie == NormalTie::EdgeOfB;
+  Vec3 ea = c.ea, eb = c.eb;
+  const Vec3 way = moved(pair.second, va, c.pa, ea) - moved(pair.first, vb, c.pb, eb);
+  const Vec3& e = lineOfB ? eb : ea;
+  const Vec3 apart = way - way.dot(e) * e;
+  return std::copysign(apart.norm(), apart.dot(c.n)) - c.ra - c.rb;
+}
+
 /// The gap [m] of a point h seconds from now.
 double Stepping::gapAhead(const ContactPoint& c, std::pair<int, int> pair, double h) const {
   const auto [ib, ia] = pair;
   const Vec6 va = twistAhead(ia), vb = twistAhead(ib);
+  if (c.beside) return gapBeside(c, pair, va, vb, h);
   const Vec3 rate = va.head<3>() + va.tail<3>().cross(c.p - state_.bodies[ia].x) - vb.head<3>() -
                     vb.tail<3>().cross(c.p - state_.bodies[ib].x);
   return c.separation + h * c.n.dot(rate);
