@@ -1,7 +1,7 @@
 // Chapter 5, collide: planes between a cylinder or an ellipsoid and another solid. No list of axes
 // holds the widest here, because the normals of a rim fill a surface: candidates are tried, the
 // best is turned until it is nearly the widest near it, and the features that it meets tell it to
-// the last digits.
+// the last digits; where they meet each other, before anything is turned.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -181,14 +181,15 @@ bool tellMet(const Core& a, const Core& b, double level, Plane& best) {
 }  // namespace
 
 Plane widestPlaneRound(const Core& a, const Core& b, double level, double enough) {
+  const double size = a.size + b.size, apart = enough + kLost * size;
   Plane best;
-  const gjk::Nearest nearest = search(a, b, Vec3::Zero(), enough + kLost * (a.size + b.size));
-  if (nearest.lower > enough + kLost * (a.size + b.size)) {
+  const gjk::Nearest nearest = search(a, b, Vec3::Zero(), apart);
+  if (nearest.lower > apart) {
     best.gap = nearest.lower;
     return best;
   }
   if (!nearest.inside) offer(a, b, nearest.v, best);
-  if (best.gap < kClear * (a.size + b.size)) {
+  if (best.gap < kClear * size) {
     if (!nearest.inside && tellMet(a, b, level, best)) return best;
     if (a.isCylinder()) offerAll(a, b, a, b, 1.0, best);
     if (b.isCylinder()) offerAll(a, b, b, a, -1.0, best);
@@ -196,7 +197,7 @@ Plane widestPlaneRound(const Core& a, const Core& b, double level, double enough
     if (b.isEllipsoid()) offerAround(a, b, b, a, -1.0, best);
     if (tellMet(a, b, level, best)) return best;
     turnToWidest(a, b, best);
-    if (best.gap < -kDeep * (a.size + b.size)) startAround(a, b, best);
+    if (best.gap < -kDeep * size) startAround(a, b, best);
   }
   if (tell(a, b, level, best)) return best;
   best.tie = NormalTie::FaceOfB;

@@ -22,30 +22,25 @@ constexpr double kNoSlip = 1e-10;  ///< of the scale: slower slips are those of 
 template <int N>
 Piece NewtonSystem<N>::ofSpring(const Point& point, const Vec3& z, Vec3& force) const {
   const double push = std::max(z[0], 0.0), limit = point.muTrue * push;
-  const auto give = [&](double normal, double along, double across) {
-    force[0] = normal;
-    force[1] = along;
-    force[2] = across;
-  };
   if (point.kind == ConeKind::Equality) {
-    give(yielding(point) * z[0], 0.0, 0.0);
+    set(force, yielding(point) * z[0], 0.0, 0.0);
     return Piece::Whole;
   }
   const Piece piece = z[0] < 0.0 ? Piece::Zero : Piece::Whole;
   if (point.kind != ConeKind::Friction) {
-    give(push, point.kind == ConeKind::Slide ? -limit : 0.0, 0.0);
+    set(force, push, point.kind == ConeKind::Slide ? -limit : 0.0, 0.0);
     return piece;
   }
   if (piece == Piece::Zero) {
-    give(0.0, 0.0, 0.0);
+    set(force, 0.0, 0.0, 0.0);
     return piece;
   }
   const double tangential = std::sqrt(z[1] * z[1] + z[2] * z[2]);
   if (tangential <= limit) {
-    give(z[0], z[1], z[2]);
+    set(force, z[0], z[1], z[2]);
     return piece;
   }
-  give(push, limit * z[1] / tangential, limit * z[2] / tangential);
+  set(force, push, limit * z[1] / tangential, limit * z[2] / tangential);
   return Piece::Edge;
 }
 

@@ -13,24 +13,20 @@ namespace tumble {
 template <int N>
 void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
   const double mu = point.mu;
-  const auto give = [&](double normal, double along, double across) {
-    point.force[0] = normal;
-    point.force[1] = along;
-    point.force[2] = across;
-  };
   if (springs_) {
     point.piece = ofSpring(point, z, point.force);
     return;
   }
   switch (point.kind) {
     case ConeKind::Equality:
-      give(yielding(point) * z[0], 0.0, 0.0);
+      set(point.force, yielding(point) * z[0], 0.0, 0.0);
       point.piece = Piece::Whole;
       return;
     case ConeKind::Slide:
     case ConeKind::Push:
       point.piece = z[0] >= 0.0 ? Piece::Whole : Piece::Zero;
-      give(std::max(z[0], 0.0), point.kind == ConeKind::Slide ? -mu * point.lambda[0] : 0.0, 0.0);
+      set(point.force, std::max(z[0], 0.0),
+          point.kind == ConeKind::Slide ? -mu * point.lambda[0] : 0.0, 0.0);
       return;
     case ConeKind::Friction:
       break;
@@ -38,15 +34,15 @@ void NewtonSystem<N>::project(Point& point, const Vec3& z) const {
   const double tangential = std::sqrt(z[1] * z[1] + z[2] * z[2]);
   if (tangential <= mu * z[0]) {
     point.piece = Piece::Whole;
-    give(z[0], z[1], z[2]);
+    set(point.force, z[0], z[1], z[2]);
   } else if (mu * tangential <= -z[0]) {
     point.piece = Piece::Zero;
-    give(0.0, 0.0, 0.0);
+    set(point.force, 0.0, 0.0, 0.0);
   } else {
     point.piece = Piece::Edge;
     const double along = (z[0] + mu * tangential) / (1.0 + mu * mu);
     const double part = mu * along / tangential;
-    give(along, part * z[1], part * z[2]);
+    set(point.force, along, part * z[1], part * z[2]);
   }
 }
 

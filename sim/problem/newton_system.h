@@ -237,6 +237,11 @@ class NewtonSystem {
     if (point.rows == 1) return {dot(0), 0.0, 0.0};
     return {dot(0), dot(1), dot(2)};
   }
+  static void set(Vec3& force, double normal, double along, double across) {
+    force[0] = normal;
+    force[1] = along;
+    force[2] = across;
+  }
   /// J times the force.
   static Twist timesForce(const Point& point, const Rows& J) {
     if (point.rows == 1) return J.col(0) * point.force[0];

@@ -89,9 +89,7 @@ bool Stepping::strikesAsCrowd() const {
 
 bool Stepping::isManyContacts(const Island& island) const {
   constexpr std::size_t kFew = 16;  // contacts that are solved as well as others
-  const auto yields = [&](Link link) { return !isPair(link) && springOf(link); };
-  return island.problem.cones.size() > kFew &&
-         std::none_of(island.links.begin(), island.links.end(), yields);
+  return island.problem.cones.size() > kFew && !anyYields(island);
 }
 
 double Stepping::roughTolerance(const Island& island, double scale) const {

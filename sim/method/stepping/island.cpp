@@ -19,6 +19,11 @@ bool Stepping::isBonded(const Island& island) const {
                      [&](Link link) { return !isPair(link); });
 }
 
+bool Stepping::anyYields(const Island& island) const {
+  return std::any_of(island.links.begin(), island.links.end(),
+                     [&](Link link) { return !isPair(link) && springOf(link); });
+}
+
 void Stepping::solveSteadily(double h) {
   allKept_ = true;
   ++step_;

@@ -65,9 +65,7 @@ bool Stepping::keeps(const Island& island, double h) const {
 /// and by that problem. Rows of joints are the same throughout a step.
 bool Stepping::isAnswered(const Island& island, double h) const {
   return again_ && island.memory->step == step_ && island.memory->length == h &&
-         looksTheSame(island, h) &&
-         std::none_of(island.links.begin(), island.links.end(),
-                      [&](Link link) { return !isPair(link) && springOf(link); }) &&
+         looksTheSame(island, h) && !anyYields(island) &&
          std::none_of(island.movers.begin(), island.movers.end(),
                       [&](int i) { return isDriven(i); });
 }

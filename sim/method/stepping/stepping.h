@@ -307,6 +307,7 @@ class Stepping {
   void foreseeTwists(double h);
   std::pair<int, int> ends(Link link) const;
   bool isBonded(const Island& island) const;
+  bool anyYields(const Island& island) const;  ///< whether one of its links is a spring
   bool isPair(Link link) const { return link < static_cast<int>(state_.near.size()); }
   Row& bondOf(Link link) { return work_.bonds.rows[link - state_.near.size()]; }
   /// Takes the storage of an island for another one.

@@ -160,16 +160,14 @@ Vec6 Stepping::twistAhead(int i) const {
 
 double Stepping::gapBeside(const ContactPoint& c, std::pair<int, int> pair, const Vec6& va,
                            const Vec6& vb, double h) const {
-  const auto moved = [&](int i, const Vec6& v, const Vec3& p, Vec3& e) {
-    const Vec3 turn = h * v.tail<3>(), arm = p - state_.bodies[i].x;
-    const Quat by = rotated(Quat::Identity(), turn);
-    e = by * e;
+  const Quat byA = rotated(Quat::Identity(), h * va.tail<3>()),
+             byB = rotated(Quat::Identity(), h * vb.tail<3>());
+  const auto moved = [&](int i, const Vec6& v, const Quat& by, const Vec3& p) {
+    const Vec3 arm = p - state_.bodies[i].x;
     return Vec3(p + h * v.head<3>() + (by * arm - arm));
   };
-  const bool lineOfB = c.tie == NormalTie::EdgeOfB;
-  Vec3 ea = c.ea, eb = c.eb;
-  const Vec3 way = moved(pair.second, va, c.pa, ea) - moved(pair.first, vb, c.pb, eb);
-  const Vec3& e = lineOfB ? eb : ea;
+  const Vec3 way = moved(pair.second, va, byA, c.pa) - moved(pair.first, vb, byB, c.pb);
+  const Vec3 e = c.tie == NormalTie::EdgeOfB ? byB * c.eb : byA * c.ea;
   const Vec3 apart = way - way.dot(e) * e;
   return std::copysign(apart.norm(), apart.dot(c.n)) - c.ra - c.rb;
 }
